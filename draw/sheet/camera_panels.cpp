@@ -126,21 +126,10 @@ class IdPanel : public PicturePanel {
                      {DType::u8, DType::u16, DType::u32}) {}
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const Array& image = load(row);
-    std::vector<uint32_t> ids;
-    if (image.dtype == DType::u8)
-      ids.assign(image.as<uint8_t>().begin(), image.as<uint8_t>().end());
-    else if (image.dtype == DType::u16)
-      ids.assign(image.as<uint16_t>().begin(), image.as<uint16_t>().end());
-    else
-      ids.assign(image.as<uint32_t>().begin(), image.as<uint32_t>().end());
-    const int64_t width = image.shape[1];
-    canvas.raster(picture, static_cast<int>(width), static_cast<int>(image.shape[0]),
-                  [&](int x, int y) { return color_of_id(ids[static_cast<size_t>(y * width + x)]); });
-    // Neighbours are mostly equal, so what is left of each run is short.
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-    std::set<uint32_t> distinct(ids.begin(), ids.end());
-    distinct.erase(0);
-    caption(canvas, legend, fmt::format("{} visible", distinct.size()));
+    const size_t seen = image.dtype == DType::u8    ? draw_ids<uint8_t>(canvas, picture, image)
+                        : image.dtype == DType::u16 ? draw_ids<uint16_t>(canvas, picture, image)
+                                                    : draw_ids<uint32_t>(canvas, picture, image);
+    caption(canvas, legend, fmt::format("{} visible", seen));
   }
 
  protected:
@@ -150,6 +139,28 @@ class IdPanel : public PicturePanel {
                                                     : image.as<uint32_t>()[i];
     if (array_ == "instance") return names.instance(id);
     return array_ == "semantic" ? names.semantic_class(id) : names.material(id);
+  }
+
+ private:
+  /// Returns the number of different ids, without 0. Neighbours are mostly equal, so the colour of the last
+  /// one is kept.
+  template <typename Id>
+  static size_t draw_ids(Canvas& canvas, const Rect& picture, const Array& image) {
+    const std::span<const Id> ids = image.as<Id>();
+    const int64_t width = image.shape[1];
+    uint32_t last = 0;
+    Color color = color_of_id(last);
+    canvas.raster(picture, static_cast<int>(width), static_cast<int>(image.shape[0]), [&](int x, int y) {
+      const uint32_t id = ids[static_cast<size_t>(y * width + x)];
+      if (id != last) last = id, color = color_of_id(id);
+      return color;
+    });
+    std::set<uint32_t> distinct;
+    last = 0;
+    for (const uint32_t id : ids)
+      if (id != last) distinct.insert(id), last = id;
+    distinct.erase(0);
+    return distinct.size();
   }
 };
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "draw/sheet/picture_panel.h"
 
@@ -20,7 +19,7 @@ class EventPanel : public FramePanel {
 
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const IndexRow& record = source_.chosen[row];
-    const auto [x, y, p] = load(row);
+    const auto& [x, y, p] = load(row);
     try {
       canvas.picture(picture,
                      event_picture(x.as<uint16_t>(), y.as<uint16_t>(), p.as<uint8_t>(), width_, height_));
@@ -34,30 +33,33 @@ class EventPanel : public FramePanel {
     canvas.text(legend.x, legend.y + 4, text, theme::text_scale, theme::dim);
   }
 
-  std::string nothing_of(size_t row) override {
-    return std::get<2>(load(row)).as<uint8_t>().empty() ? "no events" : "";
-  }
+  std::string nothing_of(size_t row) override { return load(row).p.as<uint8_t>().empty() ? "no events" : ""; }
   std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames&) override {
     const std::optional<RasterCell> cell = cell_at(picture, width_, height_, x, y);
     if (!cell) return {};
-    const auto [xs, ys, ps] = load(row);
+    const Events& events = load(row);
+    const std::span<const uint16_t> xs = events.x.as<uint16_t>(), ys = events.y.as<uint16_t>();
+    const std::span<const uint8_t> ps = events.p.as<uint8_t>();
     size_t counts[2] = {0, 0};
-    for (size_t i = 0; i < ps.as<uint8_t>().size(); ++i)
-      if (xs.as<uint16_t>()[i] == cell->column && ys.as<uint16_t>()[i] == cell->row)
-        ++counts[ps.as<uint8_t>()[i] != 0];
+    for (size_t i = 0; i < ps.size(); ++i)
+      if (xs[i] == cell->column && ys[i] == cell->row) ++counts[ps[i] != 0];
     return fmt::format("({}, {})  ON {} OFF {}", cell->column, cell->row, counts[1], counts[0]);
   }
 
  private:
-  /// x, y and p of the events.
-  std::tuple<Array, Array, Array> load(size_t row) const {
+  /// The events of the row, kept until another row's are asked for.
+  struct Events {
+    Array x, y, p;
+  };
+  const Events& load(size_t row) {
+    if (kept_row_ == row) return kept_;
+    kept_row_.reset();
     const IndexRow& record = source_.chosen[row];
-    std::tuple<Array, Array, Array> arrays{source_.load(record, "x", {DType::u16}, {-1}),
-                                           source_.load(record, "y", {DType::u16}, {-1}),
-                                           source_.load(record, "p", {DType::u8}, {-1})};
-    const auto& [x, y, p] = arrays;
-    expect_same_rows(source_, {&x, &y, &p});
-    return arrays;
+    kept_ = {source_.load(record, "x", {DType::u16}, {-1}), source_.load(record, "y", {DType::u16}, {-1}),
+             source_.load(record, "p", {DType::u8}, {-1})};
+    expect_same_rows(source_, {&kept_.x, &kept_.y, &kept_.p});
+    kept_row_ = row;
+    return kept_;
   }
   double interval_ms(const IndexRow& record) const {
     const std::vector<IndexRow> rows = source_.records.records_of(source_.sequence, source_.sensor);
@@ -68,6 +70,8 @@ class EventPanel : public FramePanel {
   }
   PanelSource source_;
   int64_t width_, height_;
+  std::optional<size_t> kept_row_;
+  Events kept_;
 };
 
 /// Grey pictures as they are.
@@ -115,12 +119,15 @@ Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, st
   // One event shows clearly, three or more are full colour.
   const double grey[3] = {128, 128, 128}, red[3] = {235, 45, 35}, blue[3] = {35, 75, 240};
   Array rgb(DType::u8, {height, width, 3});
+  const std::span<uint8_t> out = rgb.as<uint8_t>();
+  std::ranges::fill(out, uint8_t{128});
   for (size_t i = 0; i < on.size(); ++i) {
     const int count = on[i] + off[i];
-    const double strength = count == 0 ? 0.0 : std::min(1.0, 0.4 + 0.2 * count);
-    const double share = count == 0 ? 0.0 : static_cast<double>(on[i]) / count;
+    if (count == 0) continue;
+    const double strength = std::min(1.0, 0.4 + 0.2 * count);
+    const double share = static_cast<double>(on[i]) / count;
     for (size_t c = 0; c < 3; ++c)
-      rgb.as<uint8_t>()[3 * i + c] = static_cast<uint8_t>(
+      out[3 * i + c] = static_cast<uint8_t>(
           std::lround(grey[c] + strength * (blue[c] + share * (red[c] - blue[c]) - grey[c])));
   }
   return rgb;

@@ -233,10 +233,10 @@ class RangeAzimuthPanel : public RadarPanel {
     const double range = std::hypot(ahead, left);
     if (range > far_m) return std::nullopt;
     const double azimuth = std::atan2(left, ahead);
-    const auto bin = static_cast<int64_t>(std::lround(range / axes_.range_bin_m));
+    const auto bin = static_cast<int64_t>(range / axes_.range_bin_m + 0.5);
     const double share = (azimuth - axes_.azimuth_min) / (axes_.azimuth_max - axes_.azimuth_min);
     if (bin >= rows_ || share < 0.0 || share > 1.0) return std::nullopt;
-    return Beam{bin, std::lround(share * static_cast<double>(columns_ - 1))};
+    return Beam{bin, static_cast<int64_t>(share * static_cast<double>(columns_ - 1) + 0.5)};
   }
   dvec2 place(const Rect& picture, const Detection& d) const {
     const auto [far_m, foot_x, foot_y, pixels] = layout(picture);

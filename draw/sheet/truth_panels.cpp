@@ -167,7 +167,7 @@ Color flow_color(double u, double v) {
     double distance = std::abs(sixth - at);
     distance = std::min(distance, 6.0 - distance);
     const double pure = std::clamp(2.0 - distance, 0.0, 1.0);
-    return static_cast<uint8_t>(std::lround(255.0 * value * (1.0 - saturation * (1.0 - pure))));
+    return static_cast<uint8_t>(255.0 * value * (1.0 - saturation * (1.0 - pure)) + 0.5);
   };
   return {channel(0.0), channel(2.0), channel(4.0)};
 }

@@ -3,7 +3,9 @@
 //
 // A channel's H(f) of one link and one pair of ports: over delay and over frequency, now and over time.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <map>
 
 #include "core/units.h"

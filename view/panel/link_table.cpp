@@ -4,6 +4,7 @@
 // The statistics of one link as a table: every array [rx, tx] of the channel.
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "core/units.h"
 #include "view/panel/panel_kinds.h"

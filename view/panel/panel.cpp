@@ -19,6 +19,16 @@ class FrameView : public Panel {
  public:
   FrameView(const PanelChoice& choice, Records records, const io::FrameKind& kind)
       : Panel(choice, std::move(records)), kind_(kind) {}
+  PanelSize wanted() const override {
+    PanelSize size{400, 300 + io::sheet::legend_height};
+    const auto array = std::ranges::find(spec().arrays, kind_.arrays[0], &ArraySpec::name);
+    const std::vector<int64_t>& shape = array->shape;
+    if (spec().kind == "camera" && shape.size() >= 2 && shape[0] > 0 && shape[1] > 0)
+      size.height =
+          static_cast<int>(std::clamp<int64_t>(shape[0] * size.width / shape[1], 100, 2 * size.width)) +
+          io::sheet::legend_height;
+    return size;
+  }
 
  protected:
   void load(const io::IndexRow& row) override {

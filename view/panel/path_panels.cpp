@@ -138,7 +138,7 @@ class Compass : public PathPanel {
     const int room = canvas.width() >= 160 && canvas.height() >= 160 ? theme::line_height : 4;
     center_ = {0.5 * canvas.width(), 0.5 * canvas.height()};
     radius_ = std::max(1.0, 0.5 * std::min(canvas.width(), canvas.height()) - room);
-    rim_db_ = paths_.empty() ? 0.0 : ring_db * std::ceil(strongest_db_ / ring_db);
+    rim_db_ = paths_.empty() ? 0.0 : ring_db * std::ceil(strongest_db_ / ring_db - 1e-3);
     for (double db = 0.0; db < compass_db; db += 2.0 * ring_db)
       canvas.circle(center_.x, center_.y, radius_ * (1.0 - db / compass_db), 1.0, theme::border);
     for (int k = 0; k < 12; ++k) {

@@ -19,6 +19,7 @@ namespace theme = io::theme;
 namespace {
 
 constexpr int64_t most_sweep_columns = 4096, most_channels = 65536;
+constexpr int64_t most_sweep_cells = int64_t{1} << 23, lines_without_channels = 64;
 constexpr uint32_t empty_cell = ~0u;
 
 io::Color range_color(double t) { return io::turbo(1.0 - t); }
@@ -33,7 +34,7 @@ class RangeImage : public Panel {
       columns_ = root.at("azimuth_steps").integer(1, 100'000'000);
       const double start = root.at("azimuth_start_deg").number(-1e6, 1e6),
                    span = std::abs(root.at("azimuth_span_deg").number(-1e6, 1e6));
-      if (span < 359.0) middle_deg_ = start + 0.5 * span, span_deg_ = span;
+      if (span < 359.0) middle_deg_ = start + 0.5 * span, span_deg_ = std::max(span, 0.1);
       for (const io::JsonValue& elevation : root.at("elevations_deg").list(most_channels))
         elevations_deg_.push_back(elevation.number(-91.0, 91.0));
     } else if (pattern == "raster") {
@@ -49,8 +50,9 @@ class RangeImage : public Panel {
         elevations_deg_.push_back(low + (high - low) * static_cast<double>(i) /
                                             static_cast<double>(std::max<int64_t>(rows - 1, 1)));
     }
-    columns_ = std::min(columns_, most_sweep_columns);
     if (!source().has("ring")) elevations_deg_.clear();
+    const int64_t lines = std::max<int64_t>(std::ssize(elevations_deg_), lines_without_channels);
+    columns_ = std::min({columns_, most_sweep_columns, most_sweep_cells / lines});
     // Channels need not ascend; the highest goes to the top.
     line_of_ring_.resize(elevations_deg_.size());
     ring_of_line_.resize(elevations_deg_.size());
@@ -147,7 +149,7 @@ class RangeImage : public Panel {
     return lines;
   }
   std::vector<uint32_t> lines_by_elevation() {
-    lines_ = 64;
+    lines_ = lines_without_channels;
     const float* const p = points_.as<float>().data();
     std::vector<double> elevations;
     low_deg_ = 90.0, high_deg_ = -90.0;

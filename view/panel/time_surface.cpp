@@ -19,6 +19,7 @@ namespace {
 constexpr int64_t no_event = std::numeric_limits<int64_t>::min();
 /// Older events are darker than a step of a byte.
 constexpr double taus_seen = 6.0;
+/// A jump in time reads no more.
 constexpr size_t most_event_records = 1024;
 
 class TimeSurface : public Panel {
@@ -28,12 +29,16 @@ class TimeSurface : public Panel {
     constexpr int64_t longest_side = 16384;
     width_ = metadata.root().at("width").integer(1, longest_side);
     height_ = metadata.root().at("height").integer(1, longest_side);
+    constexpr int64_t most_pixels = int64_t{1} << 26;
+    if (width_ * height_ > most_pixels)
+      throw_user_error("{}: expected at most {} pixels, found {} x {}", spec().name, most_pixels, width_,
+                       height_);
     add_knob({"tau", "ms", 30.0, 0.01, 10'000.0, false});
   }
 
  protected:
   void load(const io::IndexRow& row) override {
-    const double tau_ms = knob("tau");
+    const double tau_ms = tau_ms_ = knob("tau");
     std::vector<io::IndexRow> rows = past(most_event_records);
     if (done_ && done_sequence_ == sequence() && done_tick_ <= row.tick && tau_ms <= done_tau_ms_) {
       std::erase_if(rows, [&](const io::IndexRow& r) { return r.tick <= done_tick_; });
@@ -91,19 +96,22 @@ class TimeSurface : public Panel {
     const Array t = read(row, "t", {DType::i64}, {-1}), x = read(row, "x", {DType::u16}, {-1}),
                 y = read(row, "y", {DType::u16}, {-1}), p = read(row, "p", {DType::u8}, {-1});
     io::expect_same_rows(source(), {&t, &x, &y, &p});
-    for (size_t i = 0; i < p.as<uint8_t>().size(); ++i) {
-      const uint16_t column = x.as<uint16_t>()[i], line = y.as<uint16_t>()[i];
+    const std::span<const int64_t> times = t.as<int64_t>();
+    const std::span<const uint16_t> columns = x.as<uint16_t>(), lines = y.as<uint16_t>();
+    const std::span<const uint8_t> signs = p.as<uint8_t>();
+    for (size_t i = 0; i < signs.size(); ++i) {
+      const uint16_t column = columns[i], line = lines[i];
       if (column >= width_ || line >= height_)
         throw_user_error("{}, tick {}: event {}: at ({}, {}), outside of {} x {} pixels", source().place(),
                          row.tick, i, column, line, width_, height_);
       const auto at = static_cast<size_t>(line * width_ + column);
-      if (t.as<int64_t>()[i] < newest_[at]) continue;
-      newest_[at] = t.as<int64_t>()[i];
-      brighter_[at] = p.as<uint8_t>()[i] != 0;
+      if (times[i] < newest_[at]) continue;
+      newest_[at] = times[i];
+      brighter_[at] = signs[i] != 0;
     }
   }
   double decay(size_t i) const {
-    const double age = 1e-6 * static_cast<double>(now_ns_ - newest_[i]) / knob("tau");
+    const double age = 1e-6 * static_cast<double>(now_ns_ - newest_[i]) / tau_ms_;
     return age > taus_seen ? 0.0 : std::exp(-std::max(age, 0.0));
   }
   /// The pixel with the newest event below pixel (x, y) of the picture on the canvas.
@@ -124,7 +132,7 @@ class TimeSurface : public Panel {
   bool done_ = false, seen_ = false;
   uint32_t done_sequence_ = 0;  ///< the newest record whose events are in
   int64_t done_tick_ = 0, now_ns_ = 0;
-  double done_tau_ms_ = 0.0;  ///< events are there for so long
+  double tau_ms_ = 1.0, done_tau_ms_ = 0.0;  ///< events are there for so long
   io::Rect picture_;
 };
 
