@@ -105,6 +105,13 @@ void add_view(CLI::App& app) {
                       "a scenario (a file, or an embedded one), or data sets to replay side by side [city]");
   command->add_option("--assets", options->scenario.assets,
                       "folder to look in for files that are not beside the scenario");
+  command->add_option("--seed", options->scenario.seed, "instead of the scenario's seed");
+  command->add_option("--ticks", options->scenario.ticks, "instead of the scenario's length")
+      ->check(integer_of(1, 1'000'000'000'000));
+  command
+      ->add_option("--sequences", options->scenario.sequences,
+                   "instead of the scenario's number of sequences")
+      ->check(integer_of(1, 1'000'000));
   options->run.add_to(*command);
   command->add_flag("--paused", options->paused, "show the first tick and wait");
   command->add_option("--size", options->size, "of the window, pixels")->capture_default_str();
