@@ -16,6 +16,7 @@
 #include "apps/console/watch.h"
 #include "apps/files/consistency_files.h"
 #include "io/dataset/dataset_writer.h"
+#include "sim/dataset/dataset_info.h"
 #include "sim/experiment/experiment.h"
 #include "sim/run/simulator.h"
 #include "sim/scenario/parse/load_scenario.h"
@@ -65,7 +66,7 @@ void run_generate(const GenerateOptions& options) {
   const sim::Experiment experiment = sim::make_experiment(load_scenario(options.scenario));
   gpu::Device device(options.run.device_options());
   sim::Simulator simulator(device, experiment);
-  io::DatasetWriter writer(options.output, dataset_info(experiment, device, simulator.sensors()),
+  io::DatasetWriter writer(options.output, sim::dataset_info(experiment, device, simulator.sensors()),
                            {options.threads, options.resume});
   if (writer.resume_position().finished) {
     if (options.json)

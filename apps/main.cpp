@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
       "program, 130 interrupted.");
   apps::add_info(app);
   apps::add_generate(app);
+  apps::add_view(app);
   apps::add_inspect(app);
   apps::add_verify(app);
   apps::add_scene(app);

@@ -12,6 +12,12 @@ thread_local const char* current = nullptr;
 /// A thread that parallel_for() starts has no activity of its own, so the outermost thread's activity stands
 /// for it.
 std::atomic<const char*> latest{nullptr}, failed{nullptr};
+thread_local ActivityListener* listening = nullptr;
+
+void change(const char* what) {
+  latest = current = what;
+  if (listening != nullptr) listening->activity_changed(what);
+}
 
 void on_failure() {
   failed = current != nullptr ? current : latest.load();
@@ -20,8 +26,11 @@ void on_failure() {
 
 }  // namespace
 
-Activity::Activity(const char* what) : before_(current) { latest = current = what; }
-Activity::~Activity() { latest = current = before_; }
+Activity::Activity(const char* what) : before_(current) { change(what); }
+Activity::~Activity() { change(before_); }
+
+ActivityScope::ActivityScope(ActivityListener& listener) : before_(listening) { listening = &listener; }
+ActivityScope::~ActivityScope() { listening = before_; }
 
 void watch_memory() { std::set_new_handler(on_failure); }
 

@@ -23,6 +23,7 @@
 #include "apps/console/summary.h"
 #include "apps/console/watch.h"
 #include "io/dataset/dataset_writer.h"
+#include "sim/dataset/dataset_info.h"
 #include "sim/run/simulator.h"
 #include "sim/scenario/parse/load_scenario.h"
 
@@ -77,7 +78,7 @@ void run(const Options& options) {
   std::unique_ptr<io::DatasetWriter> writer;
   if (!options.discard) {
     writer = std::make_unique<io::DatasetWriter>(scratch.path(),
-                                                 dataset_info(experiment, device, simulator.sensors()));
+                                                 sim::dataset_info(experiment, device, simulator.sensors()));
     writer->begin_sequence(0);
   }
   RecordSink& sink = writer ? static_cast<RecordSink&>(*writer) : discard;

@@ -8,6 +8,7 @@
 #include "apps/bench/recall_scene.h"
 #include "apps/paths/cfr.h"
 #include "io/dataset/dataset_writer.h"
+#include "sim/dataset/dataset_info.h"
 #include "sim/plan/antennas.h"
 #include "sim/run/simulator.h"
 
@@ -74,7 +75,7 @@ nlohmann::json written_tick_row(const ScenarioOptions& scenario_options, const R
   gpu::Device device(run.device_options());
   sim::Simulator simulator(device, experiment);
   const ScratchFolder scratch;
-  io::DatasetWriter writer(scratch.path(), dataset_info(experiment, device, simulator.sensors()));
+  io::DatasetWriter writer(scratch.path(), sim::dataset_info(experiment, device, simulator.sensors()));
   writer.begin_sequence(0);
   simulator.start(0);
   std::vector<double> ticks;

@@ -10,6 +10,7 @@
 
 #include "apps/bench/measure.h"
 #include "io/dataset/dataset_writer.h"
+#include "sim/dataset/dataset_info.h"
 #include "sim/run/simulator.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/sensor_kinds.h"
@@ -25,8 +26,8 @@ class Row {
   Row(gpu::Device& device, std::string name, sim::Experiment experiment, const std::filesystem::path& folder)
       : name_(std::move(name)), experiment_(std::move(experiment)), simulator_(device, experiment_) {
     if (!folder.empty()) {
-      writer_ = std::make_unique<io::DatasetWriter>(folder,
-                                                    dataset_info(experiment_, device, simulator_.sensors()));
+      writer_ = std::make_unique<io::DatasetWriter>(
+          folder, sim::dataset_info(experiment_, device, simulator_.sensors()));
       writer_->begin_sequence(0);
     }
     simulator_.start(0);

@@ -3,16 +3,12 @@
 #include "apps/console/session.h"
 
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 #include "apps/console/command_line.h"
 #include "assets/assets.h"
-#include "core/hash.h"
-#include "scene/description/scene.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/parse/override.h"
-#include "sim/world/instance_boxes.h"
 
 namespace greatx::apps {
 
@@ -82,48 +78,6 @@ void check_instant(uint32_t sequence, int64_t tick, const sim::Scenario& scenari
                      scenario.name, tick);
   if (sequence >= scenario.sequences)
     throw_user_error("--sequence: expected 0 to {}, found {}", scenario.sequences - 1, sequence);
-}
-
-io::DatasetInfo dataset_info(const sim::Experiment& experiment, const gpu::Device& device,
-                             const std::vector<SensorSpec>& sensors) {
-  const sim::Scenario& scenario = experiment.scenario;
-  const scene::Scene& scene = experiment.scene();
-  nlohmann::json run;
-  run["greatx"] = GREATX_VERSION;
-  run["scenario"] = scenario.name;
-  run["seed"] = scenario.seed;
-  run["scene_sha256"] = scene.hash;
-  run["scenario_sha256"] = Sha256().update(scenario.text).hex();
-  run["device"] = device.info().name;
-  run["driver"] = device.info().driver;
-  run["vulkan"] = device.info().api_version;
-  run["local_origin_m"] = {scene.origin.x, scene.origin.y, scene.origin.z};
-  run["semantic_classes"] = scene::semantic_class_names();
-  run["instances"] = nlohmann::json::array();
-  const std::vector<sim::InstanceBox> boxes = sim::instance_boxes(*experiment.world);
-  for (size_t i = 0; i < boxes.size(); ++i) {
-    const scene::Instance& instance = scene.instances[i];
-    run["instances"].push_back({{"name", instance.name}, {"class", scene::name_of(instance.semantic_class)}});
-    nlohmann::json& entry = run["instances"].back();
-    if (boxes[i].node) entry["node"] = scenario.nodes[*boxes[i].node].name;
-    if (!boxes[i].box.empty())
-      entry["box_m"] = {{boxes[i].box.min.x, boxes[i].box.min.y, boxes[i].box.min.z},
-                        {boxes[i].box.max.x, boxes[i].box.max.y, boxes[i].box.max.z}};
-  }
-  run["materials"] = nlohmann::json::array();
-  for (const scene::Material& material : scene.materials) run["materials"].push_back(material.name);
-  run["effects"] = nlohmann::json::object();
-  for (const sim::Effect* effect : experiment.plan.all()) run["effects"][effect->name] = effect->on;
-
-  io::DatasetInfo info;
-  info.run_json = run.dump();
-  info.scenario_text = scenario.text;
-  info.run_key = Sha256().update(info.run_json).hex();
-  info.tick_rate = scenario.tick_rate_hz.str();
-  info.sensors = sensors;
-  info.sequences = scenario.sequences;
-  info.ticks_per_sequence = scenario.ticks;
-  return info;
 }
 
 void check_validation(const gpu::Device& device) {

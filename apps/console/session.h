@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Functions that the commands share: they turn the command line into a scenario and a device, and describe an
-// experiment for a data set.
+// Functions that the commands share: they turn the command line into a scenario and a device.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +11,6 @@
 #include <CLI/CLI.hpp>
 
 #include "gpu/device.h"
-#include "io/dataset/dataset_format.h"
-#include "sim/experiment/experiment.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/scenario.h"
 
@@ -46,11 +43,6 @@ uint32_t find_channel(const std::string& name, const sim::Scenario& scenario);
 
 /// Throws UserError if the scenario does not have the sequence (--sequence) or the tick (--tick).
 void check_instant(uint32_t sequence, int64_t tick, const sim::Scenario& scenario);
-
-/// Returns the description of a run for its data set: everything that decides the bytes of the data, and the
-/// tables that ids refer to.
-io::DatasetInfo dataset_info(const sim::Experiment& experiment, const gpu::Device& device,
-                             const std::vector<SensorSpec>& sensors);
 
 /// Throws runtime_error if the validation layer has reported anything.
 void check_validation(const gpu::Device& device);

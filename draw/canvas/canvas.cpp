@@ -11,9 +11,8 @@ namespace greatx::io {
 
 namespace {
 
-uint8_t to_byte(double value) {
-  return static_cast<uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
-}
+/// Rounds as std::lround() does, without a call: this is done for every pixel.
+uint8_t to_byte(double value) { return static_cast<uint8_t>(255.0 * std::clamp(value, 0.0, 1.0) + 0.5); }
 
 /// Evaluates c[0] + c[1] t + ..., one polynomial for each channel.
 template <size_t N>
@@ -91,15 +90,21 @@ void Canvas::blend(int x, int y, Color color, double alpha) {
     std::copy_n(channels, 3, pixel);
     return;
   }
-  for (int i = 0; i < 3; ++i)
-    pixel[i] =
-        static_cast<uint8_t>(std::lround(pixel[i] + (channels[i] - pixel[i]) * std::clamp(alpha, 0.0, 1.0)));
+  const double share = std::max(alpha, 0.0);
+  for (int i = 0; i < 3; ++i)  // between 0 and 255, so this rounds to nearest
+    pixel[i] = static_cast<uint8_t>(pixel[i] + (channels[i] - pixel[i]) * share + 0.5);
 }
 
 void Canvas::fill(const Rect& rect, Color color, double alpha) {
-  for (int y = std::max(rect.y, clip_.y); y < std::min(rect.bottom(), clip_.bottom()); ++y)
-    for (int x = std::max(rect.x, clip_.x); x < std::min(rect.right(), clip_.right()); ++x)
-      blend(x, y, color, alpha);
+  const int left = std::max(rect.x, clip_.x), right = std::min(rect.right(), clip_.right());
+  for (int y = std::max(rect.y, clip_.y); y < std::min(rect.bottom(), clip_.bottom()); ++y) {
+    if (alpha < 1.0) {
+      for (int x = left; x < right; ++x) blend(x, y, color, alpha);
+      continue;
+    }
+    uint8_t* pixel = pixels_.data() + (static_cast<size_t>(y) * static_cast<size_t>(width_) + left) * 3;
+    for (int x = left; x < right; ++x, pixel += 3) pixel[0] = color.r, pixel[1] = color.g, pixel[2] = color.b;
+  }
 }
 
 void Canvas::frame(const Rect& rect, Color color) {
@@ -189,15 +194,6 @@ void Canvas::picture(const Rect& rect, const Array& rgb) {
              static_cast<uint8_t>(sum[2] / count)});
     }
   }
-}
-
-void Canvas::raster(const Rect& rect, int columns, int rows, const std::function<Color(int, int)>& color) {
-  for (int y = 0; y < rect.height; ++y)
-    for (int x = 0; x < rect.width; ++x) {
-      blend(rect.x + x, rect.y + y,
-            color(static_cast<int>(int64_t{x} * columns / rect.width),
-                  static_cast<int>(int64_t{y} * rows / rect.height)));
-    }
 }
 
 }  // namespace greatx::io

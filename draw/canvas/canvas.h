@@ -5,6 +5,7 @@
 // also defines colour maps.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string_view>
@@ -69,9 +70,22 @@ class Canvas {
   /// Draws a picture, u8 [h, w, 3], into `rect`. Pixels are averaged if the picture is larger than `rect`,
   /// and repeated if it is smaller.
   void picture(const Rect& rect, const Array& rgb);
-  /// Draws a raster of `columns` x `rows` into `rect` with the nearest sample. `color` returns the colour of
-  /// column x, row y.
-  void raster(const Rect& rect, int columns, int rows, const std::function<Color(int x, int y)>& color);
+  /// Any raster: the colour of column x, row y of `columns` x `rows`, nearest sample. `color(int x, int y)`
+  /// is asked for every pixel, so it is a template parameter and not a std::function.
+  template <typename ColorOf>
+  void raster(const Rect& rect, int columns, int rows, const ColorOf& color) {
+    const int left = std::max(rect.x, clip_.x), right = std::min(rect.right(), clip_.right());
+    for (int y = std::max(rect.y, clip_.y); y < std::min(rect.bottom(), clip_.bottom()); ++y) {
+      const int row = static_cast<int>(int64_t{y - rect.y} * rows / rect.height);
+      uint8_t* pixel = pixels_.data() + (static_cast<size_t>(y) * static_cast<size_t>(width_) + left) * 3;
+      for (int x = left; x < right; ++x, pixel += 3) {
+        const Color c = color(static_cast<int>(int64_t{x - rect.x} * columns / rect.width), row);
+        pixel[0] = c.r;
+        pixel[1] = c.g;
+        pixel[2] = c.b;
+      }
+    }
+  }
 
  private:
   void glyph(char c, const std::function<void(int column, int row)>& dot) const;

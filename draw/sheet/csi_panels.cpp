@@ -7,6 +7,7 @@
 #include <complex>
 
 #include "core/units.h"
+#include "draw/sheet/csi_response.h"
 #include "draw/sheet/panels.h"
 
 namespace greatx::io {
@@ -15,29 +16,6 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr size_t most_time_columns = 600, most_cells = 1 << 22;
-constexpr double dynamic_range_db = 50.0;
-
-/// Computes x[n] = sum_k X[k] e^{+j 2 pi k n / N} in place (radix 2), without the factor 1 / N; N is a power
-/// of two.
-void inverse_fft(std::vector<Complex>& x) {
-  const size_t n = x.size();
-  for (size_t i = 1, j = 0; i < n; ++i) {
-    size_t bit = n >> 1;
-    for (; j & bit; bit >>= 1) j ^= bit;
-    j ^= bit;
-    if (i < j) std::swap(x[i], x[j]);
-  }
-  for (size_t length = 2; length <= n; length <<= 1) {
-    for (size_t k = 0; k < length / 2; ++k) {
-      const Complex turn = std::polar(1.0, 2.0 * pi * static_cast<double>(k) / static_cast<double>(length));
-      for (size_t start = 0; start < n; start += length) {
-        const Complex a = x[start + k], b = x[start + k + length / 2] * turn;
-        x[start + k] = a + b;
-        x[start + k + length / 2] = a - b;
-      }
-    }
-  }
-}
 
 /// Holds one link over the sequence: H(f) of receiver 0 and transmitter 0, of the first port of each, at the
 /// first time sample of each record.
@@ -50,7 +28,7 @@ struct Link {
 
   explicit Link(const PanelSource& source) : sensor(source.spec().name) {
     spacing_hz = number_of(metadata_of(source), "subcarrier_spacing_hz", 1.0, 1e-6, 1e15);
-    const std::vector<IndexRow> rows = source.reader.records_of(source.sequence, source.sensor);
+    const std::vector<IndexRow> rows = source.records.records_of(source.sequence, source.sensor);
     if (rows.empty()) return;
     first_time_s = 1e-9 * static_cast<double>(rows.front().time_ns);
     last_time_s = 1e-9 * static_cast<double>(rows.back().time_ns);
@@ -95,28 +73,25 @@ class DecibelPanel : public SeriesPanel {
     }
     color_ = scale_for(std::max(low, high - floor_db), high);
   }
-  static double decibel(double magnitude) { return 20.0 * std::log10(std::max(magnitude, 1e-20)); }
 
   std::vector<std::vector<double>> values_;  ///< [time][row], dB
   Scale time_, vertical_, color_;
   std::string vertical_label_;
 };
 
-/// Shows |h(tau)|: the inverse DFT of H(f) with a Hann window, zero-padded to at least four times the length.
-/// It is scaled so that one path of amplitude a has a peak of |a|. Delays repeat after 1 / spacing.
+/// |h(tau)|, see impulse_response_db().
 class ImpulsePanel : public DecibelPanel {
  public:
   explicit ImpulsePanel(const Link& link) : title_(link.sensor + " |h| over delay") {
     if (link.columns.empty()) return;
-    size_t size = 1;
-    while (size < 4 * link.subcarriers) size <<= 1;
+    const size_t size = impulse_size(link.subcarriers);
     std::vector<double> peak(size, -1e300);
     for (const auto& column : link.columns) {
-      values_.push_back(response(column, size));
+      values_.push_back(impulse_response_db(column));
       for (size_t i = 0; i < size; ++i) peak[i] = std::max(peak[i], values_.back()[i]);
     }
-    // Cut off the delays behind the last echo above the threshold.
-    const double threshold = *std::max_element(peak.begin(), peak.end()) - 0.9 * dynamic_range_db;
+    // Cut off the delays behind the last echo worth seeing.
+    const double threshold = *std::max_element(peak.begin(), peak.end()) - 0.9 * csi_range_db;
     size_t last = 0;
     for (size_t i = 0; i < 9 * size / 10; ++i)
       if (peak[i] > threshold) last = i;
@@ -127,26 +102,11 @@ class ImpulsePanel : public DecibelPanel {
     vertical_ = {0.0, longest_s * (micro ? 1e6 : 1e9), false};
     vertical_label_ = micro ? "delay us" : "delay ns";
     set_time(link);
-    set_color(dynamic_range_db);
+    set_color(csi_range_db);
   }
   std::string title() const override { return title_; }
 
  private:
-  static std::vector<double> response(const std::vector<std::complex<float>>& cfr, size_t size) {
-    const size_t n = cfr.size();
-    std::vector<Complex> x(size);
-    double sum = 0.0;
-    for (size_t k = 0; k < n; ++k) {
-      const double window =
-          0.5 - 0.5 * std::cos(2.0 * pi * (static_cast<double>(k) + 0.5) / static_cast<double>(n));
-      x[k] = Complex(cfr[k]) * window;
-      sum += window;
-    }
-    inverse_fft(x);
-    std::vector<double> db;
-    for (const Complex& value : x) db.push_back(decibel(std::abs(value) / sum));
-    return db;
-  }
   std::string title_;
 };
 
@@ -154,18 +114,13 @@ class ImpulsePanel : public DecibelPanel {
 class FrequencyPanel : public DecibelPanel {
  public:
   explicit FrequencyPanel(const Link& link) : title_(link.sensor + " |H| over frequency") {
-    for (const auto& column : link.columns) {
-      values_.emplace_back();
-      for (const std::complex<float>& value : column)
-        values_.back().push_back(decibel(std::abs(Complex(value))));
-    }
-    // Subcarrier k is (k - floor(N/2)) * spacing from the carrier. Each subcarrier takes one spacing of the
-    // axis.
+    for (const auto& column : link.columns) values_.push_back(magnitudes_db(column));
+    // Subcarrier k lies at (k - floor(N/2)) * spacing from the carrier; each takes one spacing of the axis.
     const double low = -(static_cast<double>(link.subcarriers / 2) + 0.5) * link.spacing_hz;
     vertical_ = {low * 1e-6, (low + static_cast<double>(link.subcarriers) * link.spacing_hz) * 1e-6, false};
     vertical_label_ = "f - fc MHz";
     set_time(link);
-    set_color(dynamic_range_db);
+    set_color(csi_range_db);
   }
   std::string title() const override { return title_; }
 
@@ -173,7 +128,58 @@ class FrequencyPanel : public DecibelPanel {
   std::string title_;
 };
 
+/// In place, radix 2, e^{+j}: x[n] = sum_k X[k] e^{+j 2 pi k n / N}.
+void inverse_fft(std::vector<Complex>& x) {
+  const size_t n = x.size();
+  for (size_t i = 1, j = 0; i < n; ++i) {
+    size_t bit = n >> 1;
+    for (; j & bit; bit >>= 1) j ^= bit;
+    j ^= bit;
+    if (i < j) std::swap(x[i], x[j]);
+  }
+  for (size_t length = 2; length <= n; length <<= 1) {
+    for (size_t k = 0; k < length / 2; ++k) {
+      const Complex turn = std::polar(1.0, 2.0 * pi * static_cast<double>(k) / static_cast<double>(length));
+      for (size_t start = 0; start < n; start += length) {
+        const Complex a = x[start + k], b = x[start + k + length / 2] * turn;
+        x[start + k] = a + b;
+        x[start + k + length / 2] = a - b;
+      }
+    }
+  }
+}
+
 }  // namespace
+
+size_t impulse_size(size_t subcarriers) {
+  size_t size = 1;
+  while (size < 4 * subcarriers) size <<= 1;
+  return size;
+}
+
+double decibels_of(double magnitude) { return 20.0 * std::log10(std::max(magnitude, 1e-20)); }
+
+std::vector<double> impulse_response_db(std::span<const std::complex<float>> cfr) {
+  const size_t n = cfr.size();
+  std::vector<Complex> x(impulse_size(n));
+  double sum = 0.0;
+  for (size_t k = 0; k < n; ++k) {
+    const double window =
+        0.5 - 0.5 * std::cos(2.0 * pi * (static_cast<double>(k) + 0.5) / static_cast<double>(n));
+    x[k] = Complex(cfr[k]) * window;
+    sum += window;
+  }
+  inverse_fft(x);
+  std::vector<double> db;
+  for (const Complex& value : x) db.push_back(decibels_of(std::abs(value) / sum));
+  return db;
+}
+
+std::vector<double> magnitudes_db(std::span<const std::complex<float>> cfr) {
+  std::vector<double> db;
+  for (const std::complex<float>& value : cfr) db.push_back(decibels_of(std::abs(Complex(value))));
+  return db;
+}
 
 void add_csi_panels(const PanelSource& source, Panels& panels) {
   if (!source.has("cfr")) return;

@@ -21,10 +21,7 @@ class EventPanel : public FramePanel {
 
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const IndexRow& record = source_.chosen[row];
-    const Array x = source_.load(record, "x", {DType::u16}, {-1}),
-                y = source_.load(record, "y", {DType::u16}, {-1}),
-                p = source_.load(record, "p", {DType::u8}, {-1});
-    expect_same_rows(source_, {&x, &y, &p});
+    const auto& [x, y, p] = load(row);
     try {
       canvas.picture(picture,
                      event_picture(x.as<uint16_t>(), y.as<uint16_t>(), p.as<uint8_t>(), width_, height_));
@@ -38,10 +35,36 @@ class EventPanel : public FramePanel {
     canvas.text(legend.x, legend.y + 4, text, theme::text_scale, theme::dim);
   }
 
+  std::string nothing_of(size_t row) override { return load(row).p.as<uint8_t>().empty() ? "no events" : ""; }
+  std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames&) override {
+    const std::optional<RasterCell> cell = cell_at(picture, width_, height_, x, y);
+    if (!cell) return {};
+    const Events& events = load(row);
+    const std::span<const uint16_t> xs = events.x.as<uint16_t>(), ys = events.y.as<uint16_t>();
+    const std::span<const uint8_t> ps = events.p.as<uint8_t>();
+    size_t counts[2] = {0, 0};
+    for (size_t i = 0; i < ps.size(); ++i)
+      if (xs[i] == cell->column && ys[i] == cell->row) ++counts[ps[i] != 0];
+    return fmt::format("({}, {})  ON {} OFF {}", cell->column, cell->row, counts[1], counts[0]);
+  }
+
  private:
-  /// Returns the time since the previous record; 0 for the first record.
+  /// The events of the row, kept until another row's are asked for.
+  struct Events {
+    Array x, y, p;
+  };
+  const Events& load(size_t row) {
+    if (kept_row_ == row) return kept_;
+    kept_row_.reset();
+    const IndexRow& record = source_.chosen[row];
+    kept_ = {source_.load(record, "x", {DType::u16}, {-1}), source_.load(record, "y", {DType::u16}, {-1}),
+             source_.load(record, "p", {DType::u8}, {-1})};
+    expect_same_rows(source_, {&kept_.x, &kept_.y, &kept_.p});
+    kept_row_ = row;
+    return kept_;
+  }
   double interval_ms(const IndexRow& record) const {
-    const std::vector<IndexRow> rows = source_.reader.records_of(source_.sequence, source_.sensor);
+    const std::vector<IndexRow> rows = source_.records.records_of(source_.sequence, source_.sensor);
     for (size_t i = 1; i < rows.size(); ++i)
       if (rows[i].tick == record.tick)
         return 1e-6 * static_cast<double>(rows[i].time_ns - rows[i - 1].time_ns);
@@ -49,6 +72,8 @@ class EventPanel : public FramePanel {
   }
   PanelSource source_;
   int64_t width_, height_;
+  std::optional<size_t> kept_row_;
+  Events kept_;
 };
 
 /// Shows the grey difference pictures as they are.
@@ -57,7 +82,7 @@ class DifferencePanel : public PicturePanel {
   explicit DifferencePanel(const PanelSource& source)
       : PicturePanel(source, "difference_picture", "differences", {DType::u8}) {}
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
-    const Array grey = load(row);
+    const Array& grey = load(row);
     const std::span<const uint8_t> values = grey.as<uint8_t>();
     Array rgb(DType::u8, {grey.shape[0], grey.shape[1], 3});
     for (size_t i = 0; i < values.size(); ++i) std::fill_n(rgb.as<uint8_t>().begin() + 3 * i, 3, values[i]);
@@ -66,7 +91,22 @@ class DifferencePanel : public PicturePanel {
             fmt::format("{} brighter  {} darker", std::count(values.begin(), values.end(), 255),
                         std::count(values.begin(), values.end(), 0)));
   }
+
+ protected:
+  std::string text_of(size_t, const Array& grey, size_t i, const SceneNames&) override {
+    const uint8_t value = grey.as<uint8_t>()[i];
+    return value == 255 ? "brighter" : value == 0 ? "darker" : "no change";
+  }
 };
+
+std::unique_ptr<FramePanel> make_events(const PanelSource& source) {
+  const JsonDocument metadata = metadata_of(source);
+  const JsonValue root = metadata.root();
+  constexpr int64_t longest_side = 16384;
+  if (!root.has("width") || !root.has("height")) return nullptr;
+  return std::make_unique<EventPanel>(source, root.at("width").integer(1, longest_side),
+                                      root.at("height").integer(1, longest_side));
+}
 
 }  // namespace
 
@@ -81,25 +121,23 @@ Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, st
   // One event has 60 % of the full colour, three or more events have all of it.
   const double grey[3] = {128, 128, 128}, red[3] = {235, 45, 35}, blue[3] = {35, 75, 240};
   Array rgb(DType::u8, {height, width, 3});
+  const std::span<uint8_t> out = rgb.as<uint8_t>();
+  std::ranges::fill(out, uint8_t{128});
   for (size_t i = 0; i < on.size(); ++i) {
     const int count = on[i] + off[i];
-    const double strength = count == 0 ? 0.0 : std::min(1.0, 0.4 + 0.2 * count);
-    const double share = count == 0 ? 0.0 : static_cast<double>(on[i]) / count;
+    if (count == 0) continue;
+    const double strength = std::min(1.0, 0.4 + 0.2 * count);
+    const double share = static_cast<double>(on[i]) / count;
     for (size_t c = 0; c < 3; ++c)
-      rgb.as<uint8_t>()[3 * i + c] = static_cast<uint8_t>(
+      out[3 * i + c] = static_cast<uint8_t>(
           std::lround(grey[c] + strength * (blue[c] + share * (red[c] - blue[c]) - grey[c])));
   }
   return rgb;
 }
 
-void add_event_panels(const PanelSource& source, Panels& panels) {
-  const JsonDocument metadata = metadata_of(source);
-  const JsonValue root = metadata.root();
-  constexpr int64_t longest_side = 16384;
-  if (root.has("width") && root.has("height") && source.has("x") && source.has("y") && source.has("p"))
-    panels.frames.push_back(std::make_unique<EventPanel>(source, root.at("width").integer(1, longest_side),
-                                                         root.at("height").integer(1, longest_side)));
-  if (source.has("difference_picture")) panels.frames.push_back(std::make_unique<DifferencePanel>(source));
+std::vector<FrameKind> event_frames() {
+  return {{"events", {"x", "y", "p"}, make_events, "events"},
+          {"differences", {"difference_picture"}, make_frame<DifferencePanel>, "differences"}};
 }
 
 }  // namespace greatx::io

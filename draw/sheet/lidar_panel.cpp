@@ -25,21 +25,22 @@ class LidarPanel : public FramePanel {
       }
     }
     if (ranges.empty()) return;
-    std::sort(ranges.begin(), ranges.end());
-    std::sort(heights.begin(), heights.end());
-    const auto at = [](const std::vector<float>& values, double q) {
-      return static_cast<double>(values[static_cast<size_t>(q * static_cast<double>(values.size() - 1))]);
+    const auto at = [](std::vector<float>& values, double q) {
+      const auto found =
+          values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+      std::nth_element(values.begin(), found, values.end());
+      return static_cast<double>(*found);
     };
     radius_ = std::max(1.0, 1.05 * at(ranges, 0.97));
-    height_ = scale_for(at(heights, 0.02), at(heights, 0.98));
+    const double low = at(heights, 0.02), high = at(heights, 0.98);
+    height_ = scale_for(low, high);
   }
   std::string title() const override { return source_.spec().name + " from above"; }
 
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     canvas.clip(picture);
     canvas.fill(picture, theme::panel);
-    const double cx = picture.x + 0.5 * picture.width, cy = picture.y + 0.5 * picture.height;
-    const double pixels = 0.5 * std::min(picture.width, picture.height) / radius_;
+    const auto [cx, cy, pixels] = layout(picture);
     const double ring = round_down(radius_ / 1.9);
     for (int i = 1; i * ring < 2.0 * radius_; ++i) canvas.circle(cx, cy, i * ring * pixels, 1.0, theme::grid);
     for (const dvec3& point : clouds_[row]) {
@@ -58,10 +59,44 @@ class LidarPanel : public FramePanel {
         canvas, legend, height_, [](double t) { return turbo(0.08 + 0.84 * t); },
         north_up_ ? "m height" : "m above");
   }
+  std::string nothing_of(size_t row) override { return clouds_[row].empty() ? "no points" : ""; }
+
+  /// The point next to the pixel, if one is near; else the place on the ground.
+  std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames& names) override {
+    if (!cell_at(picture, 1, 1, x, y)) return {};
+    const auto [cx, cy, pixels] = layout(picture);
+    const double right = (x + 0.5 - cx) / pixels, up = (cy - y - 0.5) / pixels;
+    std::string text = north_up_ ? fmt::format("east {:.1f} north {:.1f} m of the sensor", right, up)
+                                 : fmt::format("forward {:.1f} left {:.1f} m", up, -right);
+    constexpr double reach_px = 4.0;
+    double nearest = reach_px / pixels;
+    size_t found = clouds_[row].size();
+    for (size_t i = 0; i < clouds_[row].size(); ++i) {
+      const dvec3& point = clouds_[row][i];
+      const double distance = std::hypot(point.x - right, point.y - up);
+      if (distance < nearest) nearest = distance, found = i;
+    }
+    if (found == clouds_[row].size()) return text;
+    const IndexRow& record = source_.chosen[row];
+    const Array points = source_.load(record, "points", {DType::f32}, {-1, 4});
+    const float* const point = points.as<float>().data() + 4 * found;
+    text += fmt::format("\nrange {:.2f} m, height {:.2f} m, intensity {:.3g}",
+                        std::hypot(point[0], point[1], point[2]), clouds_[row][found].z, point[3]);
+    if (!source_.has("instance")) return text;
+    const Array instances = source_.load(record, "instance", {DType::u32}, {-1});
+    expect_same_rows(source_, {&points, &instances});
+    const uint32_t id = instances.as<uint32_t>()[found];
+    return text + "\n" + (id == 0 ? "fog or rain" : names.instance(id));
+  }
 
  private:
-  /// Returns the points of a record in the orientation of the picture: x to the right and y up, relative to
-  /// the sensor, and the height.
+  struct Layout {
+    double center_x, center_y, pixels;  ///< pixels a metre
+  };
+  Layout layout(const Rect& picture) const {
+    return {picture.x + 0.5 * picture.width, picture.y + 0.5 * picture.height,
+            0.5 * std::min(picture.width, picture.height) / radius_};
+  }
   std::vector<dvec3> turned(const IndexRow& row) {
     const Array array = source_.load(row, "points", {DType::f32}, {-1, 4});
     const std::span<const float> values = array.as<float>();
@@ -101,8 +136,8 @@ class LidarPanel : public FramePanel {
 
 }  // namespace
 
-void add_lidar_panels(const PanelSource& source, Panels& panels) {
-  if (source.has("points")) panels.frames.push_back(std::make_unique<LidarPanel>(source));
+std::vector<FrameKind> lidar_frames() {
+  return {{"from above", {"points"}, make_frame<LidarPanel>, "points"}};
 }
 
 }  // namespace greatx::io

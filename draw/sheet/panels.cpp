@@ -3,6 +3,8 @@
 #include "draw/sheet/panels.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
 
 #include <fmt/ranges.h>
 
@@ -13,15 +15,15 @@ namespace {
 /// Describes how a kind of sensor is added to the sheet.
 struct Maker {
   std::string_view kind;  ///< SensorSpec::kind
-  void (*add)(const PanelSource&, Panels&);
-  /// True if every sensor of the kind has frame panels; false if only the first one has series panels.
-  bool frames;
-  bool intervals = false;  ///< see is_about_intervals()
+  /// A picture per moment, drawn for every sensor of the kind; null: over time, for the first one only.
+  std::vector<FrameKind> (*frames)();
+  void (*add)(const PanelSource&, Panels&);  ///< the plots over time
+  bool intervals = false;                    ///< see is_about_intervals()
 };
 constexpr Maker makers[] = {
-    {"camera", add_camera_panels, true}, {"event_camera", add_event_panels, true, true},
-    {"lidar", add_lidar_panels, true},   {"radar", add_radar_panels, true},
-    {"csi", add_csi_panels, false},      {"pose", add_pose_panels, false},
+    {"camera", camera_frames, nullptr}, {"event_camera", event_frames, nullptr, true},
+    {"lidar", lidar_frames, nullptr},   {"radar", radar_frames, nullptr},
+    {"csi", nullptr, add_csi_panels},   {"pose", nullptr, add_pose_panels},
 };
 
 /// Returns the entry of a kind, or null if the kind is unknown.
@@ -80,21 +82,23 @@ Array PanelSource::load(const IndexRow& row, const std::string& array, const std
                                               : fmt::format("{} [{}]", numpy_name(declared->dtype),
                                                             fmt::join(declared->shape, ", ")));
   }
-  Array loaded = reader.load(sequence, row, array);
+  Array loaded = records.load(sequence, row, array);
   if (const std::string bad = find_bad_value(spec(), *declared, loaded); !bad.empty())
     throw_user_error("{}, tick {}: expected finite values, found {}", place(), row.tick, bad);
   return loaded;
 }
 
 std::string PanelSource::place() const {
-  return (reader.folder() / sequence_folder(sequence) / spec().name).string();
+  return (std::filesystem::path(records.place()) / sequence_folder(sequence) / spec().name).string();
 }
 
 JsonDocument metadata_of(const PanelSource& source) {
   const SensorSpec& sensor = source.spec();
   return JsonDocument(
       sensor.metadata_json.empty() ? "{}" : sensor.metadata_json,
-      {fmt::format("{}: {}: metadata", (source.reader.folder() / dataset_file).string(), sensor.name), 0});
+      {fmt::format("{}: {}: metadata",
+                   (std::filesystem::path(source.records.place()) / dataset_file).string(), sensor.name),
+       0});
 }
 
 double number_of(const JsonDocument& metadata, const char* key, double otherwise, double least, double most) {
@@ -108,15 +112,50 @@ void expect_same_rows(const PanelSource& source, std::initializer_list<const Arr
                        (*arrays.begin())->shape[0], array->shape[0]);
 }
 
+std::span<const FrameKind> frame_kinds(std::string_view sensor_kind) {
+  static const std::vector<std::vector<FrameKind>> all = [] {
+    std::vector<std::vector<FrameKind>> kinds;
+    for (const Maker& maker : makers)
+      kinds.push_back(maker.frames ? maker.frames() : std::vector<FrameKind>());
+    return kinds;
+  }();
+  const Maker* const maker = maker_of(sensor_kind);
+  if (maker == nullptr) return {};
+  return all[static_cast<size_t>(maker - makers)];
+}
+
+bool has_arrays(const SensorSpec& sensor, std::span<const char* const> arrays) {
+  return std::ranges::all_of(arrays, [&](const char* name) {
+    return std::ranges::find(sensor.arrays, name, &ArraySpec::name) != sensor.arrays.end();
+  });
+}
+
+std::optional<RasterCell> cell_at(const Rect& picture, int64_t columns, int64_t rows, int x, int y) {
+  if (x < picture.x || y < picture.y || x >= picture.right() || y >= picture.bottom()) return std::nullopt;
+  return RasterCell{static_cast<int>((x - picture.x) * columns / picture.width),
+                    static_cast<int>((y - picture.y) * rows / picture.height)};
+}
+
 void add_panels(const PanelSource& source, Panels& panels) {
-  if (const Maker* const maker = maker_of(source.spec().kind)) maker->add(source, panels);
+  const Maker* const maker = maker_of(source.spec().kind);
+  if (maker == nullptr) return;
+  if (maker->add) maker->add(source, panels);
+  std::set<std::string_view> groups;
+  for (const FrameKind& kind : frame_kinds(source.spec().kind)) {
+    if (kind.group == nullptr || groups.contains(kind.group) || !has_arrays(source.spec(), kind.arrays))
+      continue;
+    std::unique_ptr<FramePanel> panel = kind.make(source);
+    if (panel == nullptr) continue;
+    panels.frames.push_back(std::move(panel));
+    groups.insert(kind.group);
+  }
 }
 
 bool has_panels(std::string_view kind) { return maker_of(kind) != nullptr; }
 
 bool has_frame_panels(std::string_view kind) {
   const Maker* const maker = maker_of(kind);
-  return maker != nullptr && maker->frames;
+  return maker != nullptr && maker->frames != nullptr;
 }
 
 bool is_about_intervals(std::string_view kind) {
@@ -133,7 +172,7 @@ std::vector<std::string> node_names(const PanelSource& pose) {
 }
 
 std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow& row) {
-  const std::vector<SensorSpec>& sensors = source.reader.sensors();
+  const std::vector<SensorSpec>& sensors = source.records.sensors();
   const auto has = [](const SensorSpec& sensor, const char* name) {
     return std::any_of(sensor.arrays.begin(), sensor.arrays.end(),
                        [&](const ArraySpec& array) { return array.name == name; });
@@ -142,13 +181,13 @@ std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow&
     return s.kind == "pose" && has(s, "position") && has(s, "orientation");
   });
   if (pose == sensors.end()) return std::nullopt;
-  const PanelSource poses{source.reader, source.sequence, static_cast<size_t>(pose - sensors.begin()), {}};
+  const PanelSource poses{source.records, source.sequence, static_cast<size_t>(pose - sensors.begin()), {}};
   const std::vector<std::string> names = node_names(poses);
   const std::string node = source.spec().name.substr(0, source.spec().name.find('/'));
   const auto found = std::find(names.begin(), names.end(), node);
   if (found == names.end()) return std::nullopt;
   const std::vector<IndexRow> rows =
-      source.reader.records_of(source.sequence, static_cast<size_t>(pose - sensors.begin()));
+      source.records.records_of(source.sequence, static_cast<size_t>(pose - sensors.begin()));
   const auto at =
       std::find_if(rows.begin(), rows.end(), [&](const IndexRow& r) { return r.tick == row.tick; });
   if (at == rows.end()) return std::nullopt;

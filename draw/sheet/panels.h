@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Defines the panels of a contact sheet. A FramePanel draws one picture for each chosen moment (a column of
-// the sheet); a SeriesPanel draws one plot of the whole sequence. One entry of the table in panels.cpp adds a
-// kind of sensor to the sheet.
+// What a contact sheet is made of. A FramePanel is one picture per chosen moment (a column of the sheet), a
+// SeriesPanel one plot over the whole sequence. A kind of sensor gets onto the sheet by one row in
+// panels.cpp. The viewer draws the FramePanels too, one record at a time, and asks them for the value under
+// the cursor.
 #pragma once
 
 #include <initializer_list>
@@ -16,20 +17,20 @@
 
 #include "core/vec.h"
 #include "draw/canvas/plot.h"
-#include "io/dataset/dataset_reader.h"
+#include "draw/sheet/scene_names.h"
+#include "io/dataset/record_source.h"
 #include "io/files/untrusted_json.h"
 
 namespace greatx::io {
 
-/// Describes the data of a panel: a sensor, a sequence, and one record for each row of the sheet, the one
-/// nearest in time.
+/// What panels are made from: a sensor in a sequence, and the records chosen for the rows (one a row, nearest
+/// in time). The records stay where they are: whoever keeps a source keeps them, too.
 struct PanelSource {
-  const DatasetReader& reader;
+  const RecordSource& records;
   uint32_t sequence;
   size_t sensor;
   std::vector<IndexRow> chosen;
-  const SensorSpec& spec() const { return reader.sensors()[sensor]; }
-  /// Returns true if the sensor has an array of this name.
+  const SensorSpec& spec() const { return records.sensors()[sensor]; }
   bool has(std::string_view array) const;
   /// Returns "DIR/sequence_0000/SENSOR", the beginning of messages.
   std::string place() const;
@@ -49,6 +50,11 @@ class FramePanel {
   virtual double aspect() const { return 0.75; }
   /// Draws record `row` of PanelSource::chosen into `picture`, and the legend into `legend` below.
   virtual void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) = 0;
+  /// What pixel (x, y) of the canvas shows of record `row` drawn into `picture`: where it is and the value
+  /// there with its unit, in lines. Empty outside of the picture.
+  virtual std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames& names) = 0;
+  /// Says what record `row` has none of ("no points"), if it holds nothing to draw; else empty.
+  virtual std::string nothing_of(size_t /*row*/) { return {}; }
 };
 
 /// Draws one plot of the whole sequence.
@@ -59,6 +65,24 @@ class SeriesPanel {
   /// Draws the plot, its axes and its legend inside `area`.
   virtual void draw(Canvas& canvas, const Rect& area) = 0;
 };
+
+/// A way to draw the records of a kind of sensor as pictures.
+struct FrameKind {
+  const char* name;                 ///< "depth"; unique for the kind of sensor
+  std::vector<const char*> arrays;  ///< that the sensor must declare
+  /// Null if the sensor's metadata do not say enough to draw it.
+  std::unique_ptr<FramePanel> (*make)(const PanelSource& source);
+  /// The sheet shows the first one of each group that the sensor has; null: none.
+  const char* group;
+};
+template <typename Drawn>
+std::unique_ptr<FramePanel> make_frame(const PanelSource& source) {
+  return std::make_unique<Drawn>(source);
+}
+/// Those of a kind of sensor ("camera"), in the order of the sheet.
+std::span<const FrameKind> frame_kinds(std::string_view sensor_kind);
+/// Whether the sensor declares all of the arrays.
+bool has_arrays(const SensorSpec& sensor, std::span<const char* const> arrays);
 
 struct Panels {
   std::vector<std::unique_ptr<FramePanel>> frames;
@@ -75,18 +99,23 @@ bool has_frame_panels(std::string_view kind);
 /// of a sequence is empty.
 bool is_about_intervals(std::string_view kind);
 
-// These functions add the panels of one kind of sensor each (camera_panels.cpp, event_panels.cpp,
-// lidar_panel.cpp, radar_panels.cpp, csi_panels.cpp, pose_panel.cpp).
-void add_camera_panels(const PanelSource& source, Panels& panels);
-void add_event_panels(const PanelSource& source, Panels& panels);
-void add_lidar_panels(const PanelSource& source, Panels& panels);
-void add_radar_panels(const PanelSource& source, Panels& panels);
+// The kinds of pictures and of plots, by sensor (camera_panels.cpp, event_panels.cpp, lidar_panel.cpp,
+// radar_panels.cpp, csi_panels.cpp, pose_panel.cpp).
+std::vector<FrameKind> camera_frames();
+std::vector<FrameKind> event_frames();
+std::vector<FrameKind> lidar_frames();
+std::vector<FrameKind> radar_frames();
 void add_csi_panels(const PanelSource& source, Panels& panels);
 void add_pose_panels(const PanelSource& source, Panels& panels);
+/// Of a camera: normals, optical flow, boxes (truth_panels.cpp).
+std::vector<FrameKind> truth_frames();
 
-/// Adds the panels of a camera's normals, optical flow and boxes (truth_panels.cpp). add_camera_panels()
-/// calls this function.
-void add_truth_panels(const PanelSource& source, Panels& panels);
+/// The element of a raster of `columns` x `rows` that pixel (x, y) of the canvas shows if the raster fills
+/// `picture`; empty outside.
+struct RasterCell {
+  int column = 0, row = 0;
+};
+std::optional<RasterCell> cell_at(const Rect& picture, int64_t columns, int64_t rows, int x, int y);
 
 /// Returns the colour of a motion. The hue is the direction (right: red, down: yellow-green). The saturation
 /// is the length: 0 is white, 1 is fully saturated. Longer motions are darker. A motion that is not finite is

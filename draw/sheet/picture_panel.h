@@ -35,10 +35,27 @@ class PicturePanel : public FramePanel {
   double aspect() const override { return aspect_; }
 
  protected:
-  Array load(size_t row) const {
-    return source_.load(source_.chosen[row], array_, types_,
-                        channels_ > 0 ? std::vector<int64_t>{0, 0, channels_} : std::vector<int64_t>{0, 0});
+  /// The picture of the row, kept until another row's is asked for.
+  const Array& load(size_t row) {
+    if (kept_row_ != row) {
+      kept_row_.reset();
+      kept_ =
+          source_.load(source_.chosen[row], array_, types_,
+                       channels_ > 0 ? std::vector<int64_t>{0, 0, channels_} : std::vector<int64_t>{0, 0});
+      kept_row_ = row;
+    }
+    return kept_;
   }
+  std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames& names) override {
+    const Array& array = load(row);
+    const std::optional<RasterCell> cell = cell_at(picture, array.shape[1], array.shape[0], x, y);
+    if (!cell) return {};
+    const size_t i = static_cast<size_t>(cell->row) * static_cast<size_t>(array.shape[1]) +
+                     static_cast<size_t>(cell->column);
+    return fmt::format("({}, {})  {}", cell->column, cell->row, text_of(row, array, i, names));
+  }
+  /// The value of pixel `i` as text, with its unit.
+  virtual std::string text_of(size_t row, const Array& array, size_t i, const SceneNames& names) = 0;
   static void caption(Canvas& canvas, const Rect& legend, std::string_view text) {
     canvas.text(legend.x, legend.y + 4, text, theme::text_scale, theme::dim);
   }
@@ -48,6 +65,10 @@ class PicturePanel : public FramePanel {
   std::vector<DType> types_;
   int64_t channels_;
   double aspect_ = 0.75;
+
+ private:
+  std::optional<size_t> kept_row_;
+  Array kept_;
 };
 
 }  // namespace greatx::io

@@ -17,7 +17,7 @@ constexpr size_t most_points = 2000;  ///< approximate limit for the line of one
 class TrajectoryPanel : public SeriesPanel {
  public:
   explicit TrajectoryPanel(const PanelSource& source) : source_(source), names_(node_names(source)) {
-    const std::vector<IndexRow> rows = source.reader.records_of(source.sequence, source.sensor);
+    const std::vector<IndexRow> rows = source.records.records_of(source.sequence, source.sensor);
     const size_t step = std::max<size_t>(1, rows.size() / most_points);
     for (size_t i = 0; i < rows.size();
          i += (i + step < rows.size() || i + 1 == rows.size() ? step : rows.size() - 1 - i)) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/units.h"
 #include "draw/sheet/panels.h"
 
 namespace greatx::io {
@@ -61,11 +62,11 @@ class RadarPanel : public FramePanel {
  protected:
   struct Detection {
     float range, velocity, azimuth;
-    bool real;
+    uint32_t instance;
+    bool real() const { return instance != 0; }
   };
   Color color(size_t row, int64_t range, int64_t column) const {
-    const double level = maps_[row][static_cast<size_t>(range * columns_ + column)];
-    return viridis(std::clamp(scale_.at(level), 0.0, 1.0));
+    return viridis(std::clamp(scale_.at(level(row, range, column)), 0.0, 1.0));
   }
   /// Returns the largest range to show: 1.2 times the range of the farthest detection, but at least a quarter
   /// of the map; the whole map if there is no detection.
@@ -76,9 +77,11 @@ class RadarPanel : public FramePanel {
     const double all = static_cast<double>(rows_) * axes_.range_bin_m;
     return farthest > 0.0 ? std::min(std::max(farthest, 0.25 * all), all) : all;
   }
-  /// Marks a detection, red if it is of an object and dim if it is a false alarm.
+  double level(size_t row, int64_t range, int64_t column) const {
+    return maps_[row][static_cast<size_t>(range * columns_ + column)];
+  }
   static void mark(Canvas& canvas, double x, double y, const Detection& d) {
-    canvas.circle(x, y, 6.0, 1.6, d.real ? Color{255, 92, 92} : theme::dim);
+    canvas.circle(x, y, 6.0, 1.6, d.real() ? Color{255, 92, 92} : theme::dim);
   }
   void draw_scale(Canvas& canvas, const Rect& legend) const {
     draw_color_bar(
@@ -102,9 +105,26 @@ class RadarPanel : public FramePanel {
     expect_same_rows(source_, {&range, &velocity, &azimuth, &instance});
     for (size_t i = 0; i < range.as<float>().size(); ++i)
       list.push_back({range.as<float>()[i], velocity.as<float>()[i], azimuth.as<float>()[i],
-                      instance.as<uint32_t>()[i] != 0});
+                      instance.as<uint32_t>()[i]});
   }
 };
+
+/// The detection whose mark is around pixel (x, y), as text; empty if there is none.
+template <typename Detections, typename Place>
+std::string marked_at(const Detections& detections, const Place& place, int x, int y,
+                      const SceneNames& names) {
+  std::string text;
+  double nearest = 7.0;
+  for (const auto& d : detections) {
+    const dvec2 at = place(d);
+    const double distance = std::hypot(x + 0.5 - at.x, y + 0.5 - at.y);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    text = fmt::format("\ndetection: {:.2f} m, {:.2f} m/s, {:.1f} deg\n{}", d.range, d.velocity,
+                       degrees(d.azimuth), d.real() ? names.instance(d.instance) : "false alarm");
+  }
+  return text;
+}
 
 class RangeDopplerPanel : public RadarPanel {
  public:
@@ -113,16 +133,15 @@ class RangeDopplerPanel : public RadarPanel {
 
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const double far_m = farthest_m();
-    const int ranges = std::max(1, static_cast<int>(std::lround(far_m / axes_.range_bin_m)));
+    const int ranges = shown_ranges();
     canvas.clip(picture);
     canvas.raster(picture, static_cast<int>(columns_), ranges,
                   [&](int x, int y) { return color(row, ranges - 1 - y, x); });
     const double pixels = picture.height / far_m;
-    for (const Detection& d : detections_[row])
-      mark(canvas,
-           picture.x + ((d.velocity - axes_.velocity_min) / axes_.velocity_bin + 0.5) * picture.width /
-                           static_cast<double>(columns_),
-           picture.bottom() - d.range * pixels, d);
+    for (const Detection& d : detections_[row]) {
+      const dvec2 at = place(picture, d);
+      mark(canvas, at.x, at.y, d);
+    }
     const double step = round_down(far_m / 2.5);
     for (int i = 1; i * step * pixels < picture.height - 16; ++i)  // only labels that fit
       canvas.text(picture.x + 6, picture.bottom() - static_cast<int>(std::lround(i * step * pixels)) - 8,
@@ -136,6 +155,27 @@ class RangeDopplerPanel : public RadarPanel {
     canvas.unclip();
     draw_scale(canvas, legend);
   }
+  std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames& names) override {
+    const int ranges = shown_ranges();
+    const std::optional<RasterCell> cell = cell_at(picture, columns_, ranges, x, y);
+    if (!cell) return {};
+    const int range = ranges - 1 - cell->row;
+    return fmt::format("{:.2f} m, {:.2f} m/s: {:.1f} dBm", range * axes_.range_bin_m,
+                       axes_.velocity_min + cell->column * axes_.velocity_bin,
+                       level(row, range, cell->column)) +
+           marked_at(
+               detections_[row], [&](const Detection& d) { return place(picture, d); }, x, y, names);
+  }
+
+ private:
+  int shown_ranges() const {
+    return std::max(1, static_cast<int>(std::lround(farthest_m() / axes_.range_bin_m)));
+  }
+  dvec2 place(const Rect& picture, const Detection& d) const {
+    return {picture.x + ((d.velocity - axes_.velocity_min) / axes_.velocity_bin + 0.5) * picture.width /
+                            static_cast<double>(columns_),
+            picture.bottom() - d.range * (picture.height / farthest_m())};
+  }
 };
 
 /// Shows the range-azimuth map over the ground from above, forward up.
@@ -145,19 +185,13 @@ class RangeAzimuthPanel : public RadarPanel {
   std::string title() const override { return source_.spec().name + " from above"; }
 
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
-    const double far_m = farthest_m(), foot_y = picture.bottom() - 10.0,
-                 foot_x = picture.x + 0.5 * picture.width;
-    const double pixels = std::min(picture.height - 24.0, 0.5 * picture.width) / far_m;
+    const auto [far_m, foot_x, foot_y, pixels] = layout(picture);
     canvas.clip(picture);
     canvas.fill(picture, theme::panel);
     for (int y = picture.y; y < picture.bottom(); ++y)
       for (int x = picture.x; x < picture.right(); ++x) {
-        const double ahead = (foot_y - y) / pixels, left = (foot_x - x) / pixels;
-        const double range = std::hypot(ahead, left), azimuth = std::atan2(left, ahead);
-        const auto bin = static_cast<int64_t>(std::lround(range / axes_.range_bin_m));
-        const double share = (azimuth - axes_.azimuth_min) / (axes_.azimuth_max - axes_.azimuth_min);
-        if (range > far_m || bin >= rows_ || share < 0.0 || share > 1.0) continue;
-        canvas.blend(x, y, color(row, bin, std::lround(share * static_cast<double>(columns_ - 1))));
+        const std::optional<Beam> beam = beam_at((foot_y - y) / pixels, (foot_x - x) / pixels, far_m);
+        if (beam) canvas.blend(x, y, color(row, beam->bin, beam->column));
       }
     const double ring = round_down(far_m / 1.9);
     for (int i = 1; i * ring <= far_m; ++i) {
@@ -166,20 +200,58 @@ class RangeAzimuthPanel : public RadarPanel {
                   tick_text(i * ring) + " m", theme::text_scale, theme::text);
     }
     for (const Detection& d : detections_[row]) {
-      const double range = static_cast<double>(d.range) * pixels, azimuth = static_cast<double>(d.azimuth);
-      mark(canvas, foot_x - range * std::sin(azimuth), foot_y - range * std::cos(azimuth), d);
+      const dvec2 at = place(picture, d);
+      mark(canvas, at.x, at.y, d);
     }
     canvas.disc(foot_x, foot_y, 4.0, theme::text);
     canvas.unclip();
     draw_scale(canvas, legend);
   }
+  std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames& names) override {
+    if (!cell_at(picture, 1, 1, x, y)) return {};
+    const auto [far_m, foot_x, foot_y, pixels] = layout(picture);
+    const double ahead = (foot_y - y) / pixels, left = (foot_x - x) / pixels;
+    std::string text =
+        fmt::format("{:.2f} m, {:.1f} deg", std::hypot(ahead, left), degrees(std::atan2(left, ahead)));
+    const std::optional<Beam> beam = beam_at(ahead, left, far_m);
+    text += beam ? fmt::format(": {:.1f} dBm", level(row, beam->bin, beam->column)) : ": outside of the map";
+    return text + marked_at(
+                      detections_[row], [&](const Detection& d) { return place(picture, d); }, x, y, names);
+  }
+
+ private:
+  struct Beam {
+    int64_t bin, column;
+  };
+  struct Layout {
+    double far_m, foot_x, foot_y, pixels;  ///< the sensor's place; pixels a metre
+  };
+  Layout layout(const Rect& picture) const {
+    const double far_m = farthest_m();
+    return {far_m, picture.x + 0.5 * picture.width, picture.bottom() - 10.0,
+            std::min(picture.height - 24.0, 0.5 * picture.width) / far_m};
+  }
+  std::optional<Beam> beam_at(double ahead, double left, double far_m) const {
+    const double range = std::hypot(ahead, left);
+    if (range > far_m) return std::nullopt;
+    const double azimuth = std::atan2(left, ahead);
+    const auto bin = static_cast<int64_t>(range / axes_.range_bin_m + 0.5);
+    const double share = (azimuth - axes_.azimuth_min) / (axes_.azimuth_max - axes_.azimuth_min);
+    if (bin >= rows_ || share < 0.0 || share > 1.0) return std::nullopt;
+    return Beam{bin, static_cast<int64_t>(share * static_cast<double>(columns_ - 1) + 0.5)};
+  }
+  dvec2 place(const Rect& picture, const Detection& d) const {
+    const auto [far_m, foot_x, foot_y, pixels] = layout(picture);
+    const double range = static_cast<double>(d.range) * pixels, azimuth = static_cast<double>(d.azimuth);
+    return {foot_x - range * std::sin(azimuth), foot_y - range * std::cos(azimuth)};
+  }
 };
 
 }  // namespace
 
-void add_radar_panels(const PanelSource& source, Panels& panels) {
-  if (source.has("range_doppler")) panels.frames.push_back(std::make_unique<RangeDopplerPanel>(source));
-  if (source.has("range_azimuth")) panels.frames.push_back(std::make_unique<RangeAzimuthPanel>(source));
+std::vector<FrameKind> radar_frames() {
+  return {{"range-Doppler", {"range_doppler"}, make_frame<RangeDopplerPanel>, "range_doppler"},
+          {"range-azimuth", {"range_azimuth"}, make_frame<RangeAzimuthPanel>, "range_azimuth"}};
 }
 
 }  // namespace greatx::io

@@ -21,13 +21,6 @@ std::vector<IndexRow> nearest(const std::vector<IndexRow>& rows, const std::vect
   return chosen;
 }
 
-/// Returns the largest rectangle with this aspect in the middle of the tile.
-Rect fit(const Rect& tile, double aspect) {
-  const int width = std::min(tile.width, static_cast<int>(std::lround(tile.height / aspect)));
-  const int height = std::min(tile.height, static_cast<int>(std::lround(width * aspect)));
-  return {tile.x + (tile.width - width) / 2, tile.y + (tile.height - height) / 2, width, height};
-}
-
 }  // namespace
 
 std::vector<SheetMoment> choose_moments(const DatasetReader& reader, uint32_t sequence, size_t count) {
@@ -78,6 +71,12 @@ std::vector<Band> make_bands(const std::vector<std::unique_ptr<FramePanel>>& pan
     bands.push_back({first, count, tile_height(aspect)});
   }
   return bands;
+}
+
+Rect fit(const Rect& tile, double aspect) {
+  const int width = std::min(tile.width, static_cast<int>(std::lround(tile.height / aspect)));
+  const int height = std::min(tile.height, static_cast<int>(std::lround(width * aspect)));
+  return {tile.x + (tile.width - width) / 2, tile.y + (tile.height - height) / 2, width, height};
 }
 
 int tile_height(double tallest_aspect) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "draw/sheet/panels.h"
+#include "io/dataset/dataset_reader.h"
 
 namespace greatx::io {
 
@@ -44,8 +45,9 @@ struct Band {
 /// Divides the panels into bands of at most `per_band` panels.
 std::vector<Band> make_bands(const std::vector<std::unique_ptr<FramePanel>>& panels, size_t per_band);
 
-/// Returns the height in pixels of a tile for pictures up to this aspect: between half the tile's width and
-/// the whole width.
+/// The largest rectangle of the aspect (height over width) in the middle of the tile.
+Rect fit(const Rect& tile, double aspect);
+/// Of a tile for pictures up to this aspect, kept within reason.
 int tile_height(double tallest_aspect);
 /// Draws record `row` of the panel in the middle of the tile, a frame around the tile, and the legend below
 /// the tile. The legend takes sheet::legend_height more.

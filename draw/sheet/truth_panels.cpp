@@ -4,6 +4,7 @@
 // Draws the panels of a camera's normals, optical flow and boxes.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "draw/sheet/picture_panel.h"
@@ -18,7 +19,7 @@ class NormalsPanel : public PicturePanel {
   explicit NormalsPanel(const PanelSource& source)
       : PicturePanel(source, "normals", "normals", {DType::f32}, 3) {}
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
-    const Array array = load(row);
+    const Array& array = load(row);
     const std::span<const float> normals = array.as<float>();
     const int64_t width = array.shape[1];
     canvas.raster(picture, static_cast<int>(width), static_cast<int>(array.shape[0]), [&](int x, int y) {
@@ -31,6 +32,13 @@ class NormalsPanel : public PicturePanel {
     });
     caption(canvas, legend, "east north up: red green blue");
   }
+
+ protected:
+  std::string text_of(size_t, const Array& array, size_t i, const SceneNames&) override {
+    const float* const n = array.as<float>().data() + 3 * i;
+    if (n[0] == 0.0f && n[1] == 0.0f && n[2] == 0.0f) return "sky";
+    return fmt::format("east {:.3f} north {:.3f} up {:.3f}", n[0], n[1], n[2]);
+  }
 };
 
 /// Shows optical flow with flow_color(). The hue is the direction, the saturation is the length, and white is
@@ -41,19 +49,20 @@ class FlowPanel : public PicturePanel {
   explicit FlowPanel(const PanelSource& source) : PicturePanel(source, "flow", "flow", {DType::f32}, 2) {
     std::vector<float> lengths;
     for (size_t row = 0; row < source_.chosen.size(); ++row) {
-      const Array flow = load(row);
+      const Array& flow = load(row);
       const std::span<const float> values = flow.as<float>();
       for (size_t i = 0; i + 1 < values.size(); i += 14)
         if (const float length = std::hypot(values[i], values[i + 1]); std::isfinite(length))
           lengths.push_back(length);
     }
     if (lengths.empty()) return;
-    std::sort(lengths.begin(), lengths.end());
-    const float longest = lengths[static_cast<size_t>(0.95 * static_cast<double>(lengths.size() - 1))];
-    if (longest > 0.0f) full_px_ = longest;
+    const auto longest =
+        lengths.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(lengths.size() - 1));
+    std::nth_element(lengths.begin(), longest, lengths.end());
+    if (*longest > 0.0f) full_px_ = *longest;
   }
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
-    const Array array = load(row);
+    const Array& array = load(row);
     const std::span<const float> flow = array.as<float>();
     const int64_t width = array.shape[1];
     canvas.raster(picture, static_cast<int>(width), static_cast<int>(array.shape[0]), [&](int x, int y) {
@@ -62,6 +71,13 @@ class FlowPanel : public PicturePanel {
     });
     draw_wheel(canvas, picture);
     caption(canvas, legend, fmt::format("wheel's rim: {:.3g} px a picture", full_px_));
+  }
+
+ protected:
+  std::string text_of(size_t, const Array& array, size_t i, const SceneNames&) override {
+    const float u = array.as<float>()[2 * i], v = array.as<float>()[2 * i + 1];
+    if (!std::isfinite(u) || !std::isfinite(v)) return "out of sight in the next picture";
+    return fmt::format("right {:.2f} down {:.2f} px a picture", u, v);
   }
 
  private:
@@ -84,7 +100,8 @@ class BoxesPanel : public PicturePanel {
   explicit BoxesPanel(const PanelSource& source) : PicturePanel(source, "rgb", "boxes", {DType::u8}, 3) {}
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const IndexRow& record = source_.chosen[row];
-    const Array rgb = load(row), rectangles = source_.load(record, "box_amodal", {DType::f32}, {-1, 4}),
+    const Array& rgb = load(row);
+    const Array rectangles = source_.load(record, "box_amodal", {DType::f32}, {-1, 4}),
                 ids = source_.load(record, "box_instance", {DType::u32}, {-1}),
                 visibility = source_.load(record, "box_visibility", {DType::f32}, {-1});
     expect_same_rows(source_, {&rectangles, &ids, &visibility});
@@ -112,6 +129,33 @@ class BoxesPanel : public PicturePanel {
         canvas, legend,
         fmt::format("{} objects, {} hidden", ids.as<uint32_t>().size(), ids.as<uint32_t>().size() - seen));
   }
+  std::string nothing_of(size_t row) override {
+    const Array ids = source_.load(source_.chosen[row], "box_instance", {DType::u32}, {-1});
+    return ids.shape[0] == 0 ? "no boxes" : "";
+  }
+
+ protected:
+  /// The smallest box around the pixel, with its size and how much of the object is seen.
+  std::string text_of(size_t row, const Array& rgb, size_t i, const SceneNames& names) override {
+    const IndexRow& record = source_.chosen[row];
+    const Array rectangles = source_.load(record, "box_amodal", {DType::f32}, {-1, 4}),
+                ids = source_.load(record, "box_instance", {DType::u32}, {-1}),
+                visibility = source_.load(record, "box_visibility", {DType::f32}, {-1});
+    expect_same_rows(source_, {&rectangles, &ids, &visibility});
+    const auto width = static_cast<size_t>(rgb.shape[1]);
+    const double u = static_cast<double>(i % width) + 0.5, v = static_cast<double>(i / width) + 0.5;
+    double smallest = std::numeric_limits<double>::infinity();
+    std::string text = "no box";
+    for (size_t b = 0; b < ids.as<uint32_t>().size(); ++b) {
+      const float* const r = rectangles.as<float>().data() + 4 * b;
+      const double area = (double(r[2]) - r[0]) * (double(r[3]) - r[1]);
+      if (u < r[0] || u > r[2] || v < r[1] || v > r[3] || area >= smallest) continue;
+      smallest = area;
+      text = fmt::format("{}\n{:.4g} x {:.4g} px, {:.0f} % seen", names.instance(ids.as<uint32_t>()[b]),
+                         r[2] - r[0], r[3] - r[1], 100.0f * visibility.as<float>()[b]);
+    }
+    return text;
+  }
 };
 
 }  // namespace
@@ -127,16 +171,15 @@ Color flow_color(double u, double v) {
     double distance = std::abs(sixth - at);
     distance = std::min(distance, 6.0 - distance);
     const double pure = std::clamp(2.0 - distance, 0.0, 1.0);
-    return static_cast<uint8_t>(std::lround(255.0 * value * (1.0 - saturation * (1.0 - pure))));
+    return static_cast<uint8_t>(255.0 * value * (1.0 - saturation * (1.0 - pure)) + 0.5);
   };
   return {channel(0.0), channel(2.0), channel(4.0)};
 }
 
-void add_truth_panels(const PanelSource& source, Panels& panels) {
-  if (source.has("normals")) panels.frames.push_back(std::make_unique<NormalsPanel>(source));
-  if (source.has("flow")) panels.frames.push_back(std::make_unique<FlowPanel>(source));
-  if (source.has("rgb") && source.has("box_amodal") && source.has("box_visibility"))
-    panels.frames.push_back(std::make_unique<BoxesPanel>(source));
+std::vector<FrameKind> truth_frames() {
+  return {{"normals", {"normals"}, make_frame<NormalsPanel>, "normals"},
+          {"flow", {"flow"}, make_frame<FlowPanel>, "flow"},
+          {"boxes", {"rgb", "box_amodal", "box_visibility"}, make_frame<BoxesPanel>, "boxes"}};
 }
 
 }  // namespace greatx::io

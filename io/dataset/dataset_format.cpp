@@ -474,13 +474,6 @@ int64_t SampleClock::time_ns(int64_t tick) const {
 
 std::string find_bad_value(const SensorSpec& sensor, const ArraySpec& spec, const Array& array) {
   if (array.dtype != DType::f32 && array.dtype != DType::f64 && array.dtype != DType::complex64) return {};
-  if (sensor.metadata_json.find("\"non_finite\"") != std::string::npos) {
-    const Json metadata = Json::parse(sensor.metadata_json);
-    const auto listed = metadata.find("non_finite");
-    if (listed != metadata.end() && listed->is_array() &&
-        std::find(listed->begin(), listed->end(), spec.name) != listed->end())
-      return {};
-  }
   const bool sky = sensor.kind == "camera" && spec.name.starts_with("depth");
   const size_t count = array.bytes.size() / (array.dtype == DType::f64 ? 8 : 4);
   size_t at = 0;
@@ -495,6 +488,14 @@ std::string find_bad_value(const SensorSpec& sensor, const ArraySpec& spec, cons
     if (at < count) value = std::bit_cast<float>(values[at]);
   }
   if (at == count) return {};
+  // Few arrays have such values, and metadata may be long, so they are read last.
+  if (sensor.metadata_json.find("\"non_finite\"") != std::string::npos) {
+    const Json metadata = Json::parse(sensor.metadata_json);
+    const auto listed = metadata.find("non_finite");
+    if (listed != metadata.end() && listed->is_array() &&
+        std::find(listed->begin(), listed->end(), spec.name) != listed->end())
+      return {};
+  }
   return fmt::format("{} at element {} of {}", value, array.dtype == DType::complex64 ? at / 2 : at,
                      spec.name);
 }

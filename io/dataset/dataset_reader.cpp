@@ -99,6 +99,20 @@ std::vector<IndexRow> DatasetReader::records_of(uint32_t sequence, size_t sensor
 }
 
 Array DatasetReader::load(uint32_t sequence, const IndexRow& row, const std::string& array) const {
+  Clouds clouds;
+  return load(sequence, row, array, clouds);
+}
+
+std::vector<Array> DatasetReader::load_record(uint32_t sequence, const IndexRow& row) const {
+  Clouds clouds;
+  std::vector<Array> arrays;
+  for (const ArraySpec& array : info_.sensors.at(static_cast<size_t>(row.sensor)).arrays)
+    arrays.push_back(load(sequence, row, array.name, clouds));
+  return arrays;
+}
+
+Array DatasetReader::load(uint32_t sequence, const IndexRow& row, const std::string& array,
+                          Clouds& clouds) const {
   const SensorSpec& sensor = info_.sensors.at(static_cast<size_t>(row.sensor));
   const OutputSpec* choice = nullptr;
   for (const OutputSpec& output : sensor.outputs) {
@@ -108,11 +122,17 @@ Array DatasetReader::load(uint32_t sequence, const IndexRow& row, const std::str
   }
   GREATX_CHECK(choice != nullptr, "{} has no array {}", sensor.name, array);
   const auto index = std::find(choice->arrays.begin(), choice->arrays.end(), array) - choice->arrays.begin();
-  return load_output(sequence, row, *choice, static_cast<size_t>(index));
+  return load_output(sequence, row, *choice, static_cast<size_t>(index), clouds);
 }
 
 Array DatasetReader::load_output(uint32_t sequence, const IndexRow& row, const OutputSpec& output,
                                  size_t array) const {
+  Clouds clouds;
+  return load_output(sequence, row, output, array, clouds);
+}
+
+Array DatasetReader::load_output(uint32_t sequence, const IndexRow& row, const OutputSpec& output,
+                                 size_t array, Clouds& clouds) const {
   const SensorSpec& sensor = info_.sensors.at(static_cast<size_t>(row.sensor));
   const ArraySpec& spec = sensor.arrays[arrays_of(sensor, output).at(array)];
   if (is_stack(output.format)) return load_stack(sequence, row, output, spec);
@@ -138,10 +158,13 @@ Array DatasetReader::load_output(uint32_t sequence, const IndexRow& row, const O
       result = decode_kitti(read_file(path), path.string());
       break;
     default: {
-      const Bytes file = read_file(path);
-      std::map<std::string, Array> properties = output.format == FileFormat::ply
-                                                    ? decode_ply(file, path.string())
-                                                    : decode_pcd(file, path.string());
+      const auto [cloud, is_new] = clouds.try_emplace(&output);
+      std::map<std::string, Array>& properties = cloud->second;
+      if (is_new) {
+        const Bytes file = read_file(path);
+        properties = output.format == FileFormat::ply ? decode_ply(file, path.string())
+                                                      : decode_pcd(file, path.string());
+      }
       if (array == 0)
         result = points_of(properties, path.string());
       else if (const auto found = properties.find(spec.name); found != properties.end())

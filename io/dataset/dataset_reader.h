@@ -13,6 +13,7 @@
 
 #include "core/record.h"
 #include "io/dataset/dataset_format.h"
+#include "io/dataset/record_source.h"
 
 namespace greatx::io {
 
@@ -20,32 +21,39 @@ class NpyFile;
 
 /// Reads a finished or unfinished data set. Of an unfinished one, it shows the complete packets. Several
 /// threads may load frames at once, but only one thread at a time may load from stacks.
-class DatasetReader {
+class DatasetReader : public RecordSource {
  public:
   /// Throws UserError if the folder holds no data set or an unreadable one.
   explicit DatasetReader(const std::filesystem::path& folder);
-  ~DatasetReader();
+  ~DatasetReader() override;
   DatasetReader(DatasetReader&&) noexcept;
 
   const std::filesystem::path& folder() const { return folder_; }
-  const DatasetInfo& info() const { return info_; }
-  const std::vector<SensorSpec>& sensors() const { return info_.sensors; }
+  const DatasetInfo& info() const override { return info_; }
+  std::string place() const override { return folder_.string(); }
   bool finished() const { return finished_; }
   /// Returns the number of sequences that have an index or, in an unfinished data set, that the journal
   /// knows.
   uint32_t sequences() const { return static_cast<uint32_t>(rows_.size()); }
   const std::vector<IndexRow>& records(uint32_t sequence) const { return rows_.at(sequence); }
-  /// Returns the records of one sensor.
-  std::vector<IndexRow> records_of(uint32_t sequence, size_t sensor) const;
+  std::vector<IndexRow> records_of(uint32_t sequence, size_t sensor) const override;
 
   /// Loads one array of one record in its written shape: [h, w, 3], [n, 4], ... An output that keeps the
   /// array exactly is preferred (EXR to 24-bit PNG for depth). Throws UserError if the file is missing or
   /// does not hold such an array.
-  Array load(uint32_t sequence, const IndexRow& row, const std::string& array) const;
+  Array load(uint32_t sequence, const IndexRow& row, const std::string& array) const override;
+  /// Loads all arrays of one record, in the order of the sensor's arrays, each one like load(). A file that
+  /// holds several of them is read once.
+  std::vector<Array> load_record(uint32_t sequence, const IndexRow& row) const;
   /// Loads an array from the given output. `array` is an index into OutputSpec::arrays.
   Array load_output(uint32_t sequence, const IndexRow& row, const OutputSpec& output, size_t array) const;
 
  private:
+  /// Holds the properties of the clouds that were read, by output.
+  using Clouds = std::map<const OutputSpec*, std::map<std::string, Array>>;
+  Array load(uint32_t sequence, const IndexRow& row, const std::string& array, Clouds& clouds) const;
+  Array load_output(uint32_t sequence, const IndexRow& row, const OutputSpec& output, size_t array,
+                    Clouds& clouds) const;
   Array load_stack(uint32_t sequence, const IndexRow& row, const OutputSpec& output,
                    const ArraySpec& spec) const;
   Array read_stack_rows(const std::string& path, DType dtype, std::vector<int64_t> row_shape, int64_t first,

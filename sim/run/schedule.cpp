@@ -43,4 +43,11 @@ int64_t Schedule::previous(int64_t tick) const {
   return last;
 }
 
+int64_t Schedule::last_of(uint32_t sensor, int64_t tick) const {
+  const std::optional<SampleTimes>& times = times_.at(sensor);
+  if (!times) return previous(tick + 1);
+  const int64_t sample = times->first_at_or_after(tick + 1);
+  return sample > 0 ? times->tick_of(sample - 1) : -1;
+}
+
 }  // namespace greatx::sim

@@ -33,6 +33,8 @@ class Schedule {
   int64_t next(int64_t tick, int64_t end) const;
   /// Returns the last tick before `tick` at which something was due; -1: none.
   int64_t previous(int64_t tick) const;
+  /// Returns the last tick at or before `tick` at which `sensor` was due; -1: none.
+  int64_t last_of(uint32_t sensor, int64_t tick) const;
 
  private:
   Rational tick_rate_hz_;

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "core/activity.h"
+#include "core/watch.h"
 #include "sim/plan/plan_options.h"
 #include "sim/sensors/located.h"
 
@@ -84,10 +85,19 @@ void Simulator::start(uint32_t sequence, int64_t first_tick) {
   replay(next_tick_);
 }
 
+bool Simulator::remembers() const {
+  return std::ranges::any_of(sensors_, [](const RunSensor& run) { return run.sensor->remembers(); });
+}
+
 /// Runs the sensors that remember through the ticks before `end`, without writing anything.
 void Simulator::replay(int64_t end) {
+  if (!remembers()) return;
+  WorkStage stage("catching up");
+  stage.expect(static_cast<double>(due_ticks_));
   int64_t before = 0;
   for (int64_t tick = schedule_.next(0, end); tick < end; tick = schedule_.next(tick + 1, end)) {
+    checkpoint();
+    stage.add(1);
     std::vector<Due> due = schedule_.due(tick, before++);
     std::erase_if(due, [&](const Due& d) { return !sensors_[d.sensor].sensor->remembers(); });
     if (due.empty()) continue;

@@ -71,6 +71,9 @@ class Simulator {
   void drain(RecordSink& sink);
 
   int64_t next_tick() const { return next_tick_; }  ///< the tick that step() will record
+  const Schedule& schedule() const { return schedule_; }
+  /// Returns whether start() at a later tick runs through the ticks before it, because a sensor remembers.
+  bool remembers() const;
   RunStatistics statistics() const;
   void keep_pass_samples(bool keep) { keep_samples_ = keep; }
 

@@ -19,7 +19,7 @@ import re
 import sys
 import textwrap
 
-TOPS = ["core", "gpu", "scene", "renderer", "rf", "io", "sim", "draw", "assets", "apps", "python"]
+TOPS = ["core", "gpu", "scene", "renderer", "rf", "io", "sim", "draw", "view", "assets", "apps", "python"]
 #: Leaves that every room may include. C++ and GLSL both read shaders/shared. shaders/spirv.h finds compiled
 #: shaders.
 FREE = {"shaders", "shaders/shared"}

@@ -31,6 +31,20 @@ TEST(Schedule, NextAndPreviousAgreeWithDue) {
     EXPECT_EQ(schedule.previous(expected[i]), i == 0 ? -1 : expected[i - 1]);
 }
 
+TEST(Schedule, LastOfASensorAgreesWithDue) {
+  Schedule schedule(Rational::make(1000, 1));
+  schedule.add(Rational::make(30, 1));
+  schedule.add(std::nullopt);
+  schedule.add(Rational::make(7, 3));
+  std::vector<int64_t> last(3, -1);
+  for (int64_t tick = 0; tick < 1000; ++tick) {
+    for (const Due& due : schedule.due(tick, 0)) last[due.sensor] = tick;
+    for (uint32_t sensor = 0; sensor < last.size(); ++sensor)
+      ASSERT_EQ(schedule.last_of(sensor, tick), last[sensor]) << "sensor " << sensor << ", tick " << tick;
+  }
+  EXPECT_EQ(schedule.last_of(0, -1), -1);
+}
+
 TEST(Schedule, NothingAddedIsNeverDue) {
   const Schedule schedule(Rational::make(1000, 1));
   EXPECT_EQ(schedule.next(0, 50), 50);

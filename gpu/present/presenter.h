@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The frames of a user interface. Each is drawn into a picture of its own, which is then copied into the
+// window, or only kept: so a window and a run without one draw the same, and the last picture can be read.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "gpu/present/present_device.h"
+#include "gpu/present/swapchain.h"
+#include "gpu/present/ui_pipeline.h"
+
+namespace greatx::gpu {
+
+class Presenter {
+ public:
+  static constexpr uint32_t frames_in_flight = 2;
+
+  /// `surface` is null without a window. Both outlive the presenter.
+  Presenter(const PresentDevice& device, const Surface* surface);
+  ~Presenter();
+  Presenter(const Presenter&) = delete;
+  Presenter& operator=(const Presenter&) = delete;
+
+  /// Draws a frame of `extent` pixels: the updates of textures, then the triangles. Shows it in the window, if
+  /// there is one and it can be shown. An empty extent draws nothing.
+  void frame(VkExtent2D extent, const UiDrawing& drawing);
+  /// Returns the pixels of the last frame, RGBA, [height, width, 4], and its extent; empty before the first.
+  std::vector<std::byte> read_back();
+  VkExtent2D extent() const { return last_extent_; }
+
+  /// Makes a texture. Its content is undefined until update().
+  PresentTextureId make_texture(VkExtent2D extent);
+  VkExtent2D extent_of(PresentTextureId texture) const;
+  /// Replaces the texels from the next frame on, RGBA, [height, width, 4].
+  void update(PresentTextureId texture, std::vector<std::byte> rgba);
+  /// The texture may still be in use by frames in flight: it is destroyed after them.
+  void drop(PresentTextureId texture);
+
+ private:
+  /// What one frame in flight needs.
+  struct Frame {
+    VkCommandPool pool = VK_NULL_HANDLE;
+    VkCommandBuffer cmd = VK_NULL_HANDLE;
+    VkFence done = VK_NULL_HANDLE;
+    VkSemaphore acquired = VK_NULL_HANDLE;
+    std::unique_ptr<PresentImage> canvas;
+    VkFramebuffer framebuffer = VK_NULL_HANDLE;
+    std::vector<std::unique_ptr<PresentBuffer>> staging;  ///< of this frame's updates
+    std::unique_ptr<PresentBuffer> vertices, indices;
+  };
+  struct Texture {
+    std::unique_ptr<PresentImage> image;
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    std::vector<std::byte> pending;
+    bool shown = false;  ///< it has had texels
+  };
+  struct Dropped {
+    Texture texture;
+    uint64_t after_frame = 0;
+  };
+
+  void make_render_pass();
+  void make_frame(Frame& frame);
+  void fit_canvas(Frame& frame, VkExtent2D extent);
+  void record_updates(Frame& frame);
+  void record_drawing(Frame& frame, VkExtent2D extent, const UiDrawing& drawing);
+  void record_copy(Frame& frame, uint32_t image);
+  void submit(Frame& frame, std::optional<uint32_t> image);
+  void sweep();
+
+  const PresentDevice& device_;
+  std::unique_ptr<Swapchain> swapchain_;
+  VkRenderPass render_pass_ = VK_NULL_HANDLE;
+  std::unique_ptr<UiPipeline> pipeline_;
+  std::array<Frame, frames_in_flight> frames_;
+  uint64_t frame_ = 0;  ///< number of the next frame
+  VkExtent2D last_extent_{0, 0};
+  std::map<PresentTextureId, Texture> textures_;
+  std::vector<Dropped> dropped_;
+  PresentTextureId next_texture_ = 1;
+};
+
+}  // namespace greatx::gpu

@@ -1,0 +1,20 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+greatx_test(view_parts SOURCES script_test.cpp viewpoint_test.cpp
+            LINK greatx_view_camera greatx_view_script greatx_scene_description)
+
+# The window, drawn in memory; and a real one, where a display can be had.
+greatx_test(view_window SOURCES window_test.cpp LINK greatx_view_window PkgConfig::imgui)
+find_program(XVFB_RUN xvfb-run)
+if(XVFB_RUN)
+  add_test(NAME view_window_x11
+           COMMAND ${XVFB_RUN} -a -s "-screen 0 1400x900x24" $<TARGET_FILE:test_view_window>
+                   --gtest_filter=RealWindow.*)
+  set_tests_properties(view_window_x11 PROPERTIES LABELS view_window ENVIRONMENT "GREATX_TEST_DISPLAY=1")
+endif()
+
+# The real program, by scripts.
+greatx_test(view_program SOURCES view_program_test.cpp LINK greatx_io)
+target_compile_definitions(test_view_program PRIVATE GREATX_PROGRAM="$<TARGET_FILE:greatx>"
+                                                     GREATX_XVFB_RUN="${XVFB_RUN}")
+add_dependencies(test_view_program greatx)

@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The window: what is drawn is what is read back, pixel by pixel, offscreen and on a real display.
+#include "view/window/window.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <imgui.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace greatx::view {
+namespace {
+
+std::unique_ptr<Window> open(bool offscreen, int width = 320, int height = 200) {
+  WindowOptions options;
+  options.width = width;
+  options.height = height;
+  options.offscreen = offscreen;
+  options.validation = true;
+  return Window::open(options);
+}
+
+struct Rgb {
+  int r, g, b;
+  friend bool operator==(const Rgb&, const Rgb&) = default;
+};
+Rgb pixel(const Array& picture, int x, int y) {
+  const auto at = [&](int c) {
+    return static_cast<int>(picture.bytes[static_cast<size_t>((y * picture.shape[1] + x) * 3 + c)]);
+  };
+  return {at(0), at(1), at(2)};
+}
+
+template <typename Draw>
+void frame(Window& window, Draw draw) {
+  ASSERT_TRUE(window.begin_frame(0.0));
+  draw();
+  window.end_frame();
+  for (const std::string& message : window.validation_messages()) ADD_FAILURE() << message;
+}
+
+void fill(float x0, float y0, float x1, float y1, ImU32 color) {
+  ImGui::GetBackgroundDrawList()->AddRectFilled({x0, y0}, {x1, y1}, color);
+}
+
+/// [4, 8, 3] with every texel of its own colour.
+Array texels(int shift) {
+  Array picture(DType::u8, {4, 8, 3});
+  for (size_t i = 0; i < picture.bytes.size(); ++i)
+    picture.bytes[i] = static_cast<std::byte>((static_cast<int>(i) * 2 + shift) % 256);
+  return picture;
+}
+
+size_t resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  size_t total = 0, resident = 0;
+  file >> total >> resident;
+  return resident * 4096;
+}
+
+void draws_exactly(bool offscreen) {
+  const auto window = open(offscreen);
+  for (int i = 0; i < 3; ++i) frame(*window, [] { fill(10, 20, 30, 50, IM_COL32(255, 128, 64, 255)); });
+  const Array picture = window->screenshot();
+  ASSERT_EQ(picture.shape, (std::vector<int64_t>{window->height(), window->width(), 3}));
+  EXPECT_EQ(pixel(picture, 10, 20), (Rgb{255, 128, 64}));
+  EXPECT_EQ(pixel(picture, 29, 49), (Rgb{255, 128, 64}));
+  EXPECT_EQ(pixel(picture, 9, 20), (Rgb{0, 0, 0}));
+  EXPECT_EQ(pixel(picture, 30, 49), (Rgb{0, 0, 0}));
+  EXPECT_EQ(pixel(picture, 29, 50), (Rgb{0, 0, 0}));
+}
+
+void shows_textures(bool offscreen) {
+  const auto window = open(offscreen);
+  const TextureId texture = window->make_texture(texels(0));
+  const auto shown = [&](int shift) {
+    frame(*window, [&] { ImGui::GetBackgroundDrawList()->AddImage(texture, {5, 6}, {13, 10}); });
+    const Array picture = window->screenshot();
+    const Array wanted = texels(shift);
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 8; ++x)
+        EXPECT_EQ(pixel(picture, 5 + x, 6 + y), pixel(wanted, x, y)) << x << ' ' << y;
+  };
+  shown(0);
+  window->update_texture(texture, texels(77));
+  shown(77);
+  shown(77);
+  window->drop_texture(texture);  // while frames with it may be in flight
+  for (int i = 0; i < 4; ++i) frame(*window, [] {});
+}
+
+void takes_input(bool offscreen) {
+  const auto window = open(offscreen);
+  int pressed = 0;
+  char typed[32] = "";
+  bool key = false;
+  const auto draw = [&] {
+    ImGui::SetNextWindowPos({0, 0});
+    ImGui::SetNextWindowSize({300, 180});
+    ImGui::Begin("w", nullptr, ImGuiWindowFlags_NoTitleBar);
+    if (ImGui::Button("press", {100, 30})) ++pressed;
+    ImGui::SetKeyboardFocusHere();
+    ImGui::InputText("text", typed, sizeof typed);
+    key |= ImGui::IsKeyPressed('K', false);
+    ImGui::End();
+  };
+  for (int i = 0; i < 2; ++i) frame(*window, draw);
+  const auto mouse = [&](InputEvent::Kind kind) {
+    InputEvent event;
+    event.kind = kind;
+    event.x = 50;
+    event.y = 20;
+    window->inject(event);
+    frame(*window, draw);
+  };
+  mouse(InputEvent::Kind::move);
+  mouse(InputEvent::Kind::press);
+  mouse(InputEvent::Kind::release);
+  frame(*window, draw);
+  EXPECT_EQ(pressed, 1);
+  InputEvent text;
+  text.kind = InputEvent::Kind::text;
+  text.text = "abc";
+  window->inject(text);
+  for (int i = 0; i < 3; ++i) frame(*window, draw);
+  EXPECT_STREQ(typed, "abc");
+  InputEvent down;
+  down.kind = InputEvent::Kind::key_down;
+  down.key = 'K';
+  window->inject(down);
+  frame(*window, draw);
+  EXPECT_TRUE(key);
+}
+
+void resizes(bool offscreen) {
+  const auto window = open(offscreen);
+  for (const auto& [width, height] : {std::pair(500, 300), std::pair(200, 150), std::pair(640, 480)}) {
+    InputEvent resize;
+    resize.kind = InputEvent::Kind::resize;
+    resize.x = width;
+    resize.y = height;
+    window->inject(resize);
+    for (int i = 0; i < 20 && (window->width() != width || i < 3); ++i)
+      frame(*window, [] { fill(0, 0, 50, 50, IM_COL32(1, 2, 3, 255)); });
+    const Array picture = window->screenshot();
+    EXPECT_EQ(picture.shape, (std::vector<int64_t>{height, width, 3}));
+    EXPECT_EQ(pixel(picture, 49, 49), (Rgb{1, 2, 3}));
+  }
+}
+
+void minimizes(bool offscreen) {
+  const auto window = open(offscreen);
+  frame(*window, [] {});
+  InputEvent event;
+  event.kind = InputEvent::Kind::minimize;
+  window->inject(event);
+  for (int i = 0; i < 5; ++i) frame(*window, [] { fill(0, 0, 9, 9, IM_COL32_WHITE); });
+  event.kind = InputEvent::Kind::restore;
+  window->inject(event);
+  for (int i = 0; i < 5; ++i) frame(*window, [] { fill(0, 0, 9, 9, IM_COL32_WHITE); });
+  EXPECT_FALSE(window->minimized());
+  EXPECT_EQ(pixel(window->screenshot(), 4, 4), (Rgb{255, 255, 255}));
+}
+
+TEST(Window, DrawsExactly) { draws_exactly(true); }
+TEST(Window, ShowsTextures) { shows_textures(true); }
+TEST(Window, TakesInput) { takes_input(true); }
+TEST(Window, Resizes) { resizes(true); }
+TEST(Window, Minimizes) { minimizes(true); }
+
+TEST(Window, ManyFramesDoNotGrow) {
+  const auto window = open(true, 160, 120);
+  TextureId texture = window->make_texture(texels(0));
+  const auto run = [&](int frames) {
+    for (int i = 0; i < frames; ++i) {
+      window->update_texture(texture, texels(i));
+      if (i % 10 == 9) {
+        window->drop_texture(texture);
+        texture = window->make_texture(texels(i));
+      }
+      frame(*window, [&] { ImGui::GetBackgroundDrawList()->AddImage(texture, {0, 0}, {80, 40}); });
+    }
+  };
+  run(200);
+  const size_t before = resident_bytes();
+  run(1000);
+  EXPECT_LT(resident_bytes(), before + (size_t{8} << 20));
+}
+
+TEST(Window, WithoutADisplayTheErrorNamesTheWayOut) {
+  if (std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr)
+    GTEST_SKIP() << "there is a display";
+  try {
+    open(false);
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(),
+                testing::AllOf(testing::HasSubstr("no display"), testing::HasSubstr("--offscreen")));
+  }
+}
+
+/// With a display: CMake runs these under Xvfb.
+class RealWindow : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::getenv("GREATX_TEST_DISPLAY") == nullptr) GTEST_SKIP() << "runs under Xvfb, as view_window_x11";
+  }
+};
+TEST_F(RealWindow, DrawsExactly) { draws_exactly(false); }
+TEST_F(RealWindow, ShowsTextures) { shows_textures(false); }
+TEST_F(RealWindow, TakesInput) { takes_input(false); }
+TEST_F(RealWindow, Resizes) { resizes(false); }
+TEST_F(RealWindow, Minimizes) { minimizes(false); }
+
+}  // namespace
+}  // namespace greatx::view

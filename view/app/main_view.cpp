@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "view/app/main_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+
+namespace greatx::view {
+
+namespace {
+
+constexpr double vertical_fov = 50.0 * pi / 180.0;
+constexpr double rest_s = 0.15;  ///< without a change, after which the picture is made fine
+constexpr double turn_per_pixel = 0.005, zoom_per_turn = 0.85;
+constexpr double fly_per_s = 0.7;  ///< of the distance to the pivot
+constexpr float drag_px = 4.0f;    ///< a click moves less
+/// While the view moves, a picture has this share of the columns and rows.
+constexpr double coarse_share = 0.5;
+
+bool same_pose(const Pose& a, const Pose& b) {
+  return a.position == b.position && a.orientation == b.orientation;
+}
+
+/// Whether two requests show the same, whatever their quality.
+bool same_view(const SceneRequest& a, const SceneRequest& b) {
+  return same_pose(a.view.local_from_sensor, b.view.local_from_sensor) && a.sequence == b.sequence &&
+         a.tick == b.tick && a.excluded_body == b.excluded_body;
+}
+bool same_request(const SceneRequest& a, const SceneRequest& b) {
+  return same_view(a, b) && a.fine == b.fine && a.view.width == b.view.width &&
+         a.view.height == b.view.height && a.view.fx == b.view.fx;
+}
+
+dvec3 keys_pressed() {
+  const auto axis = [](int plus, int minus) {
+    return (ImGui::IsKeyDown(plus) ? 1.0 : 0.0) - (ImGui::IsKeyDown(minus) ? 1.0 : 0.0);
+  };
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.KeyCtrl || io.KeyAlt || io.WantTextInput) return dvec3(0.0);
+  return {axis('W', 'S'), axis('A', 'D'), axis('E', 'Q')};
+}
+
+Array rgb_array(const ScenePicture& picture) {
+  return Array::of<uint8_t>({picture.request.view.height, picture.request.view.width, 3}, picture.rgb);
+}
+
+}  // namespace
+
+MainView::~MainView() {
+  if (texture_ != nullptr) window_.drop_texture(texture_);
+}
+
+void MainView::set_scene(std::shared_ptr<const sim::Experiment> experiment,
+                         std::unique_ptr<SceneView> scene) {
+  experiment_ = std::move(experiment);
+  scene_ = std::move(scene);
+  moments_.emplace(experiment_);
+  look_from_outside();
+}
+
+void MainView::look_from_outside() {
+  if (experiment_ == nullptr) return;
+  scene::Bounds bounds = experiment_->scene().bounds;
+  if (bounds.empty()) bounds = {dvec3(-10.0), dvec3(10.0)};
+  bounds.min += experiment_->scene().origin;
+  bounds.max += experiment_->scene().origin;
+  viewpoint_ = Viewpoint::outside(bounds);
+  camera_.reset();
+  follow({});
+}
+
+void MainView::follow(std::optional<uint32_t> node) {
+  followed_ = node;
+  followed_at_ = dvec3(std::numeric_limits<double>::quiet_NaN());
+}
+
+SceneRequest MainView::wanted(const ShownTick& tick, bool fine) {
+  SceneRequest request;
+  request.sequence = tick.sequence;
+  request.tick = tick.packet.tick;
+  request.fine = fine;
+  const double share = fine ? 1.0 : coarse_share;
+  const auto width = static_cast<uint32_t>(std::max(16.0, std::round(share * size_.x)));
+  const auto height = static_cast<uint32_t>(std::max(16.0, std::round(share * size_.y)));
+  if (camera_) {
+    const sim::Moment& moment = moments_->at(tick.sequence, tick.packet.tick);
+    const apps::ScenarioView through = apps::scenario_view(*camera_, *experiment_, moment, width);
+    request.view = through.view;
+    request.excluded_body = through.excluded_body;
+  } else {
+    request.view = viewpoint_->picture_view(experiment_->scene().origin, width, height, vertical_fov);
+  }
+  return request;
+}
+
+void MainView::navigate(const ShownTick& tick) {
+  if (followed_) {
+    const dvec3 at = moments_->at(tick.sequence, tick.packet.tick).motions.at(*followed_).pose.position;
+    if (std::isfinite(followed_at_.x)) viewpoint_->carry(at - followed_at_);
+    followed_at_ = at;
+  }
+  if (camera_) return;
+  const ImGuiIO& io = ImGui::GetIO();
+  const dvec3 keys = ImGui::IsWindowFocused() ? keys_pressed() : dvec3(0.0);
+  const double metres = fly_per_s * viewpoint_->distance_m() * io.DeltaTime * (io.KeyShift ? 4.0 : 1.0);
+  bool moved = keys != dvec3(0.0);
+  if (moved) viewpoint_->fly(metres * keys);
+  if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f) {
+    viewpoint_->approach(std::pow(zoom_per_turn, io.MouseWheel));
+    moved = true;
+  }
+  const dvec2 delta(io.MouseDelta.x, io.MouseDelta.y);
+  if (ImGui::IsItemActive() && delta != dvec2(0.0)) {
+    const dvec2 angle = turn_per_pixel * delta;
+    if (ImGui::IsMouseDown(ImGuiMouseButton_Right))
+      viewpoint_->turn(-angle.x, angle.y);
+    else if (ImGui::IsMouseDown(ImGuiMouseButton_Middle) || io.KeyShift)
+      viewpoint_->pan(delta, 0.5 * size_.y / std::tan(0.5 * vertical_fov));
+    else if (dragged_)
+      viewpoint_->orbit(-angle.x, angle.y);
+    moved = true;
+  }
+  if (moved) moved_at_s_ = ImGui::GetTime();
+}
+
+void MainView::request(const ShownTick& tick) {
+  const bool rests = ImGui::GetTime() - moved_at_s_ > rest_s;
+  SceneRequest request = wanted(tick, rests);
+  if (has_asked_ && !same_view(request, asked_)) {
+    moved_at_s_ = ImGui::GetTime();
+    request = wanted(tick, false);
+  }
+  if (!has_asked_ || !same_request(request, asked_)) {
+    scene_->look(request);
+    asked_ = request;
+    has_asked_ = true;
+  }
+  settled_ = request.fine && picture_ && same_request(picture_->request, request);
+  busy_ = !settled_;
+}
+
+void MainView::show_picture() {
+  const std::shared_ptr<const ScenePicture> newest = scene_->picture();
+  if (newest == nullptr || newest == picture_) return;
+  picture_ = newest;
+  const apps::PictureView& view = picture_->request.view;
+  if (texture_ != nullptr && (texture_width_ != view.width || texture_height_ != view.height)) {
+    window_.drop_texture(texture_);
+    texture_ = nullptr;
+  }
+  if (texture_ == nullptr) {
+    texture_ = window_.make_texture(rgb_array(*picture_));
+    texture_width_ = view.width;
+    texture_height_ = view.height;
+  } else {
+    window_.update_texture(texture_, rgb_array(*picture_));
+  }
+}
+
+std::optional<ImVec2> MainView::pixel_under(const ImVec2& at) const {
+  if (picture_ == nullptr || size_.x <= 0.0f) return {};
+  const apps::PictureView& view = picture_->request.view;
+  const float scale = size_.x / static_cast<float>(view.width);
+  return ImVec2((at.x - corner_.x) / scale, (at.y - corner_.y) / scale);
+}
+
+void MainView::click(const ImVec2& at) {
+  if (const std::optional<ImVec2> pixel = pixel_under(at))
+    picked_ = pick(*picture_, static_cast<int>(std::floor(pixel->x)), static_cast<int>(std::floor(pixel->y)),
+                   experiment_->scene().origin);
+}
+
+Facts MainView::picked_facts(double carrier_hz) const {
+  if (!picked_ || picture_ == nullptr) return {};
+  return facts_of(*picked_, *experiment_, *picture_, carrier_hz);
+}
+
+void MainView::draw_overlays(const Shapes& shapes) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 end(corner_.x + size_.x, corner_.y + size_.y);
+  list.PushClipRect(corner_, end, true);
+  OverlayFrame frame;
+  frame.view = picture_->request.view;
+  frame.depth = picture_->depth;
+  frame.origin = experiment_->scene().origin;
+  frame.corner = corner_;
+  frame.size = size_;
+  std::optional<ImVec2> cursor;
+  if (ImGui::IsItemHovered()) cursor = ImGui::GetMousePos();
+  const std::optional<OverlayHit> hit = draw_shapes(list, shapes, frame, cursor, hovered_id_);
+  if (cursor) hovered_id_ = hit ? shapes.rows[hit->row].id : 0;
+  if (hit) ImGui::SetTooltip("%s", shapes.rows[hit->row].text.c_str());
+  draw_legend(list, shapes, {corner_.x + 10.0f, corner_.y + 10.0f});
+  list.PopClipRect();
+}
+
+void MainView::draw(const ShownTick* tick, const Shapes& shapes) {
+  corner_ = ImGui::GetCursorScreenPos();
+  size_ = ImGui::GetContentRegionAvail();
+  settled_ = busy_ = false;
+  if (scene_ == nullptr || tick == nullptr || size_.x < 16.0f || size_.y < 16.0f) return;
+  ImGui::InvisibleButton("main view", size_,
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  if (ImGui::IsItemActivated()) dragged_ = false;
+  if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, drag_px)) dragged_ = true;
+  navigate(*tick);
+  request(*tick);
+  show_picture();
+  if (picture_ == nullptr) return;
+  // A camera's picture keeps its own shape.
+  const apps::PictureView& view = picture_->request.view;
+  const float shape = static_cast<float>(view.height) / static_cast<float>(view.width);
+  size_.y = std::min(size_.y, size_.x * shape);
+  size_.x = size_.y / shape;
+  ImGui::GetWindowDrawList()->AddImage(texture_, corner_, {corner_.x + size_.x, corner_.y + size_.y});
+  draw_overlays(shapes);
+  if (ImGui::IsItemDeactivated() && !dragged_ && ImGui::IsItemHovered() &&
+      ImGui::IsMouseReleased(ImGuiMouseButton_Left))
+    click(ImGui::GetMousePos());
+}
+
+}  // namespace greatx::view

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The main view: the scene from where the user looks, with the overlays over it. It asks SceneView for pictures
+// and shows the newest one it has; overlays are placed by the view of the picture that is shown, so that both
+// fit together while the user flies.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "draw/paths/render.h"
+#include "view/app/overlay_draw.h"
+#include "view/camera/viewpoint.h"
+#include "view/pick/pick.h"
+#include "view/run/run.h"
+#include "view/scene/moment_cache.h"
+#include "view/scene/scene_view.h"
+#include "view/window/window.h"
+
+namespace greatx::view {
+
+class MainView {
+ public:
+  explicit MainView(Window& window) : window_(window) {}
+  ~MainView();
+  MainView(const MainView&) = delete;
+  MainView& operator=(const MainView&) = delete;
+
+  /// Shows a scene. `scene` draws it and has been made from the experiment.
+  void set_scene(std::shared_ptr<const sim::Experiment> experiment, std::unique_ptr<SceneView> scene);
+  bool has_scene() const { return scene_ != nullptr; }
+  std::string error() const { return scene_ ? scene_->error() : ""; }
+
+  /// Draws into the current ImGui window, and takes its mouse and keys. `tick` is null before the first one.
+  void draw(const ShownTick* tick, const Shapes& shapes);
+  /// Whether the shown picture is the one that is wanted, at full quality.
+  bool settled() const { return settled_; }
+  /// Whether the next frame should come soon, since something moves.
+  bool busy() const { return busy_; }
+  double picture_ms() const { return picture_ ? picture_->milliseconds : 0.0; }
+
+  void look_from_outside();
+  /// Moves with a node from now on; none: stays.
+  void follow(std::optional<uint32_t> node);
+  std::optional<uint32_t> followed() const { return followed_; }
+  /// Looks through a camera of the scenario, with its lens; none: flies.
+  void look_through(std::optional<apps::CameraName> camera) { camera_ = camera; }
+  std::optional<apps::CameraName> camera() const { return camera_; }
+
+  /// What the user clicked at, and the tick's facts about it.
+  const std::optional<Picked>& picked() const { return picked_; }
+  Facts picked_facts(double carrier_hz) const;
+  void select_nothing() { picked_.reset(); }
+  /// The identity of the shape under the cursor; 0: none. It stays highlighted while it moves.
+  uint64_t hovered_id() const { return hovered_id_; }
+  void highlight(uint64_t id) { hovered_id_ = id; }
+
+ private:
+  void navigate(const ShownTick& tick);
+  void request(const ShownTick& tick);
+  SceneRequest wanted(const ShownTick& tick, bool fine);
+  void show_picture();
+  void draw_overlays(const Shapes& shapes);
+  void click(const ImVec2& at);
+  std::optional<ImVec2> pixel_under(const ImVec2& at) const;
+
+  Window& window_;
+  std::shared_ptr<const sim::Experiment> experiment_;
+  std::unique_ptr<SceneView> scene_;
+  std::optional<MomentCache> moments_;
+  std::optional<Viewpoint> viewpoint_;
+  std::optional<uint32_t> followed_;
+  dvec3 followed_at_{0.0};
+  std::optional<apps::CameraName> camera_;
+  std::shared_ptr<const ScenePicture> picture_;
+  TextureId texture_ = nullptr;
+  uint32_t texture_width_ = 0, texture_height_ = 0;
+  ImVec2 corner_{0, 0}, size_{0, 0};  ///< of the view in the window
+  SceneRequest asked_;
+  bool has_asked_ = false;
+  double moved_at_s_ = -1e9;  ///< ImGui's time of the last change of the view
+  bool settled_ = false, busy_ = false;
+  bool dragged_ = false;  ///< since the button went down
+  std::optional<Picked> picked_;
+  uint64_t hovered_id_ = 0;
+};
+
+}  // namespace greatx::view

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The tiles of what the sensors measured, side by side for several runs.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "view/app/shown_run.h"
+#include "view/panel/panel.h"
+#include "view/panel/record_history.h"
+#include "view/window/window.h"
+
+namespace greatx::view {
+
+class PanelGrid {
+ public:
+  explicit PanelGrid(Window& window) : window_(window) {}
+  ~PanelGrid();
+  PanelGrid(const PanelGrid&) = delete;
+  PanelGrid& operator=(const PanelGrid&) = delete;
+
+  /// Takes the newest tick of each run into its history. To be called in every frame, drawn or not, so that
+  /// panels over time have no gaps.
+  void keep(std::span<ShownRun* const> runs);
+  /// Draws the tiles into the current ImGui window.
+  void draw(std::span<ShownRun* const> runs);
+  /// Opens or closes the tile of this title, e.g. "uav/front: depth". Throws UserError if there is none.
+  void toggle(const std::string& title);
+  /// Wall time of drawing the tiles in the last frame, ms.
+  double milliseconds() const { return milliseconds_; }
+
+ private:
+  struct Tile {
+    std::unique_ptr<Panel> panel;
+    TextureId texture = nullptr;
+    int width = 0, height = 0;
+    uint64_t version = 0;
+    bool open = false;
+  };
+  struct RunTiles {
+    std::shared_ptr<RecordHistory> history;
+    std::vector<PanelChoice> choices;
+    std::vector<Tile> tiles;  ///< [choices]
+    std::shared_ptr<const ShownTick> kept;
+  };
+  void prepare(RunTiles& tiles, ShownRun& run);
+  void draw_choices();
+  void draw_tile(Tile& tile, const ShownTick& tick, int width);
+  void drop(Tile& tile);
+
+  Window& window_;
+  std::map<std::string, RunTiles> runs_;  ///< by the run's name
+  double milliseconds_ = 0.0;
+};
+
+}  // namespace greatx::view

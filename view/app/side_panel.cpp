@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "view/app/side_panel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <imgui.h>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "draw/paths/facts.h"
+
+namespace greatx::view {
+
+namespace {
+
+constexpr size_t most_times = 200;
+constexpr double default_carrier_hz = 3.5e9;
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+void draw_facts(const Facts& facts) {
+  if (!ImGui::BeginTable("facts", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
+  for (const auto& [name, value] : facts) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", name.c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextWrapped("%s", value.c_str());
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+double SidePanel::carrier_hz(ShownRun& run) const {
+  if (run.experiment() != nullptr && !run.experiment()->scenario.channels.empty()) {
+    const auto& channels = run.experiment()->scenario.channels;
+    const size_t chosen = run.overlays() != nullptr ? run.overlays()->settings().channel : 0;
+    return channels[std::min(chosen, channels.size() - 1)].carrier_hz;
+  }
+  return default_carrier_hz;
+}
+
+void SidePanel::draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view) {
+  keep_times(main);
+  grid_.keep(runs);
+  if (!ImGui::BeginTabBar("side tabs")) return;
+  const auto tab = [](const char* name, auto draw_tab) {
+    if (!ImGui::BeginTabItem(name)) return;
+    ImGui::BeginChild(name);
+    draw_tab();
+    ImGui::EndChild();
+    ImGui::EndTabItem();
+  };
+  tab("Sensors", [&] { grid_.draw(runs); });
+  tab("Picked", [&] { draw_picked(main, view); });
+  tab("Paths", [&] { draw_paths(main, view); });
+  tab("Effects", [&] { draw_effects(main); });
+  tab("Times", [&] { draw_times(main, view); });
+  ImGui::EndTabBar();
+}
+
+void SidePanel::draw_picked(ShownRun& run, MainView& view) {
+  if (!view.picked()) {
+    ImGui::TextWrapped("Click at something in the scene to see what it is, for light and for radio.");
+    return;
+  }
+  draw_facts(view.picked_facts(carrier_hz(run)));
+}
+
+void SidePanel::draw_filter(ShownRun& run) {
+  OverlaySettings& settings = run.overlays()->settings();
+  PathFilter& filter = settings.path.filter;
+  bool changed = false;
+  for (size_t i = 0; i < apps::path_kinds.size(); ++i) {
+    if (i % 3 != 0) ImGui::SameLine();
+    changed |= ImGui::Checkbox(apps::kind_name(apps::path_kinds[i]), &filter.kinds[i]);
+  }
+  float within = std::isfinite(filter.within_db) ? static_cast<float>(filter.within_db) : 100.0f;
+  if (ImGui::SliderFloat("weaker than the strongest by at most, dB", &within, 1.0f, 100.0f, "%.0f")) {
+    filter.within_db = within >= 100.0f ? std::numeric_limits<double>::infinity() : within;
+    changed = true;
+  }
+  int order = static_cast<int>(std::min<uint32_t>(filter.max_order, 10));
+  if (ImGui::SliderInt("interactions at most", &order, 0, 10)) {
+    filter.max_order = static_cast<uint32_t>(order);
+    changed = true;
+  }
+  bool by_kind = settings.path.colors == PathColors::kind;
+  if (ImGui::Checkbox("colours by kind instead of gain", &by_kind)) {
+    settings.path.colors = by_kind ? PathColors::kind : PathColors::gain;
+    changed = true;
+  }
+  if (changed) ++settings.version;
+}
+
+void SidePanel::draw_paths(ShownRun& run, MainView& view) {
+  if (run.overlays() == nullptr || run.overlays()->sensors_of("csi").empty()) {
+    ImGui::TextWrapped("This run has no channel.");
+    return;
+  }
+  draw_filter(run);
+  ImGui::Separator();
+  const Shapes& shapes = run.overlays()->shapes(run.run().shown());
+  std::vector<bool> listed(shapes.rows.size(), false);
+  for (const LineShape& line : shapes.lines) {
+    if (line.row == ~0u || listed[line.row] || shapes.rows[line.row].id == 0) continue;
+    listed[line.row] = true;
+    const ShapeRow& row = shapes.rows[line.row];
+    const bool chosen = view.hovered_id() == row.id;
+    ImGui::PushID(static_cast<int>(line.row));
+    ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(line.color.r, line.color.g, line.color.b, 255));
+    ImGui::Selectable(printable(first_line(row.text)).c_str(), chosen);
+    ImGui::PopStyleColor();
+    if (ImGui::IsItemHovered()) {
+      view.highlight(row.id);
+      ImGui::SetTooltip("%s", row.text.c_str());
+    }
+    ImGui::PopID();
+  }
+}
+
+void SidePanel::draw_effects(ShownRun& run) {
+  if (run.experiment() == nullptr) {
+    ImGui::TextUnformatted("The scenario is not there yet.");
+    return;
+  }
+  if (!ImGui::BeginTable("effects", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
+  for (const sim::Effect* const effect : run.experiment()->plan.all()) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    if (effect->on)
+      ImGui::TextColored({0.45f, 0.85f, 0.50f, 1.0f}, "on");
+    else
+      ImGui::TextDisabled("off");
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(effect->name.c_str());
+    ImGui::TableNextColumn();
+    const std::string why = effect->bound.empty() ? effect->reason : effect->reason + "; " + effect->bound;
+    ImGui::TextWrapped("%s", printable(why).c_str());
+  }
+  ImGui::EndTable();
+}
+
+void SidePanel::keep_times(ShownRun& run) {
+  const std::shared_ptr<const ShownTick> shown = run.run().shown();
+  if (shown == nullptr || shown == timed_) return;
+  timed_ = shown;
+  tick_ms_.push_back(static_cast<float>(shown->simulated_ms));
+  if (tick_ms_.size() > most_times) tick_ms_.pop_front();
+}
+
+void SidePanel::draw_times(ShownRun& run, const MainView& view) {
+  const RunStatus status = run.run().status();
+  const std::vector<float> times(tick_ms_.begin(), tick_ms_.end());
+  if (!times.empty()) {
+    const float most = *std::ranges::max_element(times);
+    std::vector<float> sorted = times;
+    std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
+    ImGui::Text("ticks: median %.1f ms, most %.1f ms", sorted[sorted.size() / 2], most);
+    ImGui::PlotHistogram("##ticks", times.data(), static_cast<int>(times.size()), 0, nullptr, 0.0f,
+                         1.1f * most, {-1.0f, 120.0f});
+  }
+  draw_facts({{"wanted speed", status.speed == 0.0 ? std::string("as fast as it can")
+                                                   : fmt::format("{:g} x real time", status.speed)},
+              {"reached", fmt::format("{:.2f} x real time", status.reached)},
+              {"picture of the scene", fmt::format("{:.1f} ms", view.picture_ms())},
+              {"overlays", fmt::format("{:.2f} ms", run.overlays() ? run.overlays()->milliseconds() : 0.0)},
+              {"panels", fmt::format("{:.2f} ms", grid_.milliseconds())}});
+}
+
+}  // namespace greatx::view

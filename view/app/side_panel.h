@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The column beside the main view: what the sensors measured, what the user picked, the paths of a link, the
+// plan of effects, and times.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "view/app/main_view.h"
+#include "view/app/panel_grid.h"
+#include "view/app/shown_run.h"
+
+namespace greatx::view {
+
+class SidePanel {
+ public:
+  explicit SidePanel(Window& window) : grid_(window) {}
+  /// Draws into the current ImGui window. `main` is the run that the main view shows.
+  void draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view);
+  PanelGrid& grid() { return grid_; }
+  /// Returns the carrier of the chosen channel, or of the first one; 3.5 GHz if there is none.
+  double carrier_hz(ShownRun& run) const;
+
+ private:
+  void draw_picked(ShownRun& run, MainView& view);
+  void draw_paths(ShownRun& run, MainView& view);
+  void draw_filter(ShownRun& run);
+  void draw_effects(ShownRun& run);
+  void draw_times(ShownRun& run, const MainView& view);
+  void keep_times(ShownRun& run);
+
+  PanelGrid grid_;
+  std::deque<float> tick_ms_;  ///< of the last ticks that were shown
+  std::shared_ptr<const ShownTick> timed_;
+};
+
+}  // namespace greatx::view

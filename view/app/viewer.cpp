@@ -1,0 +1,380 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "view/app/viewer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <imgui.h>
+#include <iostream>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "io/files/file.h"
+#include "io/formats/png.h"
+#include "sim/plan/camera_desc.h"
+#include "view/app/commands.h"
+#include "view/app/main_view.h"
+#include "view/app/script_runner.h"
+#include "view/app/shown_run.h"
+#include "view/app/side_panel.h"
+#include "view/app/timeline.h"
+
+namespace greatx::view {
+
+namespace {
+
+/// How long a frame waits for input: while something moves, while something may come, and at rest.
+constexpr double moving_wait_s = 0.0, waiting_wait_s = 0.008, resting_wait_s = 0.05;
+constexpr float side_share = 0.42f;  ///< of the width
+
+class Viewer {
+ public:
+  explicit Viewer(const ViewerOptions& options)
+      : options_(options), window_(Window::open(options.window)), main_(*window_), side_(*window_) {
+    if (options.datasets.empty())
+      runs_.push_back(ShownRun::live(options));
+    else
+      for (const std::filesystem::path& dataset : options.datasets)
+        runs_.push_back(ShownRun::replay(options, dataset));
+    window_->set_title("greatx: " + options.title);
+    add_commands();
+  }
+
+  void loop() {
+    ScriptRunner script(options_.script);
+    while (!quit_ && window_->begin_frame(wait_s())) {
+      frame();
+      window_->end_frame();
+      check_validation();
+      if (!options_.script.empty() && !script.advance(script_host())) return;
+    }
+  }
+
+ private:
+  ShownRun& shown() { return *runs_[main_run_]; }
+
+  double wait_s() {
+    if (main_.busy()) return moving_wait_s;
+    const bool comes = std::ranges::any_of(runs_, [](const std::unique_ptr<ShownRun>& run) {
+      const RunStatus status = run->run().status();
+      return status.playing || status.phase == RunStatus::Phase::loading;
+    });
+    return comes || !options_.script.empty() ? waiting_wait_s : resting_wait_s;
+  }
+
+  void check_validation() {
+    const std::vector<std::string> messages = window_->validation_messages();
+    if (!messages.empty())
+      throw std::runtime_error("the validation layer on the window's device: " + messages.front());
+  }
+
+  void update() {
+    for (size_t i = 0; i < runs_.size(); ++i) {
+      const std::shared_ptr<const sim::Experiment> loaded = runs_[i]->update();
+      if (loaded == nullptr || i != main_run_) continue;
+      main_.set_scene(loaded, std::make_unique<SceneView>(loaded, options_.device));
+      add_camera_commands(*loaded);
+    }
+  }
+
+  void frame() {
+    update();
+    commands_.run_keys();
+    if (ImGui::BeginMainMenuBar()) {
+      commands_.draw_menus();
+      draw_status();
+      ImGui::EndMainMenuBar();
+    }
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float top = ImGui::GetFrameHeight(), bottom = timeline_height();
+    const float side = side_open_ ? std::round(side_share * display.x) : 0.0f;
+    draw_main({0.0f, top}, {display.x - side, display.y - top - bottom});
+    if (side_open_) draw_side({display.x - side, top}, {side, display.y - top - bottom});
+    draw_timeline({0.0f, display.y - bottom}, {display.x, bottom}, timeline_runs());
+    if (help_open_) draw_help();
+  }
+
+  std::vector<Run*> timeline_runs() {
+    std::vector<Run*> runs;
+    for (const std::unique_ptr<ShownRun>& run : runs_) runs.push_back(&run->run());
+    return runs;
+  }
+
+  static void place(const ImVec2& at, const ImVec2& size) {
+    ImGui::SetNextWindowPos(at);
+    ImGui::SetNextWindowSize(size);
+  }
+
+  void draw_main(const ImVec2& at, const ImVec2& size) {
+    place(at, size);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
+    ImGui::Begin("scene", nullptr, fixed_window | ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::PopStyleVar();
+    const std::shared_ptr<const ShownTick> tick = shown().run().shown();
+    static const Shapes none;
+    Overlays* const overlays = shown().overlays();
+    const Shapes& shapes = overlays != nullptr ? overlays->shapes(tick) : none;
+    if (main_.has_scene() && tick != nullptr)
+      main_.draw(tick.get(), shapes);
+    else
+      draw_progress();
+    draw_errors();
+    ImGui::End();
+  }
+
+  void draw_progress() {
+    const RunStatus status = shown().run().status();
+    ImGui::SetCursorPos({20.0f, 20.0f});
+    if (status.phase == RunStatus::Phase::failed) return;
+    ImGui::BeginGroup();
+    ImGui::TextUnformatted(status.activity.empty() ? "loading" : printable(status.activity).c_str());
+    if (status.progress >= 0.0)
+      ImGui::ProgressBar(static_cast<float>(status.progress), {300.0f, 0.0f});
+    else
+      ImGui::TextDisabled("%s",
+                          std::string(1 + static_cast<size_t>(ImGui::GetTime() * 3.0) % 3, '.').c_str());
+    ImGui::EndGroup();
+  }
+
+  void draw_errors() {
+    std::vector<std::string> errors{shown().run().status().error, shown().scene_error(), main_.error()};
+    if (const Overlays* const overlays = shown().overlays()) errors.push_back(overlays->error());
+    errors.push_back(command_error_);
+    ImGui::SetCursorPos({20.0f, 60.0f});
+    ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - 20.0f);
+    for (const std::string& error : errors)
+      if (!error.empty())
+        ImGui::TextColored({1.0f, 0.45f, 0.40f, 1.0f}, "%s", printable_lines(error).c_str());
+    ImGui::PopTextWrapPos();
+  }
+
+  void draw_side(const ImVec2& at, const ImVec2& size) {
+    place(at, size);
+    ImGui::Begin("side", nullptr, fixed_window);
+    std::vector<ShownRun*> runs;
+    for (const std::unique_ptr<ShownRun>& run : runs_) runs.push_back(run.get());
+    side_.draw(runs, shown(), main_);
+    ImGui::End();
+  }
+
+  void draw_status() {
+    const std::string text =
+        fmt::format("{:.0f} frames/s   picture {:.0f} ms", ImGui::GetIO().Framerate, main_.picture_ms());
+    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - 12.0f);
+    ImGui::TextDisabled("%s", text.c_str());
+  }
+
+  void draw_help() {
+    ImGui::SetNextWindowPos({80.0f, 60.0f}, ImGuiCond_Appearing);
+    if (ImGui::Begin("Keys and mouse", &help_open_, ImGuiWindowFlags_AlwaysAutoResize)) {
+      ImGui::TextUnformatted(
+          "In the scene: drag left to orbit, right to look around, middle (or shift and left) to move;\n"
+          "the wheel comes nearer; W A S D fly, E and Q rise and sink, shift is four times as fast;\n"
+          "a click says what is there; the cursor over a path shows its row.");
+      ImGui::Separator();
+      commands_.draw_help();
+    }
+    ImGui::End();
+  }
+
+  void add_commands() {
+    const auto all = [this](auto act) {
+      return [this, act](const std::string&) {
+        for (const std::unique_ptr<ShownRun>& run : runs_) act(run->run());
+      };
+    };
+    commands_.add({"quit", "Run", "Quit", "ctrl+q", [this](const std::string&) { quit_ = true; }, {}, {}});
+    commands_.add({"play",
+                   "Run",
+                   "Play or pause",
+                   "space",
+                   all([](Run& run) { run.play(!run.status().playing); }),
+                   [this] { return shown().run().status().playing; },
+                   {}});
+    commands_.add({"step", "Run", "Next tick", "right", all([](Run& run) { run.step(1); }), {}, {}});
+    commands_.add({"back", "Run", "Previous tick", "left", all([](Run& run) { run.step(-1); }), {}, {}});
+    commands_.add({"first",
+                   "Run",
+                   "First tick",
+                   "home",
+                   all([](Run& run) { run.jump(run.status().sequence, 0); }),
+                   {},
+                   {}});
+    commands_.add(
+        {"tick", "Run", "Go to tick 0", "", [this](const std::string& argument) { jump(argument); }, {}, {}});
+    commands_.add({"outside",
+                   "View",
+                   "See all of the scene",
+                   "f",
+                   [this](const std::string&) { main_.look_from_outside(); },
+                   {},
+                   [this] { return main_.has_scene(); }});
+    commands_.add({"camera",
+                   "View",
+                   "Fly freely",
+                   "escape",
+                   [this](const std::string& argument) { look_through(argument); },
+                   [this] { return !main_.camera(); },
+                   {}});
+    commands_.add({"follow",
+                   "View",
+                   "Follow nothing",
+                   "",
+                   [this](const std::string& argument) { follow(argument); },
+                   [this] { return !main_.followed(); },
+                   {}});
+    commands_.add({"panel",
+                   "View",
+                   "Panels: choose in their tab",
+                   "",
+                   [this](const std::string& title) { side_.grid().toggle(title); },
+                   {},
+                   [this] { return shown().info() != nullptr; }});
+    add_switch(commands_, "side", "View", "Panels", "tab", side_open_);
+    add_overlay_commands();
+    add_switch(commands_, "help", "Help", "Keys and mouse", "F1", help_open_);
+  }
+
+  void add_overlay_commands() {
+    struct Switch {
+      const char *name, *label, *key;
+      bool OverlaySettings::*value;
+    };
+    static constexpr Switch switches[] = {
+        {"show.paths", "Radio paths", "1", &OverlaySettings::paths},
+        {"show.lidar", "LiDAR points", "2", &OverlaySettings::lidar},
+        {"show.radar", "Radar detections", "3", &OverlaySettings::radar},
+        {"show.boxes", "Boxes of objects", "4", &OverlaySettings::boxes},
+        {"show.trajectories", "Trajectories", "5", &OverlaySettings::trajectories},
+        {"show.sensors", "Sensors and antennas", "6", &OverlaySettings::sensors}};
+    for (const Switch& s : switches)
+      commands_.add({s.name, "Show", s.label, s.key,
+                     [this, s](const std::string& argument) { switch_overlay(s.name, s.value, argument); },
+                     [this, s] { return shown().overlays() && shown().overlays()->settings().*s.value; },
+                     [this] { return shown().overlays() != nullptr; }});
+  }
+
+  void switch_overlay(const std::string& name, bool OverlaySettings::*value, const std::string& argument) {
+    if (!argument.empty() && argument != "on" && argument != "off")
+      throw_user_error("{}: expected on or off, found '{}'", name, printable(argument));
+    for (const std::unique_ptr<ShownRun>& run : runs_) {
+      if (run->overlays() == nullptr) continue;
+      OverlaySettings& settings = run->overlays()->settings();
+      settings.*value = argument.empty() ? !(settings.*value) : argument == "on";
+      ++settings.version;
+    }
+  }
+
+  /// Menu entries for each camera and each node that moves.
+  void add_camera_commands(const sim::Experiment& experiment) {
+    for (uint32_t n = 0; n < experiment.scenario.nodes.size(); ++n) {
+      const sim::NodeConfig& node = experiment.scenario.nodes[n];
+      for (const sim::SensorConfig& sensor : node.sensors) {
+        const std::string name = node.name + "/" + sensor.name;
+        if (sim::pinhole_config(sensor) != nullptr)
+          commands_.add({"camera " + name,
+                         "View",
+                         "Through " + name,
+                         "",
+                         [this, name](const std::string&) { look_through(name); },
+                         {},
+                         {}});
+      }
+      if (experiment.world->body_of_node[n] != 0)
+        commands_.add({"follow " + node.name,
+                       "View",
+                       "Follow " + node.name,
+                       "",
+                       [this, name = node.name](const std::string&) { follow(name); },
+                       [this, n] { return main_.followed() == n; },
+                       {}});
+    }
+  }
+
+  void jump(const std::string& argument) {
+    const auto tick = parse_number(argument.empty() ? "0" : argument);
+    if (!tick || *tick < 0.0 || *tick != std::floor(*tick))
+      throw_user_error("tick: expected a tick's number, found '{}'", printable(argument));
+    for (const std::unique_ptr<ShownRun>& run : runs_)
+      run->run().jump(run->run().status().sequence, static_cast<int64_t>(*tick));
+  }
+  void look_through(const std::string& camera) {
+    if (camera.empty())
+      main_.look_through({});
+    else
+      main_.look_through(apps::find_camera(camera, need_experiment().scenario));
+  }
+  void follow(const std::string& name) {
+    if (name.empty()) return main_.follow({});
+    const std::vector<sim::NodeConfig>& nodes = need_experiment().scenario.nodes;
+    const auto found = std::ranges::find(nodes, name, &sim::NodeConfig::name);
+    if (found == nodes.end()) throw_user_error("follow: expected a node, found '{}'", printable(name));
+    main_.follow(static_cast<uint32_t>(found - nodes.begin()));
+  }
+  const sim::Experiment& need_experiment() {
+    if (shown().experiment() == nullptr) throw_user_error("the scene is not there yet");
+    return *shown().experiment();
+  }
+
+  ScriptHost script_host() {
+    return {
+        [this] {
+          const RunStatus status = shown().run().status();
+          return status.phase == RunStatus::Phase::failed ||
+                 (status.phase == RunStatus::Phase::ready && shown().run().shown() != nullptr);
+        },
+        [this] { return main_.settled(); },
+        [this] { return shown().run().status().tick; },
+        [this](const InputEvent& event) { window_->inject(event); },
+        [this](const std::string& command, const std::string& argument) { commands_.run(command, argument); },
+        [this](const std::string& file) { write_screenshot(options_.script_folder / file); },
+        [this](const std::string& fact) { print(fact); }};
+  }
+
+  void write_screenshot(const std::filesystem::path& file) {
+    io::write_file_atomically(file, io::encode_png(window_->screenshot()));
+  }
+
+  void print(const std::string& fact) {
+    const RunStatus status = shown().run().status();
+    if (fact == "tick") {
+      std::cout << status.tick << '\n';
+    } else if (fact == "error") {
+      std::cout << (status.error.empty() ? "none" : status.error) << '\n';
+    } else if (fact == "picked") {
+      for (const auto& [name, value] : main_.picked_facts(side_.carrier_hz(shown())))
+        std::cout << name << ": " << value << '\n';
+      if (!main_.picked()) std::cout << "nothing\n";
+    } else if (fact == "hovered") {
+      std::cout << fmt::format("{:016x}\n", main_.hovered_id());
+    } else {
+      throw_user_error("print: expected tick, error, picked or hovered, found '{}'", printable(fact));
+    }
+    std::cout.flush();
+  }
+
+  static constexpr ImGuiWindowFlags fixed_window =
+      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+  const ViewerOptions& options_;
+  std::unique_ptr<Window> window_;
+  std::vector<std::unique_ptr<ShownRun>> runs_;
+  size_t main_run_ = 0;
+  MainView main_;
+  SidePanel side_;
+  Commands commands_;
+  bool side_open_ = true, help_open_ = false, quit_ = false;
+  std::string command_error_;
+};
+
+}  // namespace
+
+void run_viewer(const ViewerOptions& options) {
+  Viewer viewer(options);
+  viewer.loop();
+}
+
+}  // namespace greatx::view
