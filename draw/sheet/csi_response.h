@@ -16,9 +16,9 @@ inline constexpr double csi_range_db = 50.0;
 
 /// Number of cells of impulse_response_db(): a power of two, at least four times the subcarriers.
 size_t impulse_size(size_t subcarriers);
-/// |h(tau)| in dB: the inverse DFT of H(f) under a Hann window, zero-padded to impulse_size() cells, scaled so
-/// that one path of amplitude a peaks at |a|. Cell i lies at i / (impulse_size() * spacing); delays repeat
-/// after 1 / spacing.
+/// |h(tau)| in dB: the inverse DFT of H(f) under a Hann window, zero-padded to impulse_size() cells, scaled
+/// so that one path of amplitude a peaks at |a|. Cell i lies at i / (impulse_size() * spacing); delays
+/// repeat after 1 / spacing.
 std::vector<double> impulse_response_db(std::span<const std::complex<float>> cfr);
 /// |H| in dB of each subcarrier.
 std::vector<double> magnitudes_db(std::span<const std::complex<float>> cfr);

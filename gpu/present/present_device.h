@@ -51,9 +51,9 @@ class Surface {
 /// Owns a device with one queue. Everything that uses it is destroyed before it.
 class PresentDevice {
  public:
-  /// Takes the device that `select` names (an index or a part of a name), else a real GPU before a CPU. With a
-  /// `surface` (null: none), only a device that can show pictures on it will do. Throws UserError that lists
-  /// the devices if none fits.
+  /// Takes the device that `select` names (an index or a part of a name), else a real GPU before a CPU. With
+  /// a `surface` (null: none), only a device that can show pictures on it will do. Throws UserError that
+  /// lists the devices if none fits.
   PresentDevice(const PresentInstance& instance, const Surface* surface, const std::string& select);
   ~PresentDevice();
   PresentDevice(const PresentDevice&) = delete;

@@ -27,8 +27,8 @@ class Presenter {
   Presenter(const Presenter&) = delete;
   Presenter& operator=(const Presenter&) = delete;
 
-  /// Draws a frame of `extent` pixels: the updates of textures, then the triangles. Shows it in the window, if
-  /// there is one and it can be shown. An empty extent draws nothing.
+  /// Draws a frame of `extent` pixels: the updates of textures, then the triangles. Shows it in the window,
+  /// if there is one and it can be shown. An empty extent draws nothing.
   void frame(VkExtent2D extent, const UiDrawing& drawing);
   /// Returns the pixels of the last frame, RGBA, [height, width, 4], and its extent; empty before the first.
   std::vector<std::byte> read_back();

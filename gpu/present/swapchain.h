@@ -18,8 +18,9 @@ class Swapchain {
   Swapchain(const Swapchain&) = delete;
   Swapchain& operator=(const Swapchain&) = delete;
 
-  /// Returns the next image, which `acquired` signals; none if the window has no extent now (it is minimised)
-  /// or has just changed: then there is nothing to present in this frame. `extent` is the window's, in pixels.
+  /// Returns the next image, which `acquired` signals; none if the window has no extent now (it is
+  /// minimised) or has just changed: then there is nothing to present in this frame. `extent` is the
+  /// window's, in pixels.
   std::optional<uint32_t> acquire(VkExtent2D extent, VkSemaphore acquired);
   /// Shows the image once its semaphore rendered(image) is signalled.
   void present(uint32_t image);

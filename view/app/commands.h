@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The commands of the viewer: each has a name, a place in the menus and perhaps a key. Menus, keys and scripts
-// run the same table, so that whatever a person can do, a script can do too.
+// The commands of the viewer: each has a name, a place in the menus and perhaps a key. Menus, keys and
+// scripts run the same table, so that whatever a person can do, a script can do too.
 #pragma once
 
 #include <functional>

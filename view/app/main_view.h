@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The main view: the scene from where the user looks, with the overlays over it. It asks SceneView for pictures
-// and shows the newest one it has; overlays are placed by the view of the picture that is shown, so that both
-// fit together while the user flies.
+// The main view: the scene from where the user looks, with the overlays over it. It asks SceneView for
+// pictures and shows the newest one it has; overlays are placed by the view of the picture that is shown, so
+// that both fit together while the user flies.
 #pragma once
 
 #include <cstdint>

@@ -22,7 +22,8 @@ struct OverlayFrame {
   dvec3 origin{0.0};                ///< of the scene: local = world - origin
   ImVec2 corner{0, 0}, size{0, 0};  ///< of the picture in the window, pixels
 
-  /// Returns the place in the window of a point of the world, and its depth; behind the camera it is negative.
+  /// Returns the place in the window of a point of the world, and its depth; behind the camera it is
+  /// negative.
   dvec3 place(const dvec3& world) const;
   double scale() const { return size.x / static_cast<double>(view.width); }
 };

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The interactive viewer: it puts window, run, scene view, overlays and panels together. Data flows one way in
-// each frame: the run publishes a tick, overlays and panels draw it, the user's commands go back to the run.
+// The interactive viewer: it puts window, run, scene view, overlays and panels together. Data flows one way
+// in each frame: the run publishes a tick, overlays and panels draw it, the user's commands go back to the
+// run.
 #pragma once
 
 #include <filesystem>

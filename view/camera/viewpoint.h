@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the user looks from: a point that flies, or that orbits another point, which may be a node that moves.
-// Angles as everywhere: x forward, y left, z up; yaw from +x to +y, pitch positive downwards.
+// Where the user looks from: a point that flies, or that orbits another point, which may be a node that
+// moves. Angles as everywhere: x forward, y left, z up; yaw from +x to +y, pitch positive downwards.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,8 @@ class Viewpoint {
   void orbit(double yaw, double pitch);
   /// Moves along forward, left and world up, metres.
   void fly(const dvec3& step_m);
-  /// Moves by a drag of `pixels` (right, down) so that the pivot follows the cursor; `focal_px` is the view's.
+  /// Moves by a drag of `pixels` (right, down) so that the pivot follows the cursor; `focal_px` is the
+  /// view's.
   void pan(const dvec2& pixels, double focal_px);
   /// Multiplies the distance to the pivot, which stays. The distance stays within 0.05 m and 1e6 m.
   void approach(double factor);

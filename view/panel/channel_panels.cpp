@@ -68,8 +68,8 @@ class ResponsePanel : public Panel {
   double spacing_hz_ = 1.0;
 };
 
-/// Decibels over delay or frequency from left to right and over the stored ticks, the newest at the top. Every
-/// tick has a line of the same height.
+/// Decibels over delay or frequency from left to right and over the stored ticks, the newest at the top.
+/// Every tick has a line of the same height.
 class Waterfall : public ResponsePanel {
  public:
   Waterfall(const PanelChoice& choice, Records records) : ResponsePanel(choice, std::move(records)) {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures and plots of a sensor's records beside the main view. A panel draws into memory and knows what each
-// of its pixels shows; the window makes a texture of it. Panels read records alone (io::RecordSource), so a
-// live run and a data set look the same. All functions belong to one thread.
+// Pictures and plots of a sensor's records beside the main view. A panel draws into memory and knows what
+// each of its pixels shows; the window makes a texture of it. Panels read records alone (io::RecordSource),
+// so a live run and a data set look the same. All functions belong to one thread.
 #pragma once
 
 #include <cstdint>

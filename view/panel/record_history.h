@@ -29,8 +29,8 @@ class RecordHistory : public io::RecordSource {
   RecordHistory(std::shared_ptr<const io::DatasetInfo> info, std::string place,
                 uint64_t most_bytes = most_bytes_usually);
 
-  /// Takes the records of the tick. It shares those in ShownTick::newest and copies only what is in the packet
-  /// alone. A record that is there already becomes the youngest of its sensor.
+  /// Takes the records of the tick. It shares those in ShownTick::newest and copies only what is in the
+  /// packet alone. A record that is there already becomes the youngest of its sensor.
   void add(const ShownTick& tick);
   uint64_t bytes() const;
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The side of a run that the viewer sees: a live simulation or a recorded data set. A run works on a thread of
-// its own. Every function here returns at once, so the window never waits for a scene, a search or a file.
+// The side of a run that the viewer sees: a live simulation or a recorded data set. A run works on a thread
+// of its own. Every function here returns at once, so the window never waits for a scene, a search or a
+// file.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +21,8 @@ struct ShownTick {
   uint32_t sequence = 0;
   /// The records of the sensors that were due at this tick.
   Packet packet;
-  /// For each sensor the newest record at or before this tick, which may be older than the tick; null if there
-  /// is none yet. [sensors]
+  /// For each sensor the newest record at or before this tick, which may be older than the tick; null if
+  /// there is none yet. [sensors]
   std::vector<std::shared_ptr<const Record>> newest;
   double simulated_ms = 0.0;  ///< wall time that the tick took to simulate or to load
 };

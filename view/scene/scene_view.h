@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The picture of the main view: the same scene, lights and camera pass as those of the sensors, on a thread and
-// a device of its own. A tick of a rig may take the simulation's device for longer than a frame of the window,
-// so the picture does not wait in its queue; the price is a second upload of the scene.
+// The picture of the main view: the same scene, lights and camera pass as those of the sensors, on a thread
+// and a device of its own. A tick of a rig may take the simulation's device for longer than a frame of the
+// window, so the picture does not wait in its queue; the price is a second upload of the scene.
 #pragma once
 
 #include <cstdint>

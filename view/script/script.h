@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A list of actions that drive the viewer instead of a person: tests and the pictures of the documentation use
-// it. docs/viewer.md lists the actions. One line is one action; `#` begins a comment.
+// A list of actions that drive the viewer instead of a person: tests and the pictures of the documentation
+// use it. docs/viewer.md lists the actions. One line is one action; `#` begins a comment.
 #pragma once
 
 #include <cstdint>
