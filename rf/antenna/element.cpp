@@ -68,11 +68,9 @@ Jones turned(const Jones& field, const dvec2& turn) {
 
 }  // namespace
 
-Jones element_field(const ElementPattern& pattern, double slant, const dquat& orientation,
-                    const dvec3& world_direction) {
-  Jones field;
-  TurnedElement(pattern, {&slant, 1}, orientation).respond(world_direction, {&field, 1});
-  return field;
+Jones element_field(const ElementPattern& pattern, double slant, const dvec3& direction) {
+  const Angles at = angles_of(direction);
+  return turned(unslanted(pattern, at), turn_of(pattern.model, {std::cos(slant), std::sin(slant)}, at));
 }
 
 TurnedElement::TurnedElement(ElementPattern pattern, std::span<const double> slants, const dquat& orientation)

@@ -49,11 +49,9 @@ struct ElementPattern {
   std::shared_ptr<const PatternTable> table;  ///< samples of imported patterns; null for other patterns
 };
 
-/// Returns the field pattern of one element with polarization slant `slant` (rad) in the world. `orientation`
-/// (world_from_antenna) turns the antenna, and the field is resolved on the world's (theta, phi) at the world
-/// direction (TR 38.901, eq. 7.1-11).
-Jones element_field(const ElementPattern& pattern, double slant, const dquat& orientation,
-                    const dvec3& world_direction);
+/// Returns the field pattern of one element with polarization slant `slant` (rad) towards `direction` in the
+/// antenna's frame, resolved on (theta, phi) of that frame.
+Jones element_field(const ElementPattern& pattern, double slant, const dvec3& direction);
 
 /// Evaluates all polarizations of an element that `orientation` (world_from_antenna) turns. The constructor
 /// computes everything that does not depend on the direction, for loops over paths. Allocates nothing.
@@ -62,7 +60,8 @@ class TurnedElement {
   /// `slants`: one slant per polarization, rad; at most two.
   TurnedElement(ElementPattern pattern, std::span<const double> slants, const dquat& orientation);
 
-  /// Computes element_field() in the world for each slant. `fields` must have room for all polarizations.
+  /// Computes the field for each slant, resolved on the world's (theta, phi) at the world direction (TR
+  /// 38.901, eq. 7.1-11). `fields` must have room for all polarizations.
   void respond(const dvec3& world_direction, std::span<Jones> fields) const;
   size_t polarization_count() const { return count_; }
 

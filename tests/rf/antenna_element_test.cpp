@@ -7,9 +7,12 @@
 #include "core/error.h"
 #include "rf/antenna/element.h"
 #include "tests/rf/antenna_support.h"
+#include "tests/rf/turned_field.h"
 
 namespace greatx::rf {
 namespace {
+
+using testing::turned_field;
 
 constexpr Pattern analytic[] = {Pattern::isotropic, Pattern::short_dipole, Pattern::half_wave_dipole,
                                 Pattern::tr38901};
@@ -27,8 +30,8 @@ std::vector<ElementPattern> all_patterns() {
 }
 
 double gain_dbi(double theta_deg, double phi_deg) {
-  return 10.0 * std::log10(power(
-                    own_field(Pattern::tr38901, 0.0, direction_of(radians(theta_deg), radians(phi_deg)))));
+  return 10.0 * std::log10(power(element_field(Pattern::tr38901, 0.0,
+                                               direction_of(radians(theta_deg), radians(phi_deg)))));
 }
 
 TEST(AntennaElement, Tr38901AtKnownAngles) {
@@ -43,8 +46,8 @@ TEST(AntennaElement, Tr38901AtKnownAngles) {
   EXPECT_NEAR(gain_dbi(30, -100), -22.0, 1e-12);  // 10.2 + 28.4 dB: the floor of the sum
   // The attenuation on the z axis, where phi is 0, is 12 (90/65)^2 dB.
   EXPECT_NEAR(gain_dbi(0, 0), 8.0 - 12.0 * 90.0 * 90.0 / (65.0 * 65.0), 1e-12);
-  EXPECT_NEAR(power(own_field(Pattern::tr38901, 0.0, {0, 0, 1})),
-              power(own_field(Pattern::tr38901, 0.0, {0, 0, -1})), 1e-15);
+  EXPECT_NEAR(power(element_field(Pattern::tr38901, 0.0, {0, 0, 1})),
+              power(element_field(Pattern::tr38901, 0.0, {0, 0, -1})), 1e-15);
 }
 
 TEST(AntennaElement, MeanGainOverTheSphere) {
@@ -60,8 +63,8 @@ TEST(AntennaElement, MeanGainOverTheSphere) {
 }
 
 TEST(AntennaElement, ShortDipole) {
-  EXPECT_NEAR(power(own_field(Pattern::short_dipole, 0.0, {1, 0, 0})), 1.5, 1e-15);
-  EXPECT_NEAR(own_field(Pattern::short_dipole, 0.0, direction_of(0.3, 2.0)).theta.real(),
+  EXPECT_NEAR(power(element_field(Pattern::short_dipole, 0.0, {1, 0, 0})), 1.5, 1e-15);
+  EXPECT_NEAR(element_field(Pattern::short_dipole, 0.0, direction_of(0.3, 2.0)).theta.real(),
               std::sqrt(1.5) * std::sin(0.3), 1e-15);
 }
 
@@ -70,17 +73,17 @@ TEST(AntennaElement, ModelsAgreeWithoutSlantAndAtBoresight) {
   for (const Pattern shape : analytic) {
     for (int i = 0; i < 200; ++i) {
       const dvec3 r = random_direction(random);
-      const Jones one = own_field({shape, PolarizationModel::model_1}, 0.0, r);
-      const Jones two = own_field({shape, PolarizationModel::model_2}, 0.0, r);
+      const Jones one = element_field({shape, PolarizationModel::model_1}, 0.0, r);
+      const Jones two = element_field({shape, PolarizationModel::model_2}, 0.0, r);
       EXPECT_LT(std::abs(one.theta - two.theta) + std::abs(one.phi - two.phi), 1e-15);
     }
     for (const double slant : {pi / 4, -pi / 4, pi / 2, 1.0}) {
-      const Jones one = own_field({shape, PolarizationModel::model_1}, slant, {1, 0, 0});
-      const Jones two = own_field({shape, PolarizationModel::model_2}, slant, {1, 0, 0});
+      const Jones one = element_field({shape, PolarizationModel::model_1}, slant, {1, 0, 0});
+      const Jones two = element_field({shape, PolarizationModel::model_2}, slant, {1, 0, 0});
       EXPECT_LT(std::abs(one.theta - two.theta) + std::abs(one.phi - two.phi), 1e-15);
       // Behind the antenna, a rolled element is slanted the other way.
-      const Jones behind = own_field({shape, PolarizationModel::model_1}, slant, {-1, 0, 0});
-      const Jones mirrored = own_field({shape, PolarizationModel::model_2}, -slant, {-1, 0, 0});
+      const Jones behind = element_field({shape, PolarizationModel::model_1}, slant, {-1, 0, 0});
+      const Jones mirrored = element_field({shape, PolarizationModel::model_2}, -slant, {-1, 0, 0});
       EXPECT_LT(std::abs(behind.theta - mirrored.theta) + std::abs(behind.phi - mirrored.phi), 1e-15);
     }
   }
@@ -95,7 +98,7 @@ TEST(AntennaElement, ModelOneIsEquation733) {
     const double d = std::sqrt(1.0 - axis * axis);
     if (d < 1e-3) continue;  // the equation itself cancels here
     const Jones field =
-        own_field({Pattern::isotropic, PolarizationModel::model_1}, zeta, direction_of(theta, phi));
+        element_field({Pattern::isotropic, PolarizationModel::model_1}, zeta, direction_of(theta, phi));
     EXPECT_NEAR(field.theta.real(),
                 (std::cos(zeta) * std::sin(theta) + std::sin(zeta) * std::sin(phi) * std::cos(theta)) / d,
                 1e-9);
@@ -110,8 +113,8 @@ TEST(AntennaElement, ModelOneIsThePolarizationOfARolledElement) {
   RandomStream random(4, 3);
   for (int i = 0; i < 200; ++i) {
     const dvec3 r = random_direction(random);
-    const Jones body = element_field(Pattern::short_dipole, 0.0, roll, r);
-    const Jones model = own_field({Pattern::isotropic, PolarizationModel::model_1}, pi / 3, r);
+    const Jones body = turned_field(Pattern::short_dipole, 0.0, roll, r);
+    const Jones model = element_field({Pattern::isotropic, PolarizationModel::model_1}, pi / 3, r);
     const double length = std::sqrt(power(body));
     EXPECT_LT(std::abs(body.theta / length - model.theta) + std::abs(body.phi / length - model.phi), 1e-13);
   }
@@ -122,8 +125,8 @@ TEST(AntennaElement, SlantLeavesThePowerAlone) {
   for (const ElementPattern& pattern : all_patterns())
     for (int i = 0; i < 50; ++i) {
       const dvec3 r = random_direction(random);
-      EXPECT_NEAR(power(own_field(pattern, random.uniform(-pi, pi), r)), power(own_field(pattern, 0.0, r)),
-                  1e-13);
+      EXPECT_NEAR(power(element_field(pattern, random.uniform(-pi, pi), r)),
+                  power(element_field(pattern, 0.0, r)), 1e-13);
     }
 }
 
@@ -135,7 +138,7 @@ TEST(AntennaElement, CrossPolarPairsAreOrthogonal) {
       const dvec3 r =
           i == 0 || pattern.model == PolarizationModel::model_1 ? dvec3(1, 0, 0) : random_direction(random);
       for (const auto& [first, second] : {std::pair(0.0, pi / 2), std::pair(pi / 4, -pi / 4)}) {
-        const Jones a = own_field(pattern, first, r), b = own_field(pattern, second, r);
+        const Jones a = element_field(pattern, first, r), b = element_field(pattern, second, r);
         const double both = std::norm(a.theta) + std::norm(a.phi);
         // For real patterns a^H b = 0. For complex patterns, b is a turned by 90 degrees, (-F_phi, F_theta),
         // so that a^T b = 0.
@@ -154,7 +157,8 @@ TEST(AntennaElement, TurningTheAntennaTurnsTheFieldOfAllPatterns) {
                                                          random.uniform(-3, 3));
       const double slant = random.uniform(-pi, pi);
       const dvec3 world = random_direction(random), own = glm::conjugate(turn) * world;
-      const Jones local = own_field(pattern, slant, own), global = element_field(pattern, slant, turn, world);
+      const Jones local = element_field(pattern, slant, own),
+                  global = turned_field(pattern, slant, turn, world);
       for (const auto part :
            {+[](const Complex& c) { return c.real(); }, +[](const Complex& c) { return c.imag(); }}) {
         const dvec3 turned = turn * (part(local.theta) * theta_hat(own) + part(local.phi) * phi_hat(own));
@@ -172,7 +176,7 @@ TEST(AntennaElement, TwoPolarizationsAtOnceAreThoseOneByOne) {
     const TurnedElement element(pattern, slants, turn);
     element.respond({1, -2, 0.5}, both);
     for (int p = 0; p < 2; ++p) {
-      const Jones one = element_field(pattern, slants[p], turn, {1, -2, 0.5});
+      const Jones one = turned_field(pattern, slants[p], turn, {1, -2, 0.5});
       EXPECT_EQ(both[p].theta, one.theta);
       EXPECT_EQ(both[p].phi, one.phi);
     }
@@ -181,14 +185,14 @@ TEST(AntennaElement, TwoPolarizationsAtOnceAreThoseOneByOne) {
 }
 
 TEST(AntennaElement, ImportedWithoutATableBreaksTheContract) {
-  EXPECT_THROW(own_field(Pattern::imported, 0.0, {1, 0, 0}), ContractError);
+  EXPECT_THROW(element_field(Pattern::imported, 0.0, {1, 0, 0}), ContractError);
 }
 
 TEST(AntennaElementHardCase, N48_PolesOfAllPatterns) {
   for (const ElementPattern& pattern : all_patterns())
     for (const double z : {1.0, -1.0})
       for (const double slant : {0.0, pi / 4, -pi / 4, pi / 2}) {
-        const Jones field = own_field(pattern, slant, {0, 0, z});
+        const Jones field = element_field(pattern, slant, {0, 0, z});
         ASSERT_TRUE(std::isfinite(power(field)));
         if (pattern.shape == Pattern::isotropic) {
           EXPECT_NEAR(power(field), 1.0, 1e-15);
@@ -199,7 +203,7 @@ TEST(AntennaElementHardCase, N48_PolesOfAllPatterns) {
         // A pole of the antenna's frame that is not one of the world's frame, and vice versa.
         const dquat turn = orientation_from_yaw_pitch_roll(0.0, pi / 2, 0.0);
         for (const dvec3 world : {turn * dvec3(0, 0, z), dvec3(0, 0, z)}) {
-          const Jones turned = element_field(pattern, slant, turn, world);
+          const Jones turned = turned_field(pattern, slant, turn, world);
           EXPECT_TRUE(std::isfinite(power(turned)));
           if (pattern.shape == Pattern::isotropic) {
             EXPECT_NEAR(power(turned), 1.0, 1e-14);
@@ -208,18 +212,18 @@ TEST(AntennaElementHardCase, N48_PolesOfAllPatterns) {
       }
   // Along the axis of a slanted element, model 1 has no angle, but the power remains.
   for (const double side : {1.0, -1.0})
-    EXPECT_NEAR(power(own_field({Pattern::isotropic, PolarizationModel::model_1}, pi / 2, {0, side, 0})), 1.0,
-                1e-15);
+    EXPECT_NEAR(power(element_field({Pattern::isotropic, PolarizationModel::model_1}, pi / 2, {0, side, 0})),
+                1.0, 1e-15);
 }
 
 TEST(AntennaElementHardCase, N49_PatternsKeepTheirDigitsBesideThePoles) {
   for (const double tilt : {1e-6, 1e-9, 1e-12})
     for (const double z : {1.0, -1.0}) {
       const dvec3 beside{0.6 * tilt, 0.8 * tilt, z};
-      EXPECT_NEAR(own_field(Pattern::short_dipole, 0.0, beside).theta.real() / (std::sqrt(1.5) * tilt), 1.0,
-                  1e-11);
+      EXPECT_NEAR(element_field(Pattern::short_dipole, 0.0, beside).theta.real() / (std::sqrt(1.5) * tilt),
+                  1.0, 1e-11);
       EXPECT_NEAR(
-          own_field({Pattern::short_dipole, PolarizationModel::model_1}, pi / 4, beside).theta.real() /
+          element_field({Pattern::short_dipole, PolarizationModel::model_1}, pi / 4, beside).theta.real() /
               (std::sqrt(1.5) * tilt * (z * 0.8)),
           1.0, 1e-5);  // cos(psi) = sin(phi) cos(theta) beside the axis
     }
@@ -234,7 +238,7 @@ TEST(AntennaElementHardCase, N50_UprightAntennasAreContinuous) {
       for (int i = 0; i < 20; ++i) {
         const dvec3 r = random_direction(random);
         const auto field = [&](double p) {
-          return element_field(pattern, 0.4, orientation_from_yaw_pitch_roll(0.7, p, -0.4), r);
+          return turned_field(pattern, 0.4, orientation_from_yaw_pitch_roll(0.7, p, -0.4), r);
         };
         const Jones exact = field(pitch);
         ASSERT_TRUE(std::isfinite(power(exact)));
@@ -254,15 +258,15 @@ TEST(AntennaElementHardCase, N51_HalfTurns) {
       const dvec3 r = random_direction(random);
       for (const dvec3 axis : {dvec3(0, 0, 1), dvec3(0, 1, 0), dvec3(1, 0, 0)}) {
         const dquat half = glm::angleAxis(pi, axis);
-        const Jones turned = element_field(pattern, 0.4, half, half * r);
-        const Jones own = own_field(pattern, 0.4, r);
+        const Jones turned = turned_field(pattern, 0.4, half, half * r);
+        const Jones own = element_field(pattern, 0.4, r);
         EXPECT_NEAR(power(turned), power(own), 1e-12);
-        const Jones whole = element_field(pattern, 0.4, half * half, r);
+        const Jones whole = turned_field(pattern, 0.4, half * half, r);
         EXPECT_LT(std::abs(whole.theta - own.theta) + std::abs(whole.phi - own.phi), 1e-12);
       }
       // Directions exactly behind, above and below.
       for (const dvec3 d : {dvec3(-1, 0, 0), dvec3(-1, -0.0, -0.0), dvec3(-0.0, -0.0, -1)})
-        EXPECT_TRUE(std::isfinite(power(own_field(pattern, 0.4, d))));
+        EXPECT_TRUE(std::isfinite(power(element_field(pattern, 0.4, d))));
     }
 }
 

@@ -23,19 +23,13 @@ inline dvec3 random_direction(RandomStream& random) {
   return {rho * std::cos(azimuth), rho * std::sin(azimuth), z};
 }
 
-/// Returns the field of an element towards `direction` in the antenna's frame, resolved on (theta, phi) of
-/// that frame.
-inline Jones own_field(const ElementPattern& pattern, double slant, const dvec3& direction) {
-  return element_field(pattern, slant, dquat(1.0, 0.0, 0.0, 0.0), direction);
-}
-
 /// Returns (1/4 pi) times the integral of the gain over the sphere, by the midpoint rule.
 inline double mean_gain(const ElementPattern& pattern, double slant, int zeniths, int azimuths) {
   double sum = 0.0;
   for (int i = 0; i < zeniths; ++i) {
     const double theta = (i + 0.5) * pi / zeniths;
     for (int j = 0; j < azimuths; ++j)
-      sum += power(own_field(pattern, slant, direction_of(theta, (j + 0.5) * 2.0 * pi / azimuths - pi))) *
+      sum += power(element_field(pattern, slant, direction_of(theta, (j + 0.5) * 2.0 * pi / azimuths - pi))) *
              std::sin(theta);
   }
   return sum * pi / (2.0 * zeniths * azimuths);

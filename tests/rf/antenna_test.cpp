@@ -6,19 +6,22 @@
 
 #include "core/error.h"
 #include "tests/rf/antenna_support.h"
+#include "tests/rf/turned_field.h"
 
 namespace greatx::rf {
 namespace {
 
+using testing::turned_field;
+
 TEST(AntennaHardCase, N48_Poles) {
   for (const double z : {1.0, -1.0})
     for (const double slant : {0.0, pi / 2, pi / 4, -pi / 4}) {
-      EXPECT_NEAR(power(own_field(Pattern::isotropic, slant, dvec3(0, 0, z))), 1.0, 1e-15);
-      EXPECT_EQ(power(own_field(Pattern::half_wave_dipole, slant, dvec3(0, 0, z))), 0.0);
+      EXPECT_NEAR(power(element_field(Pattern::isotropic, slant, dvec3(0, 0, z))), 1.0, 1e-15);
+      EXPECT_EQ(power(element_field(Pattern::half_wave_dipole, slant, dvec3(0, 0, z))), 0.0);
     }
   // Near the poles, the field of the dipole goes to zero as sin(theta) pi/4, without rounding errors.
   const double tilt = 1e-9;
-  const Jones near = own_field(Pattern::half_wave_dipole, 0.0, {std::sin(tilt), 0, -std::cos(tilt)});
+  const Jones near = element_field(Pattern::half_wave_dipole, 0.0, {std::sin(tilt), 0, -std::cos(tilt)});
   EXPECT_NEAR(near.theta.real() / (std::sqrt(1.6409223770) * pi / 4 * tilt), 1.0, 1e-12);
 }
 
@@ -51,11 +54,11 @@ TEST(Antenna, HalfWaveDipoleRadiatesAllItsPower) {
   double sum = 0.0;
   for (int i = 0; i < steps; ++i) {
     const double theta = (i + 0.5) * pi / steps;
-    sum += power(own_field(Pattern::half_wave_dipole, 0.3, {std::sin(theta), 0, std::cos(theta)})) *
+    sum += power(element_field(Pattern::half_wave_dipole, 0.3, {std::sin(theta), 0, std::cos(theta)})) *
            std::sin(theta) * (pi / steps) / 2.0;
   }
   EXPECT_NEAR(sum, 1.0, 1e-8);
-  EXPECT_NEAR(power(own_field(Pattern::half_wave_dipole, 0.0, {0, 1, 0})), 1.6409223770, 1e-12);
+  EXPECT_NEAR(power(element_field(Pattern::half_wave_dipole, 0.0, {0, 1, 0})), 1.6409223770, 1e-12);
 }
 
 TEST(Antenna, PolarizationModel2) {
@@ -65,7 +68,7 @@ TEST(Antenna, PolarizationModel2) {
   ASSERT_EQ(array.port_count(), 4u);
   EXPECT_NEAR(array.slant(0), pi / 4, 1e-15);
   EXPECT_NEAR(array.slant(3), -pi / 4, 1e-15);
-  const Jones field = own_field(Pattern::isotropic, array.slant(1), {1, 0, 0});
+  const Jones field = element_field(Pattern::isotropic, array.slant(1), {1, 0, 0});
   EXPECT_NEAR(field.theta.real(), std::sqrt(0.5), 1e-15);
   EXPECT_NEAR(field.phi.real(), -std::sqrt(0.5), 1e-15);
   array.polarization = Polarization::vh;
@@ -98,15 +101,15 @@ TEST(Antenna, TurningTheAntennaTurnsTheField) {
                                                        random.uniform(-3, 3));
     const dvec3 world = random_direction(random);
     const dvec3 own = glm::conjugate(turn) * world;
-    const Jones local = own_field(Pattern::half_wave_dipole, 0.4, own);
-    const Jones global = element_field(Pattern::half_wave_dipole, 0.4, turn, world);
+    const Jones local = element_field(Pattern::half_wave_dipole, 0.4, own);
+    const Jones global = turned_field(Pattern::half_wave_dipole, 0.4, turn, world);
     const dvec3 turned = turn * (local.theta.real() * theta_hat(own) + local.phi.real() * phi_hat(own));
     const dvec3 seen = global.theta.real() * theta_hat(world) + global.phi.real() * phi_hat(world);
     EXPECT_LT(glm::length(turned - seen), 1e-14);
   }
   // A dipole rolled by 90 degrees about x lies along y: the front sees horizontal polarization.
   const Jones rolled =
-      element_field(Pattern::half_wave_dipole, 0.0, orientation_from_yaw_pitch_roll(0, 0, pi / 2), {1, 0, 0});
+      turned_field(Pattern::half_wave_dipole, 0.0, orientation_from_yaw_pitch_roll(0, 0, pi / 2), {1, 0, 0});
   EXPECT_NEAR(std::abs(rolled.phi), std::sqrt(1.6409223770), 1e-12);
   EXPECT_NEAR(std::abs(rolled.theta), 0.0, 1e-15);
 }

@@ -15,6 +15,7 @@
 #include "tests/rf/channel_paths.h"
 #include "tests/rf/exhaustive.h"
 #include "tests/rf/scenes.h"
+#include "tests/rf/turned_field.h"
 
 namespace greatx::rf {
 namespace {
@@ -24,6 +25,7 @@ using testing::exhaustive_candidates;
 using testing::HandScene;
 using testing::random_paths;
 using testing::solve_paths;
+using testing::turned_field;
 using testing::Wide;
 using testing::wide_phasor;
 using testing::wide_pi;
@@ -181,9 +183,8 @@ TEST(ChannelHardCase, N41_FractionalDelaysAgainstTheDirectSum) {
           Wide sum = 0.0L;
           for (const Path& path : paths) {
             const Jones c_t =
-                element_field(tx.array.pattern, tx.array.slant(s), tx.orientation, path.departure);
-            const Jones c_r =
-                element_field(rx.array.pattern, rx.array.slant(u), rx.orientation, path.arrival);
+                turned_field(tx.array.pattern, tx.array.slant(s), tx.orientation, path.departure);
+            const Jones c_r = turned_field(rx.array.pattern, rx.array.slant(u), rx.orientation, path.arrival);
             const Complex coefficient =
                 std::conj(c_r.theta) * (path.transfer[0] * c_t.theta + path.transfer[1] * c_t.phi) +
                 std::conj(c_r.phi) * (path.transfer[2] * c_t.theta + path.transfer[3] * c_t.phi);

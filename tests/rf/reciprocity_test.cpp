@@ -16,6 +16,7 @@
 #include "rf/geometry/geometry.h"
 #include "tests/rf/exhaustive.h"
 #include "tests/rf/scenes.h"
+#include "tests/rf/turned_field.h"
 
 namespace greatx::rf {
 namespace {
@@ -23,6 +24,7 @@ namespace {
 using testing::exhaustive_candidates;
 using testing::HandScene;
 using testing::solve_paths;
+using testing::turned_field;
 
 constexpr double link_hz = 3.5e9;
 
@@ -135,8 +137,8 @@ TEST(ReciprocityHardCase, N50_UprightAntennas) {
       const glm::dmat3 r = glm::mat3_cast(upright), unit = glm::transpose(r) * r;
       for (int k = 0; k < 9; ++k) EXPECT_NEAR(unit[k / 3][k % 3], k % 4 == 0 ? 1.0 : 0.0, 1e-15);
       const auto field = [&](double y, double p, double x) {
-        return element_field(Pattern::half_wave_dipole, 0.4, orientation_from_yaw_pitch_roll(y, p, x),
-                             direction);
+        return turned_field(Pattern::half_wave_dipole, 0.4, orientation_from_yaw_pitch_roll(y, p, x),
+                            direction);
       };
       const Jones here = field(yaw, pitch, roll);
       for (const double aside : {1e-9, -1e-9}) {
@@ -160,13 +162,12 @@ TEST(ReciprocityHardCase, N51_HalfTurns) {
     const dvec3 axis = glm::normalize(glm::cross(a, direction()));
     const dquat half = glm::angleAxis(pi, axis);
     EXPECT_LT(glm::length(half * a + a), 1e-15);
-    const Jones turned = element_field(Pattern::half_wave_dipole, 0.3, half, seen);
-    const Jones own =
-        element_field(Pattern::half_wave_dipole, 0.3, dquat(1, 0, 0, 0), glm::conjugate(half) * seen);
+    const Jones turned = turned_field(Pattern::half_wave_dipole, 0.3, half, seen);
+    const Jones own = element_field(Pattern::half_wave_dipole, 0.3, glm::conjugate(half) * seen);
     EXPECT_NEAR(std::norm(turned.theta) + std::norm(turned.phi), std::norm(own.theta) + std::norm(own.phi),
                 1e-14);
-    const Jones twice = element_field(Pattern::half_wave_dipole, 0.3, half * half, seen);
-    const Jones none = element_field(Pattern::half_wave_dipole, 0.3, dquat(1, 0, 0, 0), seen);
+    const Jones twice = turned_field(Pattern::half_wave_dipole, 0.3, half * half, seen);
+    const Jones none = turned_field(Pattern::half_wave_dipole, 0.3, dquat(1, 0, 0, 0), seen);
     EXPECT_LT(std::abs(twice.theta - none.theta) + std::abs(twice.phi - none.phi), 1e-13);
   }
   HandScene hand;
