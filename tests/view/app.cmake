@@ -8,7 +8,7 @@ greatx_test(view_window SOURCES window_test.cpp LINK greatx_view_window PkgConfi
 find_program(XVFB_RUN xvfb-run)
 if(XVFB_RUN)
   add_test(NAME view_window_x11
-           COMMAND ${XVFB_RUN} -a -s "-screen 0 1400x900x24" $<TARGET_FILE:test_view_window>
+           COMMAND ${XVFB_RUN} -a -s "-screen 0 1400x900x24 -noreset" $<TARGET_FILE:test_view_window>
                    --gtest_filter=RealWindow.*)
   set_tests_properties(view_window_x11 PROPERTIES LABELS view_window ENVIRONMENT "GREATX_TEST_DISPLAY=1")
 endif()

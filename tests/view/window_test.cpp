@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <imgui.h>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -98,13 +99,13 @@ void takes_input(bool offscreen) {
   const auto window = open(offscreen);
   int pressed = 0;
   char typed[32] = "";
-  bool key = false;
+  bool key = false, focus = false;
   const auto draw = [&] {
     ImGui::SetNextWindowPos({0, 0});
     ImGui::SetNextWindowSize({300, 180});
     ImGui::Begin("w", nullptr, ImGuiWindowFlags_NoTitleBar);
     if (ImGui::Button("press", {100, 30})) ++pressed;
-    ImGui::SetKeyboardFocusHere();
+    if (std::exchange(focus, false)) ImGui::SetKeyboardFocusHere();
     ImGui::InputText("text", typed, sizeof typed);
     key |= ImGui::IsKeyPressed('K', false);
     ImGui::End();
@@ -123,6 +124,8 @@ void takes_input(bool offscreen) {
   mouse(InputEvent::Kind::release);
   frame(*window, draw);
   EXPECT_EQ(pressed, 1);
+  focus = true;
+  for (int i = 0; i < 3; ++i) frame(*window, draw);
   InputEvent text;
   text.kind = InputEvent::Kind::text;
   text.text = "abc";

@@ -28,7 +28,7 @@ Viewpoint Viewpoint::outside(const scene::Bounds& bounds) {
   const dvec3 middle = 0.5 * (bounds.min + bounds.max);
   const double radius = std::max(0.5 * glm::length(bounds.max - bounds.min), 1.0);
   const double yaw = radians(35.0), pitch = radians(35.0);
-  Viewpoint viewpoint(middle, yaw, pitch, 1.6 * radius);
+  Viewpoint viewpoint(middle, yaw, pitch, 2.4 * radius);  // 1 / sin(half of 50 degrees)
   viewpoint.position_ = middle - viewpoint.distance_m_ * viewpoint.forward();
   return viewpoint;
 }
