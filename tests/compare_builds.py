@@ -6,7 +6,8 @@
     python3 tests/compare_builds.py OLD/greatx NEW/greatx [--ticks 4] [--assets FOLDER]
             [--only city --only room]
 
-Each embedded scenario, and the examples whose files lie in FOLDER, run for a few ticks in both builds. The
+The scenarios of assets/scenarios, and the examples whose files lie in FOLDER, run for a few ticks in both
+builds, from the same text. The
 manifests list the size and the SHA-256 of every file, so equal manifests mean equal data sets. For each
 scenario with a channel the JSON of `greatx paths` is compared as well. The exit status is 0 if everything is
 equal and 1 if not.
@@ -75,7 +76,7 @@ def cases_of(assets):
     """Yields (name, scenario argument, further arguments, whether it has a channel) of everything to
     compare."""
     for file in sorted((ROOT / "assets/scenarios").glob("*.yaml")):
-        yield file.stem, file.stem, [], "\nchannels:" in file.read_text()
+        yield file.stem, file, [], "\nchannels:" in file.read_text()
     if assets:
         for file in sorted((ROOT / "assets/examples").glob("*.yaml")):
             text = file.read_text()
