@@ -34,7 +34,7 @@ EchoMotion frame() {
 
 EchoList trace(EchoScene& scene, const EchoOptions& options, const EchoMotion& motion) {
   EchoFinder finder(scene.gpu, scene.surfaces(), EchoEnd{}, std::nullopt, options);
-  return testing::trace(finder, scene.gpu, scene.scene.bodies.size(), motion);
+  return testing::trace_echoes(finder, scene.gpu, scene.scene.bodies.size(), motion);
 }
 
 double delay_at(const DelayTrack& track, double t) {

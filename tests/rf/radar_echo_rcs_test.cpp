@@ -39,7 +39,8 @@ TEST(RadarEchoRcs, CrossPolarizedElementsAtOnePlace) {
   const EchoEnd vertical, horizontal{.pattern = {}, .slant = 0.5 * pi};
   const auto field = [&](const EchoEnd& receiver) {
     EchoFinder finder(scene.gpu, scene.surfaces(), vertical, receiver, exact(0.09, 100));
-    const EchoList list = trace(finder, scene.gpu, scene.scene.bodies.size(), at_rest(at, at));
+    const EchoList list =
+        testing::trace_echoes(finder, scene.gpu, scene.scene.bodies.size(), testing::at_rest(at, at));
     for (const Echo& echo : list.echoes) EXPECT_GT(echo.bounces, 0u);
     return field_of(list);
   };

@@ -244,7 +244,8 @@ TEST(RadarEchoScene, PartsOfTheOwnBodyAreNotSeen) {
       EchoEnd end;
       end.own_body = own;
       EchoFinder finder(gpu, surfaces, end, std::nullopt, options);
-      const EchoList list = trace(finder, gpu, scene.bodies.size(), at_rest(Pose{}, Pose{}));
+      const EchoList list =
+          testing::trace_echoes(finder, gpu, scene.bodies.size(), testing::at_rest(Pose{}, Pose{}));
       ASSERT_FALSE(list.echoes.empty());
       for (const Echo& echo : list.echoes) EXPECT_NEAR(echo.point.x, own == 0 ? 2.0 : 20.0, 1e-9);
     }

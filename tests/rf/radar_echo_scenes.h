@@ -73,8 +73,8 @@ inline EchoMotion at_rest(const Pose& transmitter, const Pose& receiver) {
 }
 
 /// Records a search in a scene of `bodies` bodies, submits it and collects the echoes.
-inline EchoList trace(EchoFinder& finder, scene::GpuScene& gpu, size_t bodies, const EchoMotion& motion,
-                      EchoStatistics* statistics = nullptr) {
+inline EchoList trace_echoes(EchoFinder& finder, scene::GpuScene& gpu, size_t bodies,
+                             const EchoMotion& motion, EchoStatistics* statistics = nullptr) {
   std::vector<Pose> poses(bodies);
   for (uint32_t body = 1; body < bodies; ++body) poses[body] = motion.body(body, motion.traced_s);
   gpu::TickRing ring(test::device(), 1, 1u << 20, 1u << 20);
@@ -99,8 +99,8 @@ class EchoScene {
   EchoList find(const EchoOptions& options, const Pose& transmitter, const std::optional<Pose>& receiver = {},
                 EchoStatistics* statistics = nullptr, const EchoEnd& end = {}) {
     EchoFinder finder(gpu, *surfaces_, end, receiver ? std::optional(end) : std::nullopt, options);
-    return trace(finder, gpu, scene.bodies.size(), at_rest(transmitter, receiver.value_or(transmitter)),
-                 statistics);
+    return trace_echoes(finder, gpu, scene.bodies.size(),
+                        at_rest(transmitter, receiver.value_or(transmitter)), statistics);
   }
   const RadioSurfaces& surfaces() const { return *surfaces_; }
 
