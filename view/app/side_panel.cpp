@@ -43,7 +43,7 @@ double SidePanel::carrier_hz(ShownRun& run) const {
   return default_carrier_hz;
 }
 
-void SidePanel::draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view) {
+void SidePanel::draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view, EditSession& session) {
   keep_times(main);
   grid_.keep(runs);
   if (!ImGui::BeginTabBar("side tabs")) return;
@@ -57,7 +57,8 @@ void SidePanel::draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& 
   tab("Sensors", [&] { grid_.draw(runs); });
   tab("Picked", [&] { draw_picked(main, view); });
   tab("Paths", [&] { draw_paths(main, view); });
-  tab("Effects", [&] { draw_effects(main); });
+  tab("Effects", [&] { draw_effects(main, session); });
+  tab("Edit", [&] { edit_.draw(session); });
   tab("Times", [&] { draw_times(main, view); });
   ImGui::EndTabBar();
 }
@@ -122,15 +123,22 @@ void SidePanel::draw_paths(ShownRun& run, MainView& view) {
   }
 }
 
-void SidePanel::draw_effects(ShownRun& run) {
+void SidePanel::draw_effects(ShownRun& run, EditSession& session) {
   if (run.experiment() == nullptr) {
     ImGui::TextUnformatted("The scenario is not there yet.");
     return;
   }
+  const bool editable = session.document() != nullptr;
+  if (editable && ImGui::CollapsingHeader("Knobs of accuracy and time")) edit_.draw_knobs(session);
+  if (editable && ImGui::CollapsingHeader("Before and after the last change")) edit_.draw_comparison(session);
   if (!ImGui::BeginTable("effects", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
   for (const sim::Effect* const effect : run.experiment()->plan.all()) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
+    if (editable) {
+      edit_.draw_switch(session, effect->name);
+      ImGui::SameLine();
+    }
     if (effect->on)
       ImGui::TextColored({0.45f, 0.85f, 0.50f, 1.0f}, "on");
     else
