@@ -20,5 +20,7 @@ std::span<const EmbeddedScenario> embedded_scenarios();
 
 /// Returns docs/scenario.schema.json.
 std::string_view scenario_schema();
+/// Returns docs/radio_materials.schema.json.
+std::string_view materials_schema();
 
 }  // namespace greatx

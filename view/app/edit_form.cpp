@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "view/edit/handles.h"
 
 namespace greatx::view {
 
@@ -51,7 +52,7 @@ FieldValue renamed(const FieldValue& item, const std::string& suffix) {
 /// The width of the widget, so that its label fits to the right of it.
 float widget_width() { return std::max(80.0f, 0.58f * ImGui::GetContentRegionAvail().x); }
 
-std::string hint(const FormType& type) {
+std::string hint_of(const FormType& type) {
   std::string text = type.description;
   const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "\n") + more; };
   if (type.least && type.most)
@@ -64,7 +65,7 @@ std::string hint(const FormType& type) {
 
 void show_hint(const FormType& type) {
   if (!ImGui::IsItemHovered()) return;
-  const std::string text = hint(type);
+  const std::string text = hint_of(type);
   if (!text.empty()) ImGui::SetTooltip("%s", printable_lines(text).c_str());
 }
 
@@ -111,6 +112,7 @@ std::string number_text(double value) {
 
 std::vector<YamlChange> EditForm::draw(const std::shared_ptr<const FieldValue>& root, const YamlPath& path) {
   changes_.clear();
+  root_ = root;
   const std::shared_ptr<const FieldValue> value = value_at(root, path);
   if (value == nullptr) return {};
   const FormType type = schema_.type_of(part_at(*root, path), value.get());
@@ -126,6 +128,7 @@ std::vector<YamlChange> EditForm::draw(const std::shared_ptr<const FieldValue>& 
 std::vector<YamlChange> EditForm::draw_members(const std::shared_ptr<const FieldValue>& root,
                                                const YamlPath& path, const std::vector<std::string>& keys) {
   changes_.clear();
+  root_ = root;
   const std::shared_ptr<const FieldValue> value = value_at(root, path);
   if (value == nullptr) return {};
   const FormType type = schema_.type_of(part_at(*root, path), value.get());
@@ -137,9 +140,19 @@ std::vector<YamlChange> EditForm::draw_members(const std::shared_ptr<const Field
   return std::move(changes_);
 }
 
+bool EditForm::has_members(const std::shared_ptr<const FieldValue>& root, const YamlPath& path,
+                           const std::vector<std::string>& keys) const {
+  const std::shared_ptr<const FieldValue> value = value_at(root, path);
+  if (value == nullptr) return false;
+  return std::ranges::any_of(
+      schema_.type_of(part_at(*root, path), value.get()).members,
+      [&](const FormType::Member& m) { return std::ranges::find(keys, m.key) != keys.end(); });
+}
+
 std::vector<YamlChange> EditForm::draw_found(const std::shared_ptr<const FieldValue>& root,
                                              const std::string& words) {
   changes_.clear();
+  root_ = root;
   found(schema_.root(), root.get(), {}, words);
   return std::move(changes_);
 }
@@ -196,8 +209,15 @@ void EditForm::absent_members(const FormType& type, const FieldValue& value, con
   };
   const auto count = std::ranges::count_if(type.members, absent);
   if (count == 0 || !ImGui::TreeNode("more", "%d more", static_cast<int>(count))) return;
-  for (const FormType::Member& m : type.members)
-    if (absent(m)) member(m.key, m.part, nullptr, below(path, m.key), false);
+  for (const FormType::Member& m : type.members) {
+    if (!absent(m)) continue;
+    const size_t changes = changes_.size();
+    member(m.key, m.part, nullptr, below(path, m.key), false);
+    if (changes_.size() == changes) continue;
+    for (const FormType::Member& other : type.members)
+      if (absent(other) && std::ranges::find(m.together, other.key) != m.together.end())
+        set(below(path, other.key), first_value(schema_.type_of(other.part, nullptr)));
+  }
   ImGui::TreePop();
 }
 
@@ -206,10 +226,16 @@ void EditForm::member(const std::string& label, const SchemaPart& part, const Fi
   const FormType type = schema_.type_of(part, value);
   ImGui::PushID(yaml_path_text(path).c_str());
   if (value == nullptr) {
-    if (ImGui::SmallButton("set")) set(path, first_value(type).empty() ? "x" : first_value(type));
+    const std::string first = first_value(type);
+    if (first.empty()) {
+      ImGui::SetNextItemWidth(widget_width());
+      line("", path, type.kind == Kind::text, "not given");
+    } else if (ImGui::SmallButton("set")) {
+      set(path, first);
+    }
     show_hint(type);
     ImGui::SameLine();
-    ImGui::TextDisabled("%s%s%s", label.c_str(), type.default_line.empty() ? "" : ": ",
+    ImGui::TextDisabled("%s%s%s", printable(label).c_str(), type.default_line.empty() ? "" : ": ",
                         type.default_line.c_str());
     show_hint(type);
   } else if (value->kind == FieldValue::Kind::map ||
@@ -278,7 +304,8 @@ void EditForm::list(const FormType& type, const FieldValue& value, const YamlPat
     ImGui::SameLine();
     if (ImGui::SmallButton("+")) {
       const std::string copy = yaml_line(renamed(item, fmt::format("_{}", value.items.size() + 1)));
-      changes_.push_back({YamlChange::Kind::insert, below(path, i + 1), copy});
+      const std::optional<YamlChange> way_point = insert_behind(root_, below(path, i));
+      changes_.push_back(way_point.value_or(YamlChange{YamlChange::Kind::insert, below(path, i + 1), copy}));
     }
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("add a copy");
     ImGui::SameLine();
@@ -368,13 +395,13 @@ void EditForm::choices(const FormType& type, const FieldValue& value, const Yaml
   ImGui::EndCombo();
 }
 
-void EditForm::line(const std::string& now, const YamlPath& path, bool is_text) {
+void EditForm::line(const std::string& now, const YamlPath& path, bool is_text, const char* hint) {
   const std::string key = yaml_path_text(path);
   char buffer[1024] = {};
   const std::string& shown = texts_.contains(key) ? texts_[key] : now;
   std::memcpy(buffer, shown.data(), std::min(shown.size(), sizeof buffer - 1));
   if (shown.size() >= sizeof buffer) return ImGui::TextDisabled("too long: change it in the text");
-  ImGui::InputText("##line", buffer, sizeof buffer);
+  ImGui::InputTextWithHint("##line", hint, buffer, sizeof buffer);
   if (ImGui::IsItemActive()) texts_[key] = buffer;
   if (!ImGui::IsItemDeactivated()) return;
   const std::string done = texts_.contains(key) ? texts_[key] : buffer;

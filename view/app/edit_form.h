@@ -22,6 +22,9 @@ class EditForm {
   std::vector<YamlChange> draw(const std::shared_ptr<const FieldValue>& root, const YamlPath& path);
   /// Draws the members of the whole document whose place contains `words`, each on a line.
   std::vector<YamlChange> draw_found(const std::shared_ptr<const FieldValue>& root, const std::string& words);
+  /// Whether the map at `path` can have members of these names.
+  bool has_members(const std::shared_ptr<const FieldValue>& root, const YamlPath& path,
+                   const std::vector<std::string>& keys) const;
   /// Draws the members of these names of the map at `path`, given or not.
   std::vector<YamlChange> draw_members(const std::shared_ptr<const FieldValue>& root, const YamlPath& path,
                                        const std::vector<std::string>& keys);
@@ -38,7 +41,7 @@ class EditForm {
   void numbers(const FormType& type, const FieldValue& value, const YamlPath& path);
   void choices(const FormType& type, const FieldValue& value, const YamlPath& path);
   /// A line of text; `now` is its value when nobody edits it. Changes are YAML, or a text if `is_text`.
-  void line(const std::string& now, const YamlPath& path, bool is_text);
+  void line(const std::string& now, const YamlPath& path, bool is_text, const char* hint = "");
   void found(const SchemaPart& part, const FieldValue* value, const YamlPath& path, const std::string& words);
   void set(const YamlPath& path, std::string value) {
     changes_.push_back({YamlChange::Kind::set, path, std::move(value)});
@@ -46,6 +49,7 @@ class EditForm {
   SchemaPart part_at(const FieldValue& root, const YamlPath& path) const;
 
   const Schema& schema_;
+  std::shared_ptr<const FieldValue> root_;  ///< that is drawn
   std::vector<YamlChange> changes_;
   // What the user is editing, until it is done. By path.
   std::map<std::string, std::string> texts_;

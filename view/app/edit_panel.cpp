@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 #include <imgui.h>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -42,9 +43,49 @@ std::string name_of(const FieldValue& item) {
   return member == item.members.end() ? "" : member->value->text;
 }
 
+/// Returns a row for each difference. Arrays of one sensor that differ in the same way share one.
+std::vector<std::pair<std::string, std::string>> grouped(const std::vector<Difference>& differences) {
+  struct Group {
+    std::string sensor, text, arrays;
+    size_t count = 0;
+  };
+  std::vector<Group> groups;
+  for (const Difference& difference : differences) {
+    if (difference.equal) continue;
+    const auto same = std::ranges::find_if(groups, [&](const Group& group) {
+      return group.sensor == difference.sensor && group.text == difference.text;
+    });
+    if (same == groups.end()) {
+      groups.push_back({difference.sensor, difference.text, difference.array, 1});
+    } else {
+      ++same->count;
+      if (same->count <= 3) same->arrays += ", " + difference.array;
+    }
+  }
+  std::vector<std::pair<std::string, std::string>> rows;
+  for (const Group& group : groups)
+    rows.emplace_back(group.sensor + (group.arrays.empty() ? "" : ": ") + group.arrays +
+                          (group.count > 3 ? fmt::format(" and {} more", group.count - 3) : ""),
+                      group.text);
+  return rows;
+}
+
 }  // namespace
 
-EditPanel::EditPanel() : schema_(scenario_schema()), form_(schema_) {}
+EditPanel::EditPanel()
+    : schema_(scenario_schema()),
+      material_schema_(materials_schema()),
+      form_(schema_),
+      material_form_(material_schema_) {
+  for (const FormType::Member& member : schema_.type_of(schema_.root(), nullptr).members)
+    if (member.key == "effects")
+      for (const FormType::Member& effect : schema_.type_of(member.part, nullptr).members)
+        switches_.push_back(effect.key);
+}
+
+bool EditPanel::is_switch(const std::string& effect) const {
+  return std::ranges::find(switches_, effect) != switches_.end();
+}
 
 template <typename Act>
 void EditPanel::attempt(Act act) {
@@ -66,7 +107,7 @@ void EditPanel::apply(EditSession& session, const std::vector<YamlChange>& chang
   });
 }
 
-void EditPanel::draw(EditSession& session) {
+void EditPanel::draw(EditSession& session, const std::vector<std::string>& materials) {
   if (session.document() == nullptr) {
     ImGui::TextWrapped("A data set cannot be edited. `greatx view SCENARIO` runs a scenario that can.");
     return;
@@ -83,10 +124,22 @@ void EditPanel::draw(EditSession& session) {
     ImGui::TextWrapped("%s", note_.c_str());
     ImGui::PopStyleColor();
   }
-  if (ImGui::CollapsingHeader("Before and after", ImGuiTreeNodeFlags_DefaultOpen)) draw_comparison(session);
+  if (ImGui::CollapsingHeader("Before and after", ImGuiTreeNodeFlags_DefaultOpen)) {
+    const float most = 0.35f * ImGui::GetWindowHeight();
+    ImGui::BeginChild("before and after", {0.0f, std::min(most, comparison_height_)});
+    const float top = ImGui::GetCursorPosY();
+    draw_comparison(session);
+    comparison_height_ = ImGui::GetCursorPosY() - top + 4.0f;
+    ImGui::EndChild();
+  }
   if (!ImGui::BeginTabBar("edit tabs")) return;
   if (ImGui::BeginTabItem("Form")) {
     form(session);
+    ImGui::EndTabItem();
+  }
+  const bool to_material = !wanted_material_.empty();
+  if (ImGui::BeginTabItem("Radio materials", nullptr, to_material ? ImGuiTabItemFlags_SetSelected : 0)) {
+    this->materials(session, materials);
     ImGui::EndTabItem();
   }
   if (ImGui::BeginTabItem("Text")) {
@@ -140,6 +193,41 @@ void EditPanel::form(EditSession& session) {
   ImGui::EndChild();
 }
 
+void EditPanel::materials(EditSession& session, const std::vector<std::string>& names) {
+  if (!wanted_material_.empty()) material_words_ = std::exchange(wanted_material_, {});
+  char words[128] = {};
+  std::memcpy(words, material_words_.data(), std::min(material_words_.size(), sizeof words - 1));
+  if (ImGui::InputTextWithHint("##words", "find a material", words, sizeof words)) material_words_ = words;
+  ImGui::TextWrapped(
+      "An entry here goes before the scene file's own material; an empty one changes nothing.");
+  ImGui::BeginChild("materials");
+  const auto root = session.document()->materials();
+  for (const std::string& name : names) {
+    if (name.find(material_words_) == std::string::npos) continue;
+    const YamlPath path{YamlStep("materials"), YamlStep(name)};
+    ImGui::PushID(name.c_str());
+    const bool given = value_at(root, path) != nullptr;
+    if (!given && ImGui::SmallButton("change"))
+      change_materials(session, {{YamlChange::Kind::set, path, "{}"}});
+    if (given && ImGui::SmallButton("back"))
+      change_materials(session, {{YamlChange::Kind::remove, path, ""}});
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip(given ? "use the scene file's own radio material" : "give it a radio material here");
+    ImGui::SameLine();
+    if (!given) ImGui::TextDisabled("%s", printable(name).c_str());
+    if (given && ImGui::TreeNodeEx("entry", ImGuiTreeNodeFlags_DefaultOpen, "%s", printable(name).c_str())) {
+      change_materials(session, material_form_.draw(root, path));
+      ImGui::TreePop();
+    }
+    ImGui::PopID();
+  }
+  ImGui::EndChild();
+}
+
+void EditPanel::change_materials(EditSession& session, const std::vector<YamlChange>& changes) {
+  if (!changes.empty()) attempt([&] { session.change_materials(changes); });
+}
+
 void EditPanel::text(EditSession& session) {
   const ScenarioDocument& document = *session.document();
   if (text_version_ != document.version()) {
@@ -166,34 +254,26 @@ void EditPanel::draw_comparison(const EditSession& session) {
   ImGui::TextUnformatted(comparison->label.empty() ? "back to the beginning"
                                                    : printable(comparison->label).c_str());
   const auto time = [](const TickSamples& samples) {
-    if (const std::optional<double> median = samples.median_ms())
-      return fmt::format("{:.1f} ms (median of {} ticks)", *median, samples.milliseconds.size());
-    return samples.first_ms
-               ? fmt::format("{:.1f} ms (one tick, its first; play to see more)", *samples.first_ms)
-               : std::string("no tick yet");
+    const std::optional<double> median = samples.median_ms();
+    if (!median) return std::string("no tick yet; play or step");
+    const size_t count = samples.milliseconds.size();
+    return fmt::format("{:.1f} ms ({})", *median,
+                       count == 1 ? "one tick" : fmt::format("median of {}", count));
   };
-  if (ImGui::BeginTable("comparison", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
-    const auto row = [](const std::string& what, const std::string& detail, const std::string& value,
-                        bool grey) {
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(printable(what).c_str());
-      ImGui::TableNextColumn();
-      ImGui::TextDisabled("%s", printable(detail).c_str());
-      ImGui::TableNextColumn();
-      grey ? ImGui::TextDisabled("%s", value.c_str()) : ImGui::TextWrapped("%s", printable(value).c_str());
-    };
-    row("a tick", "before", time(comparison->before), false);
-    row("", "after", time(session.samples()), false);
-    size_t equal = 0;
-    for (const Difference& difference : comparison->rows) {
-      equal += difference.equal ? 1 : 0;
-      if (!difference.equal) row(difference.sensor, difference.array, difference.text, false);
-    }
-    row(fmt::format("{} arrays", equal), fmt::format("tick {}", comparison->tick), "equal, byte by byte",
-        true);
-    ImGui::EndTable();
-  }
+  if (!ImGui::BeginTable("comparison", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
+  const auto row = [](const std::string& what, const std::string& value, bool grey) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", printable(what).c_str());
+    ImGui::TableNextColumn();
+    grey ? ImGui::TextDisabled("%s", value.c_str()) : ImGui::TextWrapped("%s", printable(value).c_str());
+  };
+  row("a tick takes, before", time(comparison->before), false);
+  row("a tick takes, after", time(session.samples()), false);
+  for (const auto& [what, value] : grouped(comparison->rows)) row(what, value, false);
+  const auto equal = std::ranges::count_if(comparison->rows, &Difference::equal);
+  row(fmt::format("{} arrays of tick {}", equal, comparison->tick), "equal, byte by byte", true);
+  ImGui::EndTable();
 }
 
 void EditPanel::draw_switch(EditSession& session, const std::string& effect) {
@@ -216,7 +296,7 @@ void EditPanel::draw_knobs(EditSession& session) {
   std::vector<YamlChange> changes = form_.draw_members(root, {}, {"tolerance_db"});
   const auto draw = [&](const std::string& title, const YamlPath& path,
                         const std::vector<std::string>& keys) {
-    if (!ImGui::TreeNode(title.c_str())) return;
+    if (!form_.has_members(root, path, keys) || !ImGui::TreeNode(title.c_str())) return;
     const std::vector<YamlChange> more = form_.draw_members(root, path, keys);
     changes.insert(changes.end(), more.begin(), more.end());
     ImGui::TreePop();

@@ -3,6 +3,7 @@
 #include "view/app/edit_session.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -31,10 +32,7 @@ std::string shell_word(const std::string& text) {
 void TickSamples::add(const std::shared_ptr<const ShownTick>& tick) {
   if (tick == nullptr || tick == last) return;
   last = tick;
-  if (!first_ms) {
-    first_ms = tick->simulated_ms;
-    return;
-  }
+  if (std::exchange(cold, false)) return;
   milliseconds.push_back(tick->simulated_ms);
   if (milliseconds.size() > most_samples) milliseconds.pop_front();
 }
@@ -63,6 +61,11 @@ void EditSession::change(const YamlChange& change) {
 void EditSession::change(const std::vector<YamlChange>& changes, const std::string& label) {
   error_.clear();
   lost_comments_ = !need_document().change(changes, label);
+}
+void EditSession::change_materials(const std::vector<YamlChange>& changes) {
+  error_.clear();
+  lost_comments_ = false;
+  need_document().change_materials(changes);
 }
 void EditSession::replace(const std::string& text) {
   error_.clear();
@@ -102,22 +105,33 @@ void EditSession::launch(ShownRun& shown) {
   pending_ = ShownRun::changed(shown.name(), options_, document_->scenario(), std::move(before));
   tick_before_ = shown.run().shown();
   info_before_ = shown.info();
-  if (tick_before_ != nullptr) pending_->run().jump(tick_before_->sequence, tick_before_->packet.tick);
+  warm_tick_.reset();
+  warmed_ = tick_before_ == nullptr || tick_before_->packet.tick == 0;
+  if (tick_before_ == nullptr) return;
+  pending_->run().jump(tick_before_->sequence, tick_before_->packet.tick);
+  if (!warmed_) pending_->run().step(-1);
 }
 
-/// Tells whether the changed run shows its tick; a run that fails is dropped.
+/// Drops a changed run that cannot show its tick, and keeps its error.
+bool EditSession::failed() {
+  const RunStatus status = pending_->run().status();
+  if (status.error.empty()) return false;
+  error_ = status.error;
+  disposer_.drop(std::move(pending_));
+  return true;
+}
+
+/// Tells whether the changed run shows the wanted tick.
 bool EditSession::arrived(ShownRun& shown) {
   pending_->update();
-  const RunStatus status = pending_->run().status();
-  if (status.phase == RunStatus::Phase::failed ||
-      (status.phase == RunStatus::Phase::ready && pending_->run().shown() == nullptr &&
-       !status.error.empty())) {
-    error_ = status.error;
-    disposer_.drop(std::move(pending_));
-    return false;
+  if (failed()) return false;
+  const std::shared_ptr<const ShownTick> tick = pending_->run().shown();
+  if (pending_->experiment() == nullptr || pending_->info() == nullptr || tick == nullptr) return false;
+  if (!warmed_ && warm_tick_ == nullptr) {
+    warm_tick_ = tick;
+    pending_->run().jump(tick_before_->sequence, tick_before_->packet.tick);
   }
-  if (pending_->experiment() == nullptr || pending_->info() == nullptr || pending_->run().shown() == nullptr)
-    return false;
+  if (!warmed_ && tick == warm_tick_) return false;
   const RunStatus now = shown.run().status();
   pending_->run().set_speed(now.speed);
   pending_->run().play(now.playing);
@@ -131,6 +145,7 @@ void EditSession::compare(ShownRun& fresh) {
       tick_before_->packet.tick != tick->packet.tick)
     return;
   comparison_ = EditComparison{document_->label(), tick->packet.tick, {}, std::move(samples_)};
+  comparison_->before.last.reset();
   comparing_ = std::async(std::launch::async, [a = info_before_, x = tick_before_, b = fresh.info(),
                                                y = tick] { return differences(*a, *x, *b, *y); });
 }
@@ -151,6 +166,7 @@ std::unique_ptr<ShownRun> EditSession::update(ShownRun& shown) {
   if (pending_ == nullptr || !arrived(shown)) return nullptr;
   compare(*pending_);
   samples_ = {};
+  samples_.cold = !warmed_;
   tick_before_.reset();
   info_before_.reset();
   return std::move(pending_);

@@ -23,12 +23,11 @@
 
 namespace greatx::view {
 
-/// Holds the times of ticks that a run has simulated under one setting, without its first one, which pays for
-/// what is done once.
+/// Holds the times of ticks that a run has simulated under one setting.
 struct TickSamples {
   std::deque<double> milliseconds;
-  std::optional<double> first_ms;
   std::shared_ptr<const ShownTick> last;
+  bool cold = true;  ///< the next tick pays for what is done once, and is not counted
 
   void add(const std::shared_ptr<const ShownTick>& tick);
   std::optional<double> median_ms() const;
@@ -60,6 +59,7 @@ class EditSession {
   /// These throw UserError if there is no document or the change is refused.
   void change(const YamlChange& change);
   void change(const std::vector<YamlChange>& changes, const std::string& label);
+  void change_materials(const std::vector<YamlChange>& changes);
   void replace(const std::string& text);
   void undo();
   void redo();
@@ -89,6 +89,7 @@ class EditSession {
   ScenarioDocument& need_document();
   void launch(ShownRun& shown);
   void compare(ShownRun& fresh);
+  bool failed();
   bool arrived(ShownRun& shown);
 
   const ViewerOptions& options_;
@@ -96,6 +97,9 @@ class EditSession {
   uint64_t launched_version_ = 0;
   std::unique_ptr<ShownRun> pending_;
   bool reload_ = false;  ///< the next run reads all files
+  /// The pending run has shown the tick before the wanted one, so that what is done once is done.
+  std::shared_ptr<const ShownTick> warm_tick_;
+  bool warmed_ = false;
   std::shared_ptr<const ShownTick> tick_before_;
   std::shared_ptr<const io::DatasetInfo> info_before_;
   std::string error_;

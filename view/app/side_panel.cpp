@@ -3,11 +3,15 @@
 #include "view/app/side_panel.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <imgui.h>
+#include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "core/error.h"
 #include "core/text.h"
 #include "draw/paths/facts.h"
 
@@ -47,28 +51,47 @@ void SidePanel::draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& 
   keep_times(main);
   grid_.keep(runs);
   if (!ImGui::BeginTabBar("side tabs")) return;
-  const auto tab = [](const char* name, auto draw_tab) {
-    if (!ImGui::BeginTabItem(name)) return;
+  const auto tab = [this](const char* name, auto draw_tab) {
+    const bool wanted = wanted_tab_ == name;
+    if (wanted) wanted_tab_.clear();
+    if (!ImGui::BeginTabItem(name, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0)) return;
     ImGui::BeginChild(name);
     draw_tab();
     ImGui::EndChild();
     ImGui::EndTabItem();
   };
   tab("Sensors", [&] { grid_.draw(runs); });
-  tab("Picked", [&] { draw_picked(main, view); });
+  tab("Picked", [&] { draw_picked(main, view, session); });
   tab("Paths", [&] { draw_paths(main, view); });
   tab("Effects", [&] { draw_effects(main, session); });
-  tab("Edit", [&] { edit_.draw(session); });
+  tab("Edit", [&] { draw_edit(main, session); });
   tab("Times", [&] { draw_times(main, view); });
   ImGui::EndTabBar();
 }
 
-void SidePanel::draw_picked(ShownRun& run, MainView& view) {
+void SidePanel::open_tab(const std::string& name) {
+  static constexpr std::string_view tabs[] = {"Sensors", "Picked", "Paths", "Effects", "Edit", "Times"};
+  const auto same = [&](std::string_view tab) {
+    return std::ranges::equal(
+        tab, name, {}, [](char c) { return std::tolower(static_cast<unsigned char>(c)); },
+        [](char c) { return std::tolower(static_cast<unsigned char>(c)); });
+  };
+  const auto* const found = std::ranges::find_if(tabs, same);
+  if (found == std::end(tabs))
+    throw_user_error("tab: expected one of {}, found '{}'", fmt::join(tabs, ", "), printable(name));
+  wanted_tab_ = *found;
+}
+
+void SidePanel::draw_picked(ShownRun& run, MainView& view, EditSession& session) {
   if (!view.picked()) {
     ImGui::TextWrapped("Click at something in the scene to see what it is, for light and for radio.");
     return;
   }
   draw_facts(view.picked_facts(carrier_hz(run)));
+  if (session.document() == nullptr || run.experiment() == nullptr) return;
+  if (!ImGui::Button("change its radio material")) return;
+  edit_.open_material(run.experiment()->scene().materials.at(view.picked()->material).name);
+  wanted_tab_ = "Edit";
 }
 
 void SidePanel::draw_filter(ShownRun& run) {
@@ -135,7 +158,7 @@ void SidePanel::draw_effects(ShownRun& run, EditSession& session) {
   for (const sim::Effect* const effect : run.experiment()->plan.all()) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    if (editable) {
+    if (editable && edit_.is_switch(effect->name)) {
       edit_.draw_switch(session, effect->name);
       ImGui::SameLine();
     }
@@ -150,6 +173,14 @@ void SidePanel::draw_effects(ShownRun& run, EditSession& session) {
     ImGui::TextWrapped("%s", printable(why).c_str());
   }
   ImGui::EndTable();
+}
+
+void SidePanel::draw_edit(ShownRun& run, EditSession& session) {
+  std::vector<std::string> materials;
+  if (run.experiment() != nullptr)
+    for (const auto& material : run.experiment()->scene().materials) materials.push_back(material.name);
+  std::ranges::sort(materials);
+  edit_.draw(session, materials);
 }
 
 void SidePanel::keep_times(ShownRun& run) {

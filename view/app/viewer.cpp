@@ -257,6 +257,13 @@ class Viewer {
                    [this](const std::string& title) { side_.grid().toggle(title); },
                    {},
                    [this] { return shown().info() != nullptr; }});
+    commands_.add({"tab",
+                   "View",
+                   "Tabs: click them",
+                   "",
+                   [this](const std::string& name) { side_.open_tab(name); },
+                   {},
+                   [this] { return shown().info() != nullptr; }});
     add_switch(commands_, "side", "View", "Panels", "tab", side_open_);
     add_overlay_commands();
     add_switch(commands_, "help", "Help", "Keys and mouse", "F1", help_open_);
@@ -285,6 +292,10 @@ class Viewer {
     });
     add("unset", "Use a default: in the tab Edit", "", [this](const std::string& path) {
       edit_.change({YamlChange::Kind::remove, parse_yaml_path(path), ""});
+    });
+    add("set-material", "Set a radio material: in the tab Edit", "", [this](const std::string& words) {
+      const auto [name, value] = split(words);
+      edit_.change_materials({{YamlChange::Kind::set, {YamlStep("materials"), YamlStep(name)}, value}});
     });
     add("select", "Select a node to move: click its handle", "",
         [this](const std::string& node) { gizmo_.select(edit_, node); });

@@ -4,11 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <system_error>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "core/budget.h"
 #include "core/error.h"
 #include "core/fields/yaml.h"
+#include "core/input_file.h"
 #include "io/files/file.h"
 
 namespace greatx::view {
@@ -38,18 +43,50 @@ void find_files(const FieldValue& value, const YamlPath& here, const std::filesy
   }
 }
 
+/// Returns the text of the scenario's radio materials.
+std::string materials_of(const sim::Scenario& scenario) {
+  if (scenario.scene.radio_materials.empty()) return "materials: {}\n";
+  return InputFile(scenario.scene.radio_materials, "expected readable radio materials", budget::yaml_file)
+      .text();
+}
+
 }  // namespace
 
 ScenarioDocument::ScenarioDocument(const sim::Scenario& first, Parse parse)
-    : parse_(std::move(parse)), file_(first.file), saved_(first.text) {
-  states_.push_back({first.text, "", read_yaml(first.text, first.name), first});
+    : parse_(std::move(parse)), file_(first.file), saved_(first.text), saved_materials_(materials_of(first)) {
+  states_.push_back({first.text, saved_materials_, "", read_yaml(first.text, first.name),
+                     read_yaml(saved_materials_, first.scene.radio_materials.string()), first});
 }
 
-ScenarioDocument::State ScenarioDocument::state_of(std::string text, std::string label) const {
+ScenarioDocument::~ScenarioDocument() {
+  std::error_code error;
+  if (!scratch_.empty()) std::filesystem::remove_all(scratch_, error);
+}
+
+/// Writes radio materials to a file of their own, which a run reads instead of the saved ones.
+std::filesystem::path ScenarioDocument::unsaved_materials(const std::string& text) {
+  if (scratch_.empty()) {
+    std::string folder = (std::filesystem::temp_directory_path() / "greatx-view-XXXXXX").string();
+    if (mkdtemp(folder.data()) == nullptr) throw_user_error("{}: cannot make the folder", folder);
+    scratch_ = folder;
+  }
+  const std::filesystem::path file = scratch_ / fmt::format("materials_{}.yaml", ++scratch_files_);
+  io::write_file_atomically(file, text);
+  return file;
+}
+
+ScenarioDocument::State ScenarioDocument::state_of(std::string text, std::string materials,
+                                                   std::string label) {
   State state;
   state.scenario = parse_(text);
   state.values = read_yaml(text, state.scenario.name);
+  state.material_values = read_yaml(materials, "the radio materials");
+  if (materials == states_[at_].materials && states_[at_].materials != saved_materials_)
+    state.scenario.scene.radio_materials = states_[at_].scenario.scene.radio_materials;
+  else if (materials != saved_materials_)
+    state.scenario.scene.radio_materials = unsaved_materials(materials);
   state.text = std::move(text);
+  state.materials = std::move(materials);
   state.label = std::move(label);
   return state;
 }
@@ -73,12 +110,19 @@ bool ScenarioDocument::change(const std::vector<YamlChange>& changes, const std:
     edited = edit_yaml(edited.text, change);
     kept = kept && edited.kept_comments;
   }
-  if (edited.text != text()) push(state_of(std::move(edited.text), label));
+  if (edited.text != text()) push(state_of(std::move(edited.text), states_[at_].materials, label));
   return kept;
 }
 
+void ScenarioDocument::change_materials(const std::vector<YamlChange>& changes) {
+  std::string edited = states_[at_].materials;
+  for (const YamlChange& change : changes) edited = edit_yaml(edited, change).text;
+  if (edited != states_[at_].materials)
+    push(state_of(text(), std::move(edited), yaml_path_text(changes.front().path)));
+}
+
 void ScenarioDocument::replace(const std::string& text) {
-  if (text != this->text()) push(state_of(text, "text"));
+  if (text != this->text()) push(state_of(text, states_[at_].materials, "text"));
 }
 
 void ScenarioDocument::undo() {
@@ -104,9 +148,23 @@ void ScenarioDocument::save(const std::filesystem::path& file) {
     find_files(*values(), {}, file_.parent_path(), changes);
     for (const YamlChange& change : changes) written = edit_yaml(written, change).text;
   }
+  const std::string materials = states_[at_].materials;
   io::create_folder_of(place);
+  if (materials != saved_materials_) {
+    const auto named = value_at(values(), {YamlStep("scene"), YamlStep("radio_materials")});
+    const std::filesystem::path own = named != nullptr
+                                          ? parse_(text()).scene.radio_materials
+                                          : place.parent_path() / (scenario().name + "_materials.yaml");
+    io::write_file_atomically(own, materials);
+    if (named == nullptr)
+      written = edit_yaml(written, {YamlChange::Kind::set,
+                                    {YamlStep("scene"), YamlStep("radio_materials")},
+                                    yaml_text(own.string())})
+                    .text;
+    saved_materials_ = materials;
+  }
   io::write_file_atomically(place, written);
-  if (written != text()) push(state_of(written, "save"));
+  if (written != text()) push(state_of(written, materials, "save"));
   file_ = place;
   saved_ = written;
 }

@@ -205,7 +205,7 @@ FormType Schema::type_of(const SchemaPart& part, const FieldValue* value) const 
   const auto member = [&](const std::string& key) {
     const auto found = std::ranges::find(type.members, key, &FormType::Member::key);
     return found != type.members.end() ? &*found
-                                       : &type.members.emplace_back(FormType::Member{key, {}, false});
+                                       : &type.members.emplace_back(FormType::Member{key, {}, false, {}});
   };
   for (const Part* const layer : from.layers()) {
     if (layer->contains("properties"))
@@ -215,8 +215,18 @@ FormType Schema::type_of(const SchemaPart& part, const FieldValue* value) const 
         member(key)->part = at((*layer)["additionalProperties"]);
   }
   for (const Part* const layer : from.layers())
+    if (value != nullptr && layer->contains("additionalProperties") &&
+        (*layer)["additionalProperties"].is_object())
+      for (const FieldValue::Member& given : value->members)
+        if (FormType::Member* const known = member(given.key); !known->part.known())
+          known->part = at((*layer)["additionalProperties"]);
+  for (const Part* const layer : from.layers())
     if (layer->contains("required"))
       for (const std::string& key : texts((*layer)["required"])) member(key)->required = true;
+  for (const Part* const layer : from.layers())
+    if (layer->contains("dependentRequired"))
+      for (const auto& [key, others] : (*layer)["dependentRequired"].items())
+        member(key)->together = texts(others);
   return type;
 }
 

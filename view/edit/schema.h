@@ -46,6 +46,7 @@ struct FormType {
     std::string key;
     SchemaPart part;
     bool required = false;
+    std::vector<std::string> together;  ///< members that must be given with it
   };
   Kind kind = Kind::other;
   SchemaPart part;  ///< that this describes
