@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
+#include <thread>
 
 #include <gmock/gmock.h>
 
@@ -227,6 +228,47 @@ TEST(Live, AReplayOfItsDataSetHasItsBytes) {
       ASSERT_TRUE(wait_for_tick(*replay, sequence, packet.tick));
       expect_shown(packet, reference(sequence).packets, *replay->shown());
     }
+}
+
+/// A run of a changed scenario takes the world of the run before, if it is the same, and has the bytes of a
+/// run that loads everything.
+TEST(Live, AChangedScenarioHasTheBytesOfItsPlainRun) {
+  const auto first = live_run(options_of(street));
+  ASSERT_TRUE(wait_for_tick(*first, 0, 0));
+  const auto changed_to = [](const std::string& before, const std::string& after) {
+    std::string text = street;
+    const size_t at = text.find(before);
+    EXPECT_NE(at, std::string::npos) << before;
+    return text.replace(at, before.size(), after);
+  };
+  const std::string sensors = changed_to("max_depth: 1", "max_depth: 2");
+  const std::string world = changed_to("variant: large", "variant: small");
+  for (const std::string& text : {sensors, world}) {
+    LiveOptions options = options_of(text);
+    options.before = first->experiment();
+    const auto run = live_run(std::move(options));
+    run->jump(0, 8);
+    ASSERT_TRUE(wait_for_tick(*run, 0, 8));
+    EXPECT_EQ(run->experiment()->world == first->experiment()->world, text == sensors);
+    const KeptRun plain = keep_run(sim::make_experiment(sim::parse_scenario(text, "street.yaml", ".")), 0);
+    const auto packet = std::ranges::find(plain.packets, 8, &Packet::tick);
+    ASSERT_NE(packet, plain.packets.end());
+    expect_shown(*packet, plain.packets, *run->shown(), true);
+  }
+}
+
+TEST(Live, AChangedScenarioIsCheckedAgainstItsWorld) {
+  const auto first = live_run(options_of(street));
+  ASSERT_TRUE(wait_for_tick(*first, 0, 0));
+  std::string text = street;
+  const std::string before = "max_depth: 1";
+  text.replace(text.find(before), before.size(), "max_depth: 1, carrier_hz: 9e12");
+  LiveOptions options = options_of(text);
+  options.before = first->experiment();
+  const auto run = live_run(std::move(options));
+  while (run->status().phase == RunStatus::Phase::loading) std::this_thread::yield();
+  EXPECT_EQ(run->status().phase, RunStatus::Phase::failed);
+  EXPECT_THAT(run->status().error, HasSubstr("channels[0].carrier_hz"));
 }
 
 TEST(Live, FailuresOfLoadingAreTold) {

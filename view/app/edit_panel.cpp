@@ -251,8 +251,7 @@ void EditPanel::draw_comparison(const EditSession& session) {
         "Nothing was changed yet. The times and the results of the tick will be compared here.");
     return;
   }
-  ImGui::TextUnformatted(comparison->label.empty() ? "back to the beginning"
-                                                   : printable(comparison->label).c_str());
+  ImGui::TextUnformatted(printable(comparison->label).c_str());
   const auto time = [](const TickSamples& samples) {
     const std::optional<double> median = samples.median_ms();
     if (!median) return std::string("no tick yet; play or step");

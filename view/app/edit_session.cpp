@@ -61,22 +61,38 @@ void EditSession::change(const YamlChange& change) {
 void EditSession::change(const std::vector<YamlChange>& changes, const std::string& label) {
   error_.clear();
   lost_comments_ = !need_document().change(changes, label);
+  label_ = label;
 }
 void EditSession::change_materials(const std::vector<YamlChange>& changes) {
   error_.clear();
   lost_comments_ = false;
   need_document().change_materials(changes);
+  label_ = document_->label();
 }
 void EditSession::replace(const std::string& text) {
   error_.clear();
   lost_comments_ = false;
   need_document().replace(text);
+  label_ = "the text";
 }
-void EditSession::undo() { need_document().undo(); }
-void EditSession::redo() { need_document().redo(); }
+void EditSession::undo() {
+  ScenarioDocument& document = need_document();
+  if (!document.can_undo()) return;
+  error_.clear();
+  label_ = "undone: " + document.label();
+  document.undo();
+}
+void EditSession::redo() {
+  ScenarioDocument& document = need_document();
+  if (!document.can_redo()) return;
+  error_.clear();
+  document.redo();
+  label_ = document.label();
+}
 void EditSession::reload() {
   need_document();
   reload_ = true;
+  label_ = "files read again";
 }
 
 void EditSession::save(const std::string& file) {
@@ -144,7 +160,7 @@ void EditSession::compare(ShownRun& fresh) {
   if (tick_before_ == nullptr || tick_before_->sequence != tick->sequence ||
       tick_before_->packet.tick != tick->packet.tick)
     return;
-  comparison_ = EditComparison{document_->label(), tick->packet.tick, {}, std::move(samples_)};
+  comparison_ = EditComparison{label_, tick->packet.tick, {}, std::move(samples_)};
   comparison_->before.last.reset();
   comparing_ = std::async(std::launch::async, [a = info_before_, x = tick_before_, b = fresh.info(),
                                                y = tick] { return differences(*a, *x, *b, *y); });
@@ -166,7 +182,7 @@ std::unique_ptr<ShownRun> EditSession::update(ShownRun& shown) {
   if (pending_ == nullptr || !arrived(shown)) return nullptr;
   compare(*pending_);
   samples_ = {};
-  samples_.cold = !warmed_;
+  samples_.cold = warm_tick_ == nullptr;
   tick_before_.reset();
   info_before_.reset();
   return std::move(pending_);

@@ -102,6 +102,7 @@ class EditSession {
   bool warmed_ = false;
   std::shared_ptr<const ShownTick> tick_before_;
   std::shared_ptr<const io::DatasetInfo> info_before_;
+  std::string label_;  ///< of the last change
   std::string error_;
   bool lost_comments_ = false;
   TickSamples samples_;

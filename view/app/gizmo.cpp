@@ -95,10 +95,11 @@ std::vector<Gizmo::Grip> Gizmo::grips(const Handle& handle) const {
 
 /// Draws arrows and rings. Returns the one under the cursor.
 std::optional<Gizmo::Grip> Gizmo::draw_grips(ImDrawList& list, const Handle& handle,
-                                             const OverlayFrame& frame) const {
+                                             const OverlayFrame& frame) {
   const ImVec2 cursor = ImGui::GetMousePos();
   const dvec3 center = drag_ ? drag_->position : handle.position;
   std::optional<Grip> nearest;
+  arrows_.clear();
   double least = grip_px;
   for (const Grip& grip : grips(handle)) {
     const double size = metres_for(frame, center, grip.turns ? ring_px : arrow_px);
@@ -119,7 +120,9 @@ std::optional<Gizmo::Grip> Gizmo::draw_grips(ImDrawList& list, const Handle& han
       }
       before = at;
     }
-    if (!grip.turns && before) list.AddCircleFilled(*before, held ? 6.0f : 4.5f, color);
+    if (grip.turns || !before) continue;
+    list.AddCircleFilled(*before, held ? 6.0f : 4.5f, color);
+    arrows_ += fmt::format("arrow {}: {:.0f} {:.0f}\n", "xyz"[grip.axis], before -> x, before -> y);
   }
   return nearest;
 }

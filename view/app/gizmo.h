@@ -26,6 +26,8 @@ class Gizmo {
   bool draw(EditSession& session, const OverlayFrame& frame, bool hovered);
   /// The message of a change that was refused; empty if none was.
   const std::string& error() const { return error_; }
+  /// Returns where the arrows of the selected handle end in the window: "arrow x: 120 340", a line each.
+  std::string arrows() const { return arrows_; }
   /// Selects the first handle of a node or object. Throws UserError if it has none.
   void select(const EditSession& session, const std::string& node);
 
@@ -43,7 +45,7 @@ class Gizmo {
     double moved = 0.0;
   };
   std::vector<Grip> grips(const Handle& handle) const;
-  std::optional<Grip> draw_grips(ImDrawList& list, const Handle& handle, const OverlayFrame& frame) const;
+  std::optional<Grip> draw_grips(ImDrawList& list, const Handle& handle, const OverlayFrame& frame);
   void begin(const Handle& handle, const Grip& grip, const OverlayFrame& frame);
   void drag(const Handle& handle, const OverlayFrame& frame);
   void finish(EditSession& session, const Handle& handle);
@@ -56,7 +58,7 @@ class Gizmo {
   const ScenarioDocument* document_ = nullptr;
   std::string selected_;  ///< the path of the handle
   std::optional<Drag> drag_;
-  std::string error_;
+  std::string error_, arrows_;
 };
 
 }  // namespace greatx::view

@@ -167,12 +167,19 @@ class Viewer {
     errors.push_back(command_error_);
     errors.push_back(edit_.error());
     errors.push_back(gizmo_.error());
-    ImGui::SetCursorPos({20.0f, 60.0f});
-    ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - 20.0f);
+    std::string text;
     for (const std::string& error : errors)
-      if (!error.empty())
-        ImGui::TextColored({1.0f, 0.45f, 0.40f, 1.0f}, "%s", printable_lines(error).c_str());
-    ImGui::PopTextWrapPos();
+      if (!error.empty()) text += (text.empty() ? "" : "\n") + printable_lines(error);
+    if (text.empty()) return;
+    // At the bottom, where no legend is, on a ground of its own.
+    const float margin = 12.0f, width = ImGui::GetWindowWidth() - 2.0f * margin;
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
+    const ImVec2 window = ImGui::GetWindowPos();
+    const ImVec2 at(window.x + margin, window.y + ImGui::GetWindowHeight() - size.y - margin);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled({at.x - 6.0f, at.y - 5.0f}, {at.x + size.x + 6.0f, at.y + size.y + 5.0f},
+                       IM_COL32(30, 10, 10, 225), 4.0f);
+    list.AddText(nullptr, 0.0f, at, IM_COL32(255, 130, 115, 255), text.c_str(), nullptr, width);
   }
 
   void draw_side(const ImVec2& at, const ImVec2& size) {
@@ -428,11 +435,13 @@ class Viewer {
       std::cout << (edit_.document() != nullptr ? edit_.document()->text() : "none\n");
     } else if (fact == "command") {
       std::cout << edit_.command() << '\n';
+    } else if (fact == "handle") {
+      std::cout << gizmo_.arrows();
     } else if (fact == "comparison") {
       print_comparison();
     } else {
       throw_user_error(
-          "print: expected tick, error, picked, hovered, scenario, command or comparison, found '{}'",
+          "print: expected tick, error, picked, hovered, scenario, command, handle or comparison, found '{}'",
           printable(fact));
     }
     std::cout.flush();
