@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "core/error.h"
 
@@ -26,11 +27,12 @@ VkBufferImageCopy whole(VkExtent2D extent) {
 
 }  // namespace
 
-Presenter::Presenter(const PresentDevice& device, const Surface* surface) : device_(device) {
+Presenter::Presenter(const PresentDevice& device, const Surface* surface, PresentFaults& faults)
+    : device_(device), faults_(faults) {
   make_render_pass();
   pipeline_ = std::make_unique<UiPipeline>(device_, render_pass_);
   for (Frame& frame : frames_) make_frame(frame);
-  if (surface != nullptr) swapchain_ = std::make_unique<Swapchain>(device_, *surface);
+  if (surface != nullptr) swapchain_ = std::make_unique<Swapchain>(device_, *surface, faults);
 }
 
 Presenter::~Presenter() {
@@ -116,10 +118,10 @@ void Presenter::fit_canvas(Frame& frame, VkExtent2D extent) {
 void Presenter::record_updates(Frame& frame) {
   frame.staging.clear();
   for (auto& [id, texture] : textures_) {
-    if (texture.pending.empty()) continue;
+    if (!std::exchange(texture.pending, false)) continue;
     frame.staging.push_back(
-        std::make_unique<PresentBuffer>(device_, texture.pending.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT));
-    std::memcpy(frame.staging.back()->mapped().data(), texture.pending.data(), texture.pending.size());
+        std::make_unique<PresentBuffer>(device_, texture.texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT));
+    std::memcpy(frame.staging.back()->mapped().data(), texture.texels.data(), texture.texels.size());
     const VkImage image = texture.image->handle();
     change_layout(frame.cmd, image,
                   texture.shown ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_UNDEFINED,
@@ -130,8 +132,6 @@ void Presenter::record_updates(Frame& frame) {
     change_layout(frame.cmd, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                   VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     texture.shown = true;
-    texture.pending.clear();
-    texture.pending.shrink_to_fit();
   }
 }
 
@@ -191,11 +191,13 @@ void Presenter::submit(Frame& frame, std::optional<uint32_t> image) {
     submit.pSignalSemaphores = &rendered;
   }
   GREATX_VK(vkResetFences(device_.handle(), 1, &frame.done));
+  check_vk(faults_.take({VK_ERROR_DEVICE_LOST}), "vkQueueSubmit, on purpose");
   GREATX_VK(vkQueueSubmit(device_.queue(), 1, &submit, frame.done));
 }
 
 void Presenter::frame(VkExtent2D extent, const UiDrawing& drawing) {
   if (extent.width == 0 || extent.height == 0) return;
+  faults_.begin_frame();
   Frame& frame = frames_[frame_ % frames_in_flight];
   GREATX_VK(vkWaitForFences(device_.handle(), 1, &frame.done, VK_TRUE, UINT64_MAX));
   sweep();
@@ -248,14 +250,33 @@ std::vector<std::byte> Presenter::read_back() {
   return {buffer.mapped().begin(), buffer.mapped().end()};
 }
 
-PresentTextureId Presenter::make_texture(VkExtent2D extent) {
+Presenter::Texture Presenter::texture_of(VkExtent2D extent) {
   GREATX_CHECK(extent.width > 0 && extent.height > 0, "a texture of {} x {}", extent.width, extent.height);
   Texture texture;
   texture.image = std::make_unique<PresentImage>(
       device_, extent, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   texture.set = pipeline_->make_set(texture.image->view());
-  textures_.emplace(next_texture_, std::move(texture));
+  return texture;
+}
+
+PresentTextureId Presenter::make_texture(VkExtent2D extent) {
+  textures_.emplace(next_texture_, texture_of(extent));
   return next_texture_++;
+}
+
+Presenter::AllTexels Presenter::take_texels() {
+  AllTexels all;
+  for (auto& [id, texture] : textures_) all[id] = {texture.image->extent(), std::move(texture.texels)};
+  return all;
+}
+
+void Presenter::restore(AllTexels all) {
+  for (auto& [id, texels] : all) {
+    Texture& texture = textures_.emplace(id, texture_of(texels.extent)).first->second;
+    texture.pending = !texels.rgba.empty();
+    texture.texels = std::move(texels.rgba);
+    next_texture_ = std::max(next_texture_, id + 1);
+  }
 }
 
 VkExtent2D Presenter::extent_of(PresentTextureId texture) const {
@@ -266,7 +287,8 @@ void Presenter::update(PresentTextureId id, std::vector<std::byte> rgba) {
   Texture& texture = textures_.at(id);
   GREATX_CHECK(rgba.size() == texture.image->bytes(), "{} bytes for a texture of {}", rgba.size(),
                texture.image->bytes());
-  texture.pending = std::move(rgba);
+  texture.texels = std::move(rgba);
+  texture.pending = true;
 }
 
 void Presenter::drop(PresentTextureId id) {

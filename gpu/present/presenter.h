@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gpu/present/present_device.h"
+#include "gpu/present/present_faults.h"
 #include "gpu/present/swapchain.h"
 #include "gpu/present/ui_pipeline.h"
 
@@ -21,14 +22,22 @@ class Presenter {
  public:
   static constexpr uint32_t frames_in_flight = 2;
 
-  /// `surface` is null without a window. Both outlive the presenter.
-  Presenter(const PresentDevice& device, const Surface* surface);
+  /// The texels of all textures, which outlive a device that is lost.
+  struct Texels {
+    VkExtent2D extent{0, 0};
+    std::vector<std::byte> rgba;  ///< empty: there were none yet
+  };
+  using AllTexels = std::map<PresentTextureId, Texels>;
+
+  /// `surface` is null without a window. All three outlive the presenter.
+  Presenter(const PresentDevice& device, const Surface* surface, PresentFaults& faults);
   ~Presenter();
   Presenter(const Presenter&) = delete;
   Presenter& operator=(const Presenter&) = delete;
 
   /// Draws a frame of `extent` pixels: the updates of textures, then the triangles. Shows it in the window,
-  /// if there is one and it can be shown. An empty extent draws nothing.
+  /// if there is one and it can be shown. An empty extent draws nothing. After a VulkanError for which
+  /// is_loss() is true, device, surface and presenter must be made anew.
   void frame(VkExtent2D extent, const UiDrawing& drawing);
   /// Returns the pixels of the last frame, RGBA, [height, width, 4], and its extent; empty before the first.
   std::vector<std::byte> read_back();
@@ -41,6 +50,13 @@ class Presenter {
   void update(PresentTextureId texture, std::vector<std::byte> rgba);
   /// The texture may still be in use by frames in flight: it is destroyed after them.
   void drop(PresentTextureId texture);
+  /// Takes the texels of all textures, to give them to another presenter. This one is of no use then.
+  AllTexels take_texels();
+  /// Makes the textures with their ids. To be called once, before any other texture is made.
+  void restore(AllTexels texels);
+  static bool is_loss(VkResult result) {
+    return result == VK_ERROR_DEVICE_LOST || result == VK_ERROR_SURFACE_LOST_KHR;
+  }
 
  private:
   /// What one frame in flight needs.
@@ -57,8 +73,9 @@ class Presenter {
   struct Texture {
     std::unique_ptr<PresentImage> image;
     VkDescriptorSet set = VK_NULL_HANDLE;
-    std::vector<std::byte> pending;
-    bool shown = false;  ///< it has had texels
+    std::vector<std::byte> texels;  ///< kept, because the device may be lost
+    bool pending = false;           ///< the image does not have them yet
+    bool shown = false;             ///< it has had texels
   };
   struct Dropped {
     Texture texture;
@@ -66,6 +83,7 @@ class Presenter {
   };
 
   void make_render_pass();
+  Texture texture_of(VkExtent2D extent);
   void make_frame(Frame& frame);
   void fit_canvas(Frame& frame, VkExtent2D extent);
   void record_updates(Frame& frame);
@@ -75,6 +93,7 @@ class Presenter {
   void sweep();
 
   const PresentDevice& device_;
+  PresentFaults& faults_;
   std::unique_ptr<Swapchain> swapchain_;
   VkRenderPass render_pass_ = VK_NULL_HANDLE;
   std::unique_ptr<UiPipeline> pipeline_;

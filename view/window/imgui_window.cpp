@@ -5,6 +5,11 @@
 #include <algorithm>
 #include <backends/imgui_impl_vulkan.h>
 #include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "core/error.h"
 #include "view/window/style.h"
@@ -76,6 +81,19 @@ gpu::UiDrawing drawing_of(const ImDrawData& data, VkExtent2D extent) {
   return drawing;
 }
 
+gpu::PresentFaults faults_of(const std::vector<WindowFault>& faults) {
+  std::vector<gpu::PresentFaults::Fault> results;
+  for (const WindowFault& fault : faults) {
+    constexpr VkResult of_kind[] = {VK_ERROR_DEVICE_LOST, VK_ERROR_SURFACE_LOST_KHR,
+                                    VK_ERROR_OUT_OF_DATE_KHR};
+    results.push_back({fault.frame, of_kind[static_cast<size_t>(fault.kind)]});
+  }
+  return gpu::PresentFaults(std::move(results));
+}
+
+/// So often in a row a device that is lost is opened anew.
+constexpr int most_losses = 3;
+
 }  // namespace
 
 ImGuiWindow::ImGuiWindow(const WindowOptions& options) : settings_file_(options.settings_file) {
@@ -90,8 +108,11 @@ ImGuiWindow::~ImGuiWindow() { ImGui::DestroyContext(context_); }
 
 void ImGuiWindow::start(const gpu::PresentInstance& instance, const gpu::Surface* surface,
                         const WindowOptions& options) {
-  device_ = std::make_unique<gpu::PresentDevice>(instance, surface, options.device);
-  presenter_ = std::make_unique<gpu::Presenter>(*device_, surface);
+  instance_ = &instance;
+  device_name_ = options.device;
+  faults_ = faults_of(options.faults);
+  device_ = std::make_unique<gpu::PresentDevice>(instance, surface, device_name_);
+  presenter_ = std::make_unique<gpu::Presenter>(*device_, surface, faults_);
   set_style(static_cast<float>(pixel_scale()));
   load_fonts();
 }
@@ -178,7 +199,29 @@ void ImGuiWindow::end_frame() {
   const VkExtent2D extent{static_cast<uint32_t>(std::max(width(), 0)),
                           static_cast<uint32_t>(std::max(height(), 0))};
   if (minimized() || extent.width == 0 || extent.height == 0) return;
-  presenter_->frame(extent, drawing_of(*ImGui::GetDrawData(), extent));
+  const gpu::UiDrawing drawing = drawing_of(*ImGui::GetDrawData(), extent);
+  for (;;) try {
+      presenter_->frame(extent, drawing);
+      losses_ = 0;
+      return;
+    } catch (const gpu::VulkanError& error) {
+      if (!gpu::Presenter::is_loss(error.result())) throw;
+      if (++losses_ > most_losses)
+        throw std::runtime_error(fmt::format(
+            "the window is lost after {} attempts to open its device anew: {}", most_losses, error.what()));
+      spdlog::warn("{}: the window's device is opened anew", error.what());
+      rebuild();
+    }
+}
+
+/// Makes everything anew that was on a device or a surface that is lost.
+void ImGuiWindow::rebuild() {
+  gpu::Presenter::AllTexels texels = presenter_->take_texels();
+  stop();
+  const gpu::Surface* const surface = remake_surface();
+  device_ = std::make_unique<gpu::PresentDevice>(*instance_, surface, device_name_);
+  presenter_ = std::make_unique<gpu::Presenter>(*device_, surface, faults_);
+  presenter_->restore(std::move(texels));
 }
 
 Array ImGuiWindow::screenshot() {
