@@ -41,6 +41,9 @@ class MainView {
   bool settled() const { return settled_; }
   /// Whether the next frame should come soon, since something moves.
   bool busy() const { return busy_; }
+  /// The picture that is shown, and the one that was asked for last.
+  const std::shared_ptr<const ScenePicture>& picture() const { return picture_; }
+  const SceneRequest& asked() const { return asked_; }
   double picture_ms() const { return picture_ ? picture_->milliseconds : 0.0; }
 
   void look_from_outside();

@@ -49,6 +49,7 @@ class Viewer {
       window_->end_frame();
       check_validation();
       if (!options_.script.empty() && !script.advance(script_host())) return;
+      if (options_.driver && !options_.driver(script_host())) return;
     }
   }
 
@@ -112,7 +113,7 @@ class Viewer {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
     ImGui::Begin("scene", nullptr, fixed_window | ImGuiWindowFlags_NoScrollWithMouse);
     ImGui::PopStyleVar();
-    const std::shared_ptr<const ShownTick> tick = shown().run().shown();
+    const std::shared_ptr<const ShownTick> tick = drawn_ = shown().run().shown();
     static const Shapes none;
     Overlays* const overlays = shown().overlays();
     const Shapes& shapes = overlays != nullptr ? overlays->shapes(tick) : none;
@@ -232,6 +233,13 @@ class Viewer {
                    [this](const std::string& title) { side_.grid().toggle(title); },
                    {},
                    [this] { return shown().info() != nullptr; }});
+    commands_.add({"panels.close",
+                   "View",
+                   "Close all panels",
+                   "",
+                   [this](const std::string&) { side_.grid().close(); },
+                   {},
+                   {}});
     add_switch(commands_, "side", "View", "Panels", "tab", side_open_);
     add_overlay_commands();
     add_switch(commands_, "help", "Help", "Keys and mouse", "F1", help_open_);
@@ -330,7 +338,12 @@ class Viewer {
         [this](const InputEvent& event) { window_->inject(event); },
         [this](const std::string& command, const std::string& argument) { commands_.run(command, argument); },
         [this](const std::string& file) { write_screenshot(options_.script_folder / file); },
-        [this](const std::string& fact) { print(fact); }};
+        [this](const std::string& fact) { print(fact); },
+        [this] {
+          return FrameContent{drawn_, main_.picture(), main_.asked()};
+        },
+        [this] { window_->finish(); },
+        [this]() -> Run& { return shown().run(); }};
   }
 
   void write_screenshot(const std::filesystem::path& file) {
@@ -363,6 +376,7 @@ class Viewer {
   std::unique_ptr<Window> window_;
   std::vector<std::unique_ptr<ShownRun>> runs_;
   size_t main_run_ = 0;
+  std::shared_ptr<const ShownTick> drawn_;  ///< in the last frame
   MainView main_;
   SidePanel side_;
   Commands commands_;
