@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The frames of a user interface. Each is drawn into a picture of its own, which is then copied into the
-// window, or only kept: so a window and a run without one draw the same, and the last picture can be read.
+// The frames of a user interface. They are drawn into one picture, and only where something has changed. The
+// picture is then copied into the window, or only kept: so a window and a run without one draw the same, and
+// the last picture can be read.
 #pragma once
 
 #include <array>
@@ -14,6 +15,7 @@
 #include "gpu/present/present_device.h"
 #include "gpu/present/present_faults.h"
 #include "gpu/present/swapchain.h"
+#include "gpu/present/ui_changes.h"
 #include "gpu/present/ui_pipeline.h"
 
 namespace greatx::gpu {
@@ -65,10 +67,7 @@ class Presenter {
     VkCommandBuffer cmd = VK_NULL_HANDLE;
     VkFence done = VK_NULL_HANDLE;
     VkSemaphore acquired = VK_NULL_HANDLE;
-    std::unique_ptr<PresentImage> canvas;
-    VkFramebuffer framebuffer = VK_NULL_HANDLE;
-    std::vector<std::unique_ptr<PresentBuffer>> staging;  ///< of this frame's updates
-    std::unique_ptr<PresentBuffer> vertices, indices;
+    std::unique_ptr<PresentBuffer> staging, vertices, indices;
   };
   struct Texture {
     std::unique_ptr<PresentImage> image;
@@ -76,6 +75,7 @@ class Presenter {
     std::vector<std::byte> texels;  ///< kept, because the device may be lost
     bool pending = false;           ///< the image does not have them yet
     bool shown = false;             ///< it has had texels
+    uint64_t version = 0;           ///< of the texels, among those of all textures
   };
   struct Dropped {
     Texture texture;
@@ -85,9 +85,12 @@ class Presenter {
   void make_render_pass();
   Texture texture_of(VkExtent2D extent);
   void make_frame(Frame& frame);
-  void fit_canvas(Frame& frame, VkExtent2D extent);
+  void fit_canvas(VkExtent2D extent);
+  void fit(std::unique_ptr<PresentBuffer>& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage);
   void record_updates(Frame& frame);
   void record_drawing(Frame& frame, VkExtent2D extent, const UiDrawing& drawing);
+  void bind_triangles(Frame& frame, VkExtent2D extent, const UiDrawing& drawing);
+  void record_part(Frame& frame, const VkRect2D& part, const UiDrawing& drawing);
   void record_copy(Frame& frame, uint32_t image);
   void submit(Frame& frame, std::optional<uint32_t> image);
   void sweep();
@@ -98,6 +101,12 @@ class Presenter {
   VkRenderPass render_pass_ = VK_NULL_HANDLE;
   std::unique_ptr<UiPipeline> pipeline_;
   std::array<Frame, frames_in_flight> frames_;
+  // The queue works in order, so the frames in flight share a picture.
+  std::unique_ptr<PresentImage> canvas_;
+  VkFramebuffer framebuffer_ = VK_NULL_HANDLE;
+  bool canvas_is_new_ = true;
+  UiChanges changes_;
+  uint64_t texel_versions_ = 0;
   uint64_t frame_ = 0;  ///< number of the next frame
   VkExtent2D last_extent_{0, 0};
   std::map<PresentTextureId, Texture> textures_;

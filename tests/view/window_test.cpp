@@ -39,7 +39,7 @@ Rgb pixel(const Array& picture, int x, int y) {
 
 template <typename Draw>
 void frame(Window& window, Draw draw) {
-  ASSERT_TRUE(window.begin_frame(0.0));
+  ASSERT_TRUE(window.begin_frame({}));
   draw();
   window.end_frame();
   for (const std::string& message : window.validation_messages()) ADD_FAILURE() << message;

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "view/app/overlay_dots.h"
 
 namespace greatx::view {
 
@@ -45,8 +47,14 @@ dvec3 keys_pressed() {
   return {axis('W', 'S'), axis('A', 'D'), axis('E', 'Q')};
 }
 
-Array rgb_array(const ScenePicture& picture) {
-  return Array::of<uint8_t>({picture.request.view.height, picture.request.view.width, 3}, picture.rgb);
+Array rgba_of(const ScenePicture& picture) {
+  Array rgba(DType::u8, {picture.request.view.height, picture.request.view.width, 4});
+  for (size_t i = 0; i < rgba.bytes.size() / 4; ++i) {
+    const uint8_t* const rgb = &picture.rgb[3 * i];
+    const uint32_t texel = rgb[0] | rgb[1] << 8 | rgb[2] << 16 | 0xffu << 24;
+    std::memcpy(&rgba.bytes[4 * i], &texel, 4);
+  }
+  return rgba;
 }
 
 }  // namespace
@@ -131,7 +139,8 @@ void MainView::navigate(const ShownTick& tick) {
 void MainView::request(const ShownTick& tick) {
   const bool rests = ImGui::GetTime() - moved_at_s_ > rest_s;
   SceneRequest request = wanted(tick, rests);
-  if (has_asked_ && !same_view(request, asked_)) {
+  // The first picture is coarse, too, so that there is something to see soon.
+  if (!has_asked_ || !same_view(request, asked_)) {
     moved_at_s_ = ImGui::GetTime();
     request = wanted(tick, false);
   }
@@ -140,25 +149,31 @@ void MainView::request(const ShownTick& tick) {
     asked_ = request;
     has_asked_ = true;
   }
-  settled_ = request.fine && picture_ && same_request(picture_->request, request);
-  busy_ = !settled_;
+  awaits_ = !picture_ || !same_request(picture_->request, request);
+  settled_ = request.fine && !awaits_;
 }
 
-void MainView::show_picture() {
+void MainView::show_picture(const Shapes& shapes, uint64_t shapes_version) {
   const std::shared_ptr<const ScenePicture> newest = scene_->picture();
-  if (newest == nullptr || newest == picture_) return;
+  if (newest == nullptr ||
+      (newest == picture_ && shapes_version == painted_version_ && hovered_id_ == painted_id_))
+    return;
   picture_ = newest;
+  painted_version_ = shapes_version;
+  painted_id_ = hovered_id_;
+  Array rgba = rgba_of(*picture_);
+  paint_dots(shapes, overlay_frame(), hovered_id_, rgba);
   const apps::PictureView& view = picture_->request.view;
   if (texture_ != nullptr && (texture_width_ != view.width || texture_height_ != view.height)) {
     window_.drop_texture(texture_);
     texture_ = nullptr;
   }
   if (texture_ == nullptr) {
-    texture_ = window_.make_texture(rgb_array(*picture_));
+    texture_ = window_.make_texture(rgba);
     texture_width_ = view.width;
     texture_height_ = view.height;
   } else {
-    window_.update_texture(texture_, rgb_array(*picture_));
+    window_.update_texture(texture_, rgba);
   }
 }
 
@@ -180,16 +195,15 @@ Facts MainView::picked_facts(double carrier_hz) const {
   return facts_of(*picked_, *experiment_, *picture_, carrier_hz);
 }
 
+OverlayFrame MainView::overlay_frame() const {
+  return {picture_->request.view, picture_->depth, experiment_->scene().origin, corner_, size_};
+}
+
 void MainView::draw_overlays(const Shapes& shapes) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end(corner_.x + size_.x, corner_.y + size_.y);
   list.PushClipRect(corner_, end, true);
-  OverlayFrame frame;
-  frame.view = picture_->request.view;
-  frame.depth = picture_->depth;
-  frame.origin = experiment_->scene().origin;
-  frame.corner = corner_;
-  frame.size = size_;
+  const OverlayFrame frame = overlay_frame();
   std::optional<ImVec2> cursor;
   if (ImGui::IsItemHovered()) cursor = ImGui::GetMousePos();
   const std::optional<OverlayHit> hit = draw_shapes(list, shapes, frame, cursor, hovered_id_);
@@ -199,19 +213,19 @@ void MainView::draw_overlays(const Shapes& shapes) {
   list.PopClipRect();
 }
 
-void MainView::draw(const ShownTick* tick, const Shapes& shapes) {
+void MainView::draw(const ShownTick& tick, const Shapes& shapes, uint64_t shapes_version) {
   corner_ = ImGui::GetCursorScreenPos();
   size_ = ImGui::GetContentRegionAvail();
-  settled_ = busy_ = false;
-  if (scene_ == nullptr || tick == nullptr || size_.x < 16.0f || size_.y < 16.0f) return;
+  settled_ = awaits_ = false;
+  if (scene_ == nullptr || size_.x < 16.0f || size_.y < 16.0f) return;
   ImGui::InvisibleButton("main view", size_,
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
   if (ImGui::IsItemActivated()) dragged_ = false;
   if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, drag_px)) dragged_ = true;
-  navigate(*tick);
-  request(*tick);
-  show_picture();
+  navigate(tick);
+  request(tick);
+  show_picture(shapes, shapes_version);
   if (picture_ == nullptr) return;
   // A camera's picture keeps its own shape.
   const apps::PictureView& view = picture_->request.view;

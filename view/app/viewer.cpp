@@ -25,8 +25,8 @@ namespace greatx::view {
 
 namespace {
 
-/// How long a frame waits for input: while something moves, while something may come, and at rest.
-constexpr double moving_wait_s = 0.0, waiting_wait_s = 0.008, resting_wait_s = 0.05;
+/// How long a frame waits for input and news: while a picture is awaited, at rest, and for a script.
+constexpr double awaiting_wait_s = 1.0 / 30.0, resting_wait_s = 0.05, scripted_wait_s = 0.008;
 constexpr float side_share = 0.42f;  ///< of the width
 
 class Viewer {
@@ -44,7 +44,8 @@ class Viewer {
 
   void loop() {
     ScriptRunner script(options_.script);
-    while (!quit_ && window_->begin_frame(wait_s())) {
+    while (!quit_ && window_->begin_frame(frame_wait())) {
+      seen_news_ = news();
       frame();
       window_->end_frame();
       check_validation();
@@ -56,13 +57,21 @@ class Viewer {
  private:
   ShownRun& shown() { return *runs_[main_run_]; }
 
-  double wait_s() {
-    if (main_.busy()) return moving_wait_s;
-    const bool comes = std::ranges::any_of(runs_, [](const std::unique_ptr<ShownRun>& run) {
-      const RunStatus status = run->run().status();
-      return status.playing || status.phase == RunStatus::Phase::loading;
-    });
-    return comes || !options_.script.empty() ? waiting_wait_s : resting_wait_s;
+  /// A number that changes when a run or the scene has something new to show.
+  uint64_t news() const {
+    uint64_t sum = main_.version();
+    for (const std::unique_ptr<ShownRun>& run : runs_) sum += run->run().version();
+    return sum;
+  }
+
+  FrameWait frame_wait() const {
+    FrameWait wait;
+    wait.most_s = main_.awaits() ? awaiting_wait_s : resting_wait_s;
+    if (!options_.script.empty()) wait.most_s = std::min(wait.most_s, scripted_wait_s);
+    // The picture that is being drawn begins the next frame. A frame before it would slow it down.
+    if (main_.awaits()) wait.input_after_s = awaiting_wait_s;
+    wait.news = [this] { return news() != seen_news_; };
+    return wait;
   }
 
   void check_validation() {
@@ -117,10 +126,10 @@ class Viewer {
     static const Shapes none;
     Overlays* const overlays = shown().overlays();
     const Shapes& shapes = overlays != nullptr ? overlays->shapes(tick) : none;
-    if (main_.has_scene() && tick != nullptr)
-      main_.draw(tick.get(), shapes);
-    else
-      draw_progress();
+    static const ShownTick start;  // so that the scene is there before its first tick
+    if (main_.has_scene())
+      main_.draw(tick != nullptr ? *tick : start, shapes, overlays != nullptr ? overlays->made() : 0);
+    if (tick == nullptr) draw_progress();
     draw_errors();
     ImGui::End();
   }
@@ -333,7 +342,7 @@ class Viewer {
           return status.phase == RunStatus::Phase::failed ||
                  (status.phase == RunStatus::Phase::ready && shown().run().shown() != nullptr);
         },
-        [this] { return main_.settled(); },
+        [this] { return main_.settled() && drawn_ != nullptr; },
         [this] { return shown().run().status().tick; },
         [this](const InputEvent& event) { window_->inject(event); },
         [this](const std::string& command, const std::string& argument) { commands_.run(command, argument); },
@@ -381,6 +390,7 @@ class Viewer {
   SidePanel side_;
   Commands commands_;
   bool side_open_ = true, help_open_ = false, quit_ = false;
+  uint64_t seen_news_ = 0;
   std::string command_error_;
 };
 

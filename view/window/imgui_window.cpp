@@ -91,6 +91,12 @@ gpu::PresentFaults faults_of(const std::vector<WindowFault>& faults) {
   return gpu::PresentFaults(std::move(results));
 }
 
+using Clock = std::chrono::steady_clock;
+double seconds_between(Clock::time_point begin, Clock::time_point end) {
+  return std::chrono::duration<double>(end - begin).count();
+}
+
+constexpr double news_every_s = 0.002;  ///< they are asked for
 /// So often in a row a device that is lost is opened anew.
 constexpr int most_losses = 3;
 
@@ -132,8 +138,25 @@ void ImGuiWindow::stop() {
   device_.reset();
 }
 
-bool ImGuiWindow::begin_frame(double wait_s) {
-  if (!poll(injected_.empty() ? wait_s : 0.0)) return false;
+/// Returns false if the window was closed.
+bool ImGuiWindow::wait_for_frame(const FrameWait& wait) {
+  const Clock::time_point begin = Clock::now();
+  for (bool input = false;;) {
+    const Clock::time_point now = Clock::now();
+    const double left_s = wait.most_s - seconds_between(begin, now);
+    const bool may_begin = seconds_between(frame_began_, now) >= wait.input_after_s;
+    input |= !injected_.empty();
+    if (left_s <= 0.0 || (input && may_begin) || (wait.news && wait.news())) return poll(0.0);
+    const double slice_s = std::min(left_s, news_every_s);
+    if (!poll(slice_s)) return false;
+    // It returns early for nothing but an event.
+    input |= seconds_between(now, Clock::now()) < 0.9 * slice_s;
+  }
+}
+
+bool ImGuiWindow::begin_frame(const FrameWait& wait) {
+  if (!wait_for_frame(wait)) return false;
+  frame_began_ = Clock::now();
   take_injected();
   begin_input();
   ImGuiIO& io = ImGui::GetIO();

@@ -4,6 +4,7 @@
 // What a window and a run without one share: the ImGui context, its drawing, textures and injected input.
 #pragma once
 
+#include <chrono>
 #include <deque>
 #include <imgui.h>
 
@@ -14,7 +15,7 @@ namespace greatx::view {
 
 class ImGuiWindow : public Window {
  public:
-  bool begin_frame(double wait_s) final;
+  bool begin_frame(const FrameWait& wait) final;
   void end_frame() final;
   void finish() final { device_->wait_idle(); }
   Array screenshot() final;
@@ -47,6 +48,7 @@ class ImGuiWindow : public Window {
   bool scripted() const { return scripted_; }
 
  private:
+  bool wait_for_frame(const FrameWait& wait);
   void load_fonts();
   void rebuild();
   void take_injected();
@@ -56,6 +58,7 @@ class ImGuiWindow : public Window {
   std::string settings_file_, device_name_;
   const gpu::PresentInstance* instance_ = nullptr;
   gpu::PresentFaults faults_;
+  std::chrono::steady_clock::time_point frame_began_;
   int losses_ = 0;  ///< since the last frame that was drawn
   std::unique_ptr<gpu::PresentDevice> device_;
   std::unique_ptr<gpu::Presenter> presenter_;

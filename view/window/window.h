@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -55,6 +56,16 @@ struct InputEvent {
   std::string text;
 };
 
+/// Says when a frame begins.
+struct FrameWait {
+  double most_s = 0.0;  ///< for input or news
+  /// Input begins a frame so long after the last one at the soonest.
+  double input_after_s = 0.0;
+  /// Whether there is something new to show, which begins a frame at once. It is asked every few
+  /// milliseconds. Empty: there is none.
+  std::function<bool()> news;
+};
+
 /// A picture that ImGui::Image() shows: an ImTextureID.
 using TextureId = void*;
 
@@ -64,9 +75,9 @@ class Window {
   static std::unique_ptr<Window> open(const WindowOptions& options);
   virtual ~Window() = default;
 
-  /// Waits at most `wait_s` for input, takes it, and begins an ImGui frame. Returns false if the user has
+  /// Waits for input or news, takes the input, and begins an ImGui frame. Returns false if the user has
   /// closed the window; no frame has begun then.
-  virtual bool begin_frame(double wait_s) = 0;
+  virtual bool begin_frame(const FrameWait& wait) = 0;
   /// Draws the ImGui frame and presents it. Re-creates the swapchain where it must, and surface and device if
   /// one of them is lost. Throws runtime_error if they are lost again and again. A minimised window draws
   /// nothing.
