@@ -40,7 +40,7 @@ double quantile(std::vector<double> samples, double share) {
 /// Notes when each packet came.
 class Times : public RecordSink {
  public:
-  void write(Packet packet) override { times_.push_back({packet.tick, Clock::now()}); }
+  void write(Packet packet) override { times_.push_back({packet.tick, Clock::now(), cpu_milliseconds()}); }
   const std::vector<TickTime>& times() const { return times_; }
 
  private:
@@ -51,6 +51,12 @@ class Times : public RecordSink {
 double tick_ms(const std::vector<TickTime>& times, int64_t first, int64_t last) {
   const auto at = [&](int64_t tick) { return std::ranges::find(times, tick, &TickTime::tick)->at; };
   return std::chrono::duration<double, std::milli>(at(last) - at(first)).count() / double(last - first);
+}
+
+/// Returns the processor time of a tick, ms.
+double tick_cpu_ms(const std::vector<TickTime>& times, int64_t first, int64_t last) {
+  const auto at = [&](int64_t tick) { return std::ranges::find(times, tick, &TickTime::tick)->cpu_ms; };
+  return (at(last) - at(first)) / double(last - first);
 }
 
 bool has(const std::vector<TickTime>& times, int64_t tick) {
@@ -174,7 +180,7 @@ class ViewBench {
   }
 
   void measure_live() {
-    std::vector<double> alone, shown, ratio;
+    std::vector<double> alone, shown, ratio, alone_cpu, shown_cpu;
     double pictures = 0.0, frames = 0.0;
     const auto turn = [&](FollowDriver& driver) { view::run_viewer(viewer(driver)); };
     for (uint32_t round = 0; round < options_.rounds; ++round) {
@@ -191,6 +197,8 @@ class ViewBench {
       alone.push_back(tick_ms(without, both.front(), both.back()));
       shown.push_back(tick_ms(driver.times(), both.front(), both.back()));
       ratio.push_back(100.0 * (shown.back() / alone.back() - 1.0));
+      alone_cpu.push_back(tick_cpu_ms(without, both.front(), both.back()));
+      shown_cpu.push_back(tick_cpu_ms(driver.times(), both.front(), both.back()));
       const double ticks = static_cast<double>(last_tick() + 1);
       pictures += static_cast<double>(driver.pictures()) / ticks / options_.rounds;
       frames += static_cast<double>(driver.frames()) / ticks / options_.rounds;
@@ -198,6 +206,8 @@ class ViewBench {
     add("live: a tick without the window, median", median(alone), "ms");
     add("live: a tick with the window, median", median(shown), "ms");
     add_most("live: slow-down by the window, median", median(ratio), "%", most_slow_down);
+    add("live: processor time of a tick without the window, median", median(alone_cpu), "ms");
+    add("live: processor time of a tick with the window, median", median(shown_cpu), "ms");
     add("live: pictures of the scene for each tick", pictures, "");
     add("live: frames of the window for each tick", frames, "");
   }

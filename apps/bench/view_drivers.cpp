@@ -154,7 +154,8 @@ bool FollowDriver::after_frame(const view::ScriptHost& host) {
   if (content.tick == nullptr) return true;
   ++frames_;
   const int64_t tick = content.tick->packet.tick;
-  if (times_.empty() || times_.back().tick != tick) times_.push_back({tick, Clock::now()});
+  if (times_.empty() || times_.back().tick != tick)
+    times_.push_back({tick, Clock::now(), cpu_milliseconds()});
   if (content.picture != nullptr && content.picture->request.tick != pictured_) {
     pictured_ = content.picture->request.tick;
     ++pictures_;

@@ -65,6 +65,7 @@ class OrbitDriver : public ViewDriver {
 struct TickTime {
   int64_t tick = 0;
   Clock::time_point at;
+  double cpu_ms = 0.0;  ///< that all threads of this process have taken until then
 };
 
 /// Lets a live run play as fast as it can.

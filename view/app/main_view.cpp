@@ -18,6 +18,8 @@ namespace {
 
 constexpr double vertical_fov = 50.0 * pi / 180.0;
 constexpr double rest_s = 0.15;  ///< without a change, after which the picture is made fine
+/// The same while a run plays. A fine picture costs several coarse ones, and the next tick replaces it.
+constexpr double playing_rest_s = 1.0;
 constexpr double turn_per_pixel = 0.005, zoom_per_turn = 0.85;
 constexpr double fly_per_s = 0.7;  ///< of the distance to the pivot
 constexpr float drag_px = 4.0f;    ///< a click moves less
@@ -136,8 +138,8 @@ void MainView::navigate(const ShownTick& tick) {
   if (moved) moved_at_s_ = ImGui::GetTime();
 }
 
-void MainView::request(const ShownTick& tick) {
-  const bool rests = ImGui::GetTime() - moved_at_s_ > rest_s;
+void MainView::request(const ShownTick& tick, bool plays) {
+  const bool rests = ImGui::GetTime() - moved_at_s_ > (plays ? playing_rest_s : rest_s);
   SceneRequest request = wanted(tick, rests);
   // The first picture is coarse, too, so that there is something to see soon.
   if (!has_asked_ || !same_view(request, asked_)) {
@@ -213,7 +215,7 @@ void MainView::draw_overlays(const Shapes& shapes) {
   list.PopClipRect();
 }
 
-void MainView::draw(const ShownTick& tick, const Shapes& shapes, uint64_t shapes_version) {
+void MainView::draw(const ShownTick& tick, const Shapes& shapes, uint64_t shapes_version, bool plays) {
   corner_ = ImGui::GetCursorScreenPos();
   size_ = ImGui::GetContentRegionAvail();
   settled_ = awaits_ = false;
@@ -224,7 +226,7 @@ void MainView::draw(const ShownTick& tick, const Shapes& shapes, uint64_t shapes
   if (ImGui::IsItemActivated()) dragged_ = false;
   if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, drag_px)) dragged_ = true;
   navigate(tick);
-  request(tick);
+  request(tick, plays);
   show_picture(shapes, shapes_version);
   if (picture_ == nullptr) return;
   // A camera's picture keeps its own shape.

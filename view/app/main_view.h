@@ -36,8 +36,8 @@ class MainView {
   std::string error() const { return scene_ ? scene_->error() : ""; }
 
   /// Draws into the current ImGui window, and takes its mouse and keys. `shapes_version` changes with the
-  /// shapes.
-  void draw(const ShownTick& tick, const Shapes& shapes, uint64_t shapes_version);
+  /// shapes. `plays`: the next tick will follow by itself.
+  void draw(const ShownTick& tick, const Shapes& shapes, uint64_t shapes_version, bool plays);
   /// Whether the shown picture is the one that is wanted, at full quality.
   bool settled() const { return settled_; }
   /// Whether a picture is being drawn for the view that is wanted.
@@ -67,7 +67,7 @@ class MainView {
 
  private:
   void navigate(const ShownTick& tick);
-  void request(const ShownTick& tick);
+  void request(const ShownTick& tick, bool plays);
   SceneRequest wanted(const ShownTick& tick, bool fine);
   void show_picture(const Shapes& shapes, uint64_t shapes_version);
   OverlayFrame overlay_frame() const;

@@ -25,8 +25,11 @@ namespace greatx::view {
 
 namespace {
 
-/// How long a frame waits for input and news: while a picture is awaited, at rest, and for a script.
-constexpr double awaiting_wait_s = 1.0 / 30.0, resting_wait_s = 0.05, scripted_wait_s = 0.008;
+/// How long a frame waits for input and news at most, and for a script.
+constexpr double longest_wait_s = 0.05, scripted_wait_s = 0.008;
+/// While a picture is being drawn, input alone begins a frame so long after the last one. The picture begins
+/// the next frame anyway, and a frame before it would slow it down.
+constexpr double awaiting_input_s = 1.0 / 30.0;
 constexpr float side_share = 0.42f;  ///< of the width
 
 class Viewer {
@@ -43,9 +46,10 @@ class Viewer {
   }
 
   void loop() {
+    see_news();
     ScriptRunner script(options_.script);
     while (!quit_ && window_->begin_frame(frame_wait())) {
-      seen_news_ = news();
+      see_news();
       frame();
       window_->end_frame();
       check_validation();
@@ -57,20 +61,23 @@ class Viewer {
  private:
   ShownRun& shown() { return *runs_[main_run_]; }
 
-  /// A number that changes when a run or the scene has something new to show.
-  uint64_t news() const {
-    uint64_t sum = main_.version();
-    for (const std::unique_ptr<ShownRun>& run : runs_) sum += run->run().version();
-    return sum;
+  /// Whether there is a tick or a picture that no frame has shown yet. What else changes may wait.
+  bool has_news() const {
+    for (size_t i = 0; i < runs_.size(); ++i)
+      if (runs_[i]->run().shown() != seen_ticks_[i]) return true;
+    return main_.version() != seen_picture_;
+  }
+  void see_news() {
+    seen_ticks_.resize(runs_.size());
+    for (size_t i = 0; i < runs_.size(); ++i) seen_ticks_[i] = runs_[i]->run().shown();
+    seen_picture_ = main_.version();
   }
 
   FrameWait frame_wait() const {
     FrameWait wait;
-    wait.most_s = main_.awaits() ? awaiting_wait_s : resting_wait_s;
-    if (!options_.script.empty()) wait.most_s = std::min(wait.most_s, scripted_wait_s);
-    // The picture that is being drawn begins the next frame. A frame before it would slow it down.
-    if (main_.awaits()) wait.input_after_s = awaiting_wait_s;
-    wait.news = [this] { return news() != seen_news_; };
+    wait.most_s = options_.script.empty() ? longest_wait_s : scripted_wait_s;
+    if (main_.awaits()) wait.input_after_s = awaiting_input_s;
+    wait.news = [this] { return has_news(); };
     return wait;
   }
 
@@ -128,7 +135,8 @@ class Viewer {
     const Shapes& shapes = overlays != nullptr ? overlays->shapes(tick) : none;
     static const ShownTick start;  // so that the scene is there before its first tick
     if (main_.has_scene())
-      main_.draw(tick != nullptr ? *tick : start, shapes, overlays != nullptr ? overlays->made() : 0);
+      main_.draw(tick != nullptr ? *tick : start, shapes, overlays != nullptr ? overlays->made() : 0,
+                 shown().run().status().playing);
     if (tick == nullptr) draw_progress();
     draw_errors();
     ImGui::End();
@@ -390,7 +398,8 @@ class Viewer {
   SidePanel side_;
   Commands commands_;
   bool side_open_ = true, help_open_ = false, quit_ = false;
-  uint64_t seen_news_ = 0;
+  std::vector<std::shared_ptr<const ShownTick>> seen_ticks_;  ///< [runs]
+  uint64_t seen_picture_ = 0;
   std::string command_error_;
 };
 
