@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <ranges>
 #include <utility>
 
 #include "core/error.h"
@@ -180,13 +181,25 @@ void Presenter::bind_triangles(Frame& frame, VkExtent2D extent, const UiDrawing&
   pipeline_->begin(frame.cmd, extent);
 }
 
-/// Draws all that lies in a part of the picture.
+/// Tells whether the command is an opaque picture that hides all that was drawn before in the part.
+bool Presenter::covers(const UiCommand& command, const UiDrawing& drawing, const VkRect2D& part) const {
+  if (command.index_count != 6 || !textures_.at(command.texture).opaque) return false;
+  const std::optional<VkRect2D> quad = opaque_quad(command, drawing);
+  return quad && same_rect(intersection(intersection(*quad, command.clip), part), part);
+}
+
+/// Draws all that can be seen in a part of the picture.
 void Presenter::record_part(Frame& frame, const VkRect2D& part, const UiDrawing& drawing) {
-  const VkClearAttachment black{VK_IMAGE_ASPECT_COLOR_BIT, 0, {}};
-  const VkClearRect rect{part, 0, 1};
-  vkCmdClearAttachments(frame.cmd, 1, &black, 1, &rect);
+  const auto cover = std::find_if(drawing.commands.rbegin(), drawing.commands.rend(),
+                                  [&](const UiCommand& command) { return covers(command, drawing, part); });
+  if (cover == drawing.commands.rend()) {
+    const VkClearAttachment black{VK_IMAGE_ASPECT_COLOR_BIT, 0, {}};
+    const VkClearRect rect{part, 0, 1};
+    vkCmdClearAttachments(frame.cmd, 1, &black, 1, &rect);
+  }
+  const auto first = cover == drawing.commands.rend() ? drawing.commands.begin() : cover.base() - 1;
   PresentTextureId bound = 0;
-  for (const UiCommand& command : drawing.commands) {
+  for (const UiCommand& command : std::ranges::subrange(first, drawing.commands.end())) {
     const VkRect2D clip = intersection(command.clip, part);
     if (clip.extent.width == 0 || clip.extent.height == 0) continue;
     if (command.texture != bound) pipeline_->bind(frame.cmd, textures_.at(command.texture).set);
@@ -276,29 +289,31 @@ std::vector<std::byte> Presenter::read_back() {
   return {buffer.mapped().begin(), buffer.mapped().end()};
 }
 
-Presenter::Texture Presenter::texture_of(VkExtent2D extent) {
+Presenter::Texture Presenter::texture_of(VkExtent2D extent, bool opaque) {
   GREATX_CHECK(extent.width > 0 && extent.height > 0, "a texture of {} x {}", extent.width, extent.height);
   Texture texture;
+  texture.opaque = opaque;
   texture.image = std::make_unique<PresentImage>(
       device_, extent, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   texture.set = pipeline_->make_set(texture.image->view());
   return texture;
 }
 
-PresentTextureId Presenter::make_texture(VkExtent2D extent) {
-  textures_.emplace(next_texture_, texture_of(extent));
+PresentTextureId Presenter::make_texture(VkExtent2D extent, bool opaque) {
+  textures_.emplace(next_texture_, texture_of(extent, opaque));
   return next_texture_++;
 }
 
 Presenter::AllTexels Presenter::take_texels() {
   AllTexels all;
-  for (auto& [id, texture] : textures_) all[id] = {texture.image->extent(), std::move(texture.texels)};
+  for (auto& [id, texture] : textures_)
+    all[id] = {texture.image->extent(), texture.opaque, std::move(texture.texels)};
   return all;
 }
 
 void Presenter::restore(AllTexels all) {
   for (auto& [id, texels] : all) {
-    Texture& texture = textures_.emplace(id, texture_of(texels.extent)).first->second;
+    Texture& texture = textures_.emplace(id, texture_of(texels.extent, texels.opaque)).first->second;
     texture.pending = !texels.rgba.empty();
     texture.version = ++texel_versions_;
     texture.texels = std::move(texels.rgba);

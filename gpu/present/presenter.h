@@ -27,6 +27,7 @@ class Presenter {
   /// The texels of all textures, which outlive a device that is lost.
   struct Texels {
     VkExtent2D extent{0, 0};
+    bool opaque = false;
     std::vector<std::byte> rgba;  ///< empty: there were none yet
   };
   using AllTexels = std::map<PresentTextureId, Texels>;
@@ -45,8 +46,8 @@ class Presenter {
   std::vector<std::byte> read_back();
   VkExtent2D extent() const { return last_extent_; }
 
-  /// Makes a texture. Its content is undefined until update().
-  PresentTextureId make_texture(VkExtent2D extent);
+  /// Makes a texture. Its content is undefined until update(). `opaque`: the alpha of all its texels is 255.
+  PresentTextureId make_texture(VkExtent2D extent, bool opaque);
   VkExtent2D extent_of(PresentTextureId texture) const;
   /// Replaces the texels from the next frame on, RGBA, [height, width, 4].
   void update(PresentTextureId texture, std::vector<std::byte> rgba);
@@ -73,9 +74,10 @@ class Presenter {
     std::unique_ptr<PresentImage> image;
     VkDescriptorSet set = VK_NULL_HANDLE;
     std::vector<std::byte> texels;  ///< kept, because the device may be lost
-    bool pending = false;           ///< the image does not have them yet
-    bool shown = false;             ///< it has had texels
-    uint64_t version = 0;           ///< of the texels, among those of all textures
+    bool opaque = false;
+    bool pending = false;  ///< the image does not have them yet
+    bool shown = false;    ///< it has had texels
+    uint64_t version = 0;  ///< of the texels, among those of all textures
   };
   struct Dropped {
     Texture texture;
@@ -83,7 +85,8 @@ class Presenter {
   };
 
   void make_render_pass();
-  Texture texture_of(VkExtent2D extent);
+  Texture texture_of(VkExtent2D extent, bool opaque);
+  bool covers(const UiCommand& command, const UiDrawing& drawing, const VkRect2D& part) const;
   void make_frame(Frame& frame);
   void fit_canvas(VkExtent2D extent);
   void fit(std::unique_ptr<PresentBuffer>& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage);

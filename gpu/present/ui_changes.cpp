@@ -64,6 +64,25 @@ void add(std::vector<VkRect2D>& rects, VkRect2D rect) {
 
 }  // namespace
 
+std::optional<VkRect2D> opaque_quad(const UiCommand& command, const UiDrawing& drawing) {
+  if (command.index_count != 6) return {};
+  const auto corner = [&](uint32_t i) -> const UiVertex& {
+    return drawing.vertices[drawing.indices[command.first_index + i] + command.first_vertex];
+  };
+  // As ImGui draws pictures: upper left, upper right, lower right; upper left, lower right, lower left.
+  const UiVertex &a = corner(0), &b = corner(1), &c = corner(2), &d = corner(5);
+  const auto same = [&](uint32_t i, const UiVertex& v) { return corner(i).x == v.x && corner(i).y == v.y; };
+  if (a.y != b.y || b.x != c.x || c.y != d.y || d.x != a.x || !same(3, a) || !same(4, c)) return {};
+  for (uint32_t i = 0; i < 6; ++i)
+    if (corner(i).rgba != 0xffffffffu) return {};
+  const float x0 = std::min(a.x, c.x), y0 = std::min(a.y, c.y), x1 = std::max(a.x, c.x),
+              y1 = std::max(a.y, c.y);
+  const auto pixel = [](float value) { return static_cast<int64_t>(std::clamp(value, -1e6f, 1e6f)); };
+  return rect_of({pixel(std::ceil(x0)), pixel(std::ceil(y0)), pixel(std::floor(x1)), pixel(std::floor(y1))});
+}
+
+bool same_rect(const VkRect2D& a, const VkRect2D& b) { return corners(a) == corners(b); }
+
 VkRect2D intersection(const VkRect2D& a, const VkRect2D& b) {
   const Corners p = corners(a), q = corners(b);
   return rect_of({std::max(p.x0, q.x0), std::max(p.y0, q.y0), std::min(p.x1, q.x1), std::min(p.y1, q.y1)});

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "gpu/present/ui_pipeline.h"
@@ -32,6 +33,9 @@ class UiChanges {
   std::vector<Drawn> last_;
 };
 
+/// Returns the whole pixels that the command fills if it is an upright rectangle in full colour.
+std::optional<VkRect2D> opaque_quad(const UiCommand& command, const UiDrawing& drawing);
+bool same_rect(const VkRect2D& a, const VkRect2D& b);
 /// Returns the part that both have; its extent is empty if they have none.
 VkRect2D intersection(const VkRect2D& a, const VkRect2D& b);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include <fmt/format.h>
@@ -49,14 +48,8 @@ dvec3 keys_pressed() {
   return {axis('W', 'S'), axis('A', 'D'), axis('E', 'Q')};
 }
 
-Array rgba_of(const ScenePicture& picture) {
-  Array rgba(DType::u8, {picture.request.view.height, picture.request.view.width, 4});
-  for (size_t i = 0; i < rgba.bytes.size() / 4; ++i) {
-    const uint8_t* const rgb = &picture.rgb[3 * i];
-    const uint32_t texel = rgb[0] | rgb[1] << 8 | rgb[2] << 16 | 0xffu << 24;
-    std::memcpy(&rgba.bytes[4 * i], &texel, 4);
-  }
-  return rgba;
+Array rgb_of(const ScenePicture& picture) {
+  return Array::of<uint8_t>({picture.request.view.height, picture.request.view.width, 3}, picture.rgb);
 }
 
 }  // namespace
@@ -163,19 +156,19 @@ void MainView::show_picture(const Shapes& shapes, uint64_t shapes_version) {
   picture_ = newest;
   painted_version_ = shapes_version;
   painted_id_ = hovered_id_;
-  Array rgba = rgba_of(*picture_);
-  paint_dots(shapes, overlay_frame(), hovered_id_, rgba);
+  Array rgb = rgb_of(*picture_);
+  paint_dots(shapes, overlay_frame(), hovered_id_, rgb);
   const apps::PictureView& view = picture_->request.view;
   if (texture_ != nullptr && (texture_width_ != view.width || texture_height_ != view.height)) {
     window_.drop_texture(texture_);
     texture_ = nullptr;
   }
   if (texture_ == nullptr) {
-    texture_ = window_.make_texture(rgba);
+    texture_ = window_.make_texture(rgb);
     texture_width_ = view.width;
     texture_height_ = view.height;
   } else {
-    window_.update_texture(texture_, rgba);
+    window_.update_texture(texture_, rgb);
   }
 }
 

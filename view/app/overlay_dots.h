@@ -12,8 +12,8 @@
 
 namespace greatx::view {
 
-/// Draws the dots of `shapes` that the scene does not hide into `rgba`, u8 [height, width, 4], the picture of
+/// Draws the dots of `shapes` that the scene does not hide into `rgb`, u8 [height, width, 3], the picture of
 /// `frame`. Those of the row whose id is `highlighted` (0: none) are larger.
-void paint_dots(const Shapes& shapes, const OverlayFrame& frame, uint64_t highlighted, Array& rgba);
+void paint_dots(const Shapes& shapes, const OverlayFrame& frame, uint64_t highlighted, Array& rgb);
 
 }  // namespace greatx::view

@@ -24,8 +24,14 @@ std::vector<std::byte> rgba_of(const Array& picture) {
                "a picture of {} axes", picture.shape.size());
   if (picture.shape[2] == 4) return picture.bytes;
   const size_t pixels = picture.bytes.size() / 3;
-  std::vector<std::byte> rgba(4 * pixels, std::byte{255});
-  for (size_t i = 0; i < pixels; ++i) std::copy_n(&picture.bytes[3 * i], 3, &rgba[4 * i]);
+  std::vector<std::byte> rgba(4 * pixels);
+  const std::byte* rgb = picture.bytes.data();
+  for (std::byte *texel = rgba.data(), *const end = texel + rgba.size(); texel != end; texel += 4, rgb += 3) {
+    texel[0] = rgb[0];
+    texel[1] = rgb[1];
+    texel[2] = rgb[2];
+    texel[3] = std::byte{255};
+  }
   return rgba;
 }
 
@@ -256,7 +262,7 @@ Array ImGuiWindow::screenshot() {
 }
 
 TextureId ImGuiWindow::make_texture(const Array& picture) {
-  const gpu::PresentTextureId texture = presenter_->make_texture(extent_of(picture));
+  const gpu::PresentTextureId texture = presenter_->make_texture(extent_of(picture), picture.shape[2] == 3);
   presenter_->update(texture, rgba_of(picture));
   return id_of(texture);
 }

@@ -98,7 +98,7 @@ class Window {
   virtual int width() const = 0;   ///< pixels
   virtual int height() const = 0;  ///< pixels
 
-  /// Makes a texture of u8 [h, w, 3] or [h, w, 4] texels. The size is fixed.
+  /// Makes a texture of u8 [h, w, 3] or [h, w, 4] texels. The size is fixed. One of three channels is opaque.
   virtual TextureId make_texture(const Array& picture) = 0;
   /// Replaces the texels, which the next end_frame() shows. The size must be the texture's.
   virtual void update_texture(TextureId texture, const Array& picture) = 0;
