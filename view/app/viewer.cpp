@@ -25,8 +25,7 @@ namespace greatx::view {
 
 namespace {
 
-/// How long a frame waits for input and news at most, and for a script.
-constexpr double longest_wait_s = 0.05, scripted_wait_s = 0.008;
+constexpr double scripted_wait_s = 0.008;  ///< as ViewerOptions::longest_wait_s, while there is a script
 /// While a picture is being drawn, input alone begins a frame so long after the last one. The picture begins
 /// the next frame anyway, and a frame before it would slow it down.
 constexpr double awaiting_input_s = 1.0 / 30.0;
@@ -75,7 +74,8 @@ class Viewer {
 
   FrameWait frame_wait() const {
     FrameWait wait;
-    wait.most_s = options_.script.empty() ? longest_wait_s : scripted_wait_s;
+    wait.most_s = options_.longest_wait_s;
+    if (!options_.script.empty()) wait.most_s = std::min(wait.most_s, scripted_wait_s);
     if (main_.awaits()) wait.input_after_s = awaiting_input_s;
     wait.news = [this] { return has_news(); };
     return wait;
@@ -85,6 +85,12 @@ class Viewer {
     const std::vector<std::string> messages = window_->validation_messages();
     if (!messages.empty())
       throw std::runtime_error("the validation layer on the window's device: " + messages.front());
+    // Errors are shown and not thrown, but those of the validation layer are faults of the program.
+    if (!options_.window.validation) return;
+    std::vector<std::string> errors{main_.error()};
+    for (const std::unique_ptr<ShownRun>& run : runs_) errors.push_back(run->run().status().error);
+    for (const std::string& error : errors)
+      if (error.find("validation") != std::string::npos) throw std::runtime_error(error);
   }
 
   void update() {

@@ -35,6 +35,7 @@ struct ViewerOptions {
   std::vector<ScriptStep> script;       ///< empty: a person drives
   std::filesystem::path script_folder;  ///< where the script's screenshots go
   bool paused = false;
+  double longest_wait_s = 0.05;  ///< of a frame for input or news
   /// Drives the viewer from a program, beside a script or a person: it is called after each frame, and the
   /// viewer ends when it returns false. Empty: nothing does.
   std::function<bool(const ScriptHost&)> driver;
