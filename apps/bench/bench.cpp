@@ -163,6 +163,10 @@ void add_view_options(CLI::App& command, Options& options) {
   command.add_option("--orbit-seconds", view.seconds, "of --view: how long the view orbits")
       ->capture_default_str()
       ->check(number_of(0.1, 1e4));
+  command.add_option("--size", view.size, "of --view: of the window, pixels")->capture_default_str();
+  command.add_option("--drags", view.drags, "of --view: measured from rest")
+      ->capture_default_str()
+      ->check(integer_of(1, 1'000'000));
   command.add_option("--turns", view.rounds, "of --view: of a live run with and without the window")
       ->capture_default_str()
       ->check(integer_of(1, 1000));

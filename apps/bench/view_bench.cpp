@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <thread>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include "apps/bench/measure.h"
 #include "apps/bench/view_drivers.h"
 #include "apps/bench/view_start.h"
+#include "apps/console/command_line.h"
 #include "core/error.h"
 #include "io/dataset/dataset_writer.h"
 #include "io/files/file.h"
@@ -70,6 +72,7 @@ class ViewBench {
     if (scenario_.ticks < options_.warm_up + 2)
       throw_user_error("{}: bench --view: expected {} ticks at least, {} to warm up and two, found {}",
                        scenario_.name, options_.warm_up + 2, options_.warm_up, scenario_.ticks);
+    std::tie(width_, height_) = parse_window_size(options_.size);
     options_.block = std::min(options_.block, scenario_.ticks - options_.warm_up - 1);
     options_.scrub_ticks = std::clamp<int64_t>(options_.scrub_ticks, 2, scenario_.ticks);
     std::filesystem::create_directories(scratch_.path());
@@ -85,8 +88,8 @@ class ViewBench {
             {"device", device.name},
             {"driver", device.driver},
             {"cores", std::thread::hardware_concurrency()},
-            {"width", options_.width},
-            {"height", options_.height},
+            {"width", width_},
+            {"height", height_},
             {"rows", rows_}};
   }
 
@@ -113,8 +116,8 @@ class ViewBench {
       return sim::parse_scenario(text, "scenario.yaml", dataset, scenario_options_.assets);
     };
     viewer.device = run_.device_options();
-    viewer.window.width = options_.width;
-    viewer.window.height = options_.height;
+    viewer.window.width = width_;
+    viewer.window.height = height_;
     viewer.window.offscreen = viewer.window.wall_clock = true;
     viewer.window.validation = run_.validation;
     viewer.window.device = run_.device;
@@ -128,7 +131,7 @@ class ViewBench {
     std::vector<std::string> arguments{"view",        scenario_options_.scenario,
                                        "--offscreen", "--paused",
                                        "--script",    script.string(),
-                                       "--size",      fmt::format("{}x{}", options_.width, options_.height)};
+                                       "--size",      options_.size};
     const auto option = [&](const char* name, const std::string& value) {
       if (!value.empty()) arguments.insert(arguments.end(), {name, value});
     };
@@ -148,7 +151,7 @@ class ViewBench {
   }
 
   void measure_orbit() {
-    OrbitDriver driver(options_.width, options_.height, options_.seconds, options_.drags);
+    OrbitDriver driver(width_, height_, options_.seconds, options_.drags);
     view::ViewerOptions viewer = this->viewer(driver);
     viewer.paused = true;
     view::run_viewer(viewer);
@@ -243,6 +246,7 @@ class ViewBench {
   const ScenarioOptions scenario_options_;
   const RunOptions run_;
   ViewBenchOptions options_;
+  int width_ = 0, height_ = 0;
   const sim::Scenario scenario_;
   ScratchFolder scratch_;
   nlohmann::json rows_ = nlohmann::json::array();

@@ -15,15 +15,14 @@
 namespace greatx::apps {
 
 struct ViewBenchOptions {
-  int64_t warm_up = 5;       ///< first ticks of each turn of a live run, not measured
-  int width = 1280;          ///< of the window, pixels
-  int height = 720;          ///< of the window, pixels
-  double seconds = 5.0;      ///< how long the view orbits
-  uint32_t drags = 20;       ///< measured from rest to the picture
-  uint32_t rounds = 3;       ///< of a live run with and without the window
-  int64_t block = 30;        ///< ticks of a live run that are measured in each turn
-  uint32_t starts = 3;       ///< of the program
-  int64_t scrub_ticks = 30;  ///< of the data set that is scrubbed
+  int64_t warm_up = 5;            ///< first ticks of each turn of a live run, not measured
+  std::string size = "1280x720";  ///< of the window, pixels
+  double seconds = 5.0;           ///< how long the view orbits
+  uint32_t drags = 20;            ///< measured from rest to the picture
+  uint32_t rounds = 3;            ///< of a live run with and without the window
+  int64_t block = 30;             ///< ticks of a live run that are measured in each turn
+  uint32_t starts = 3;            ///< of the program
+  int64_t scrub_ticks = 30;       ///< of the data set that is scrubbed
 };
 
 /// Returns one JSON object with scenario, device, driver, cores of the host, width, height and `rows`. A row

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The picture of the main view: it shows what a recorded camera shows, the picked surface is the one under the
-// cursor, paths end on the pixels of their antennas, and a lost device comes back.
+// The picture of the main view: it shows what a recorded camera shows, the picked surface is the one under
+// the cursor, paths end on the pixels of their antennas, and a lost device comes back.
 #include <chrono>
 #include <thread>
 
