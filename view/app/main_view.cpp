@@ -148,6 +148,13 @@ void MainView::request(const ShownTick& tick, bool plays) {
   settled_ = request.fine && !awaits_;
 }
 
+bool MainView::has_picture_of(const ShownTick& tick) const {
+  if (scene_ == nullptr || !scene_->error().empty()) return true;
+  const std::shared_ptr<const ScenePicture> newest = scene_->picture();
+  return newest == nullptr ||
+         (newest->request.sequence == tick.sequence && newest->request.tick == tick.packet.tick);
+}
+
 void MainView::show_picture(const Shapes& shapes, uint64_t shapes_version) {
   const std::shared_ptr<const ScenePicture> newest = scene_->picture();
   if (newest == nullptr ||

@@ -42,6 +42,8 @@ class MainView {
   bool settled() const { return settled_; }
   /// Whether a picture is being drawn for the view that is wanted.
   bool awaits() const { return awaits_; }
+  /// Whether the newest picture is of this tick, or none will come.
+  bool has_picture_of(const ShownTick& tick) const;
   /// Changes whenever there is a new picture, or an error.
   uint64_t version() const { return scene_ ? scene_->version() : 0; }
   /// The picture that is shown, and the one that was asked for last.

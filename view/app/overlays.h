@@ -44,6 +44,8 @@ class Overlays {
   const RecordTables& tables() const { return tables_; }
   /// Returns the shapes of `tick`. They are made again only if the tick or the settings have changed.
   const Shapes& shapes(const std::shared_ptr<const ShownTick>& tick);
+  /// Returns the shapes made last.
+  const Shapes& shapes() const { return shapes_; }
   /// Counts how often shapes() has made them again.
   uint64_t made() const { return made_; }
   /// The message of an overlay that could not be made; empty if all could.

@@ -138,7 +138,9 @@ class Viewer {
     const std::shared_ptr<const ShownTick> tick = drawn_ = shown().run().shown();
     static const Shapes none;
     Overlays* const overlays = shown().overlays();
-    const Shapes& shapes = overlays != nullptr ? overlays->shapes(tick) : none;
+    // Overlays follow with the picture of their tick: both fit, and the scene is drawn once for each tick.
+    if (tick == nullptr || main_.has_picture_of(*tick)) overlaid_ = tick;
+    const Shapes& shapes = overlays != nullptr ? overlays->shapes(overlaid_) : none;
     static const ShownTick start;  // so that the scene is there before its first tick
     if (main_.has_scene())
       main_.draw(tick != nullptr ? *tick : start, shapes, overlays != nullptr ? overlays->made() : 0,
@@ -399,7 +401,8 @@ class Viewer {
   std::unique_ptr<Window> window_;
   std::vector<std::unique_ptr<ShownRun>> runs_;
   size_t main_run_ = 0;
-  std::shared_ptr<const ShownTick> drawn_;  ///< in the last frame
+  std::shared_ptr<const ShownTick> drawn_;     ///< in the last frame
+  std::shared_ptr<const ShownTick> overlaid_;  ///< of the overlays
   MainView main_;
   SidePanel side_;
   Commands commands_;
