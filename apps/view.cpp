@@ -6,7 +6,6 @@
 #include "apps/console/command_line.h"
 #include "apps/console/session.h"
 #include "core/error.h"
-#include "core/text.h"
 #include "io/dataset/dataset_format.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "view/app/viewer.h"
@@ -22,18 +21,6 @@ struct ViewOptions {
   bool offscreen = false, paused = false;
   std::string script, size = "1280x720";
 };
-
-/// "1280x720".
-std::pair<int, int> parse_size(const std::string& text) {
-  const size_t x = text.find('x');
-  const auto part = [&](const std::string& digits) {
-    const auto value = parse_number(digits);
-    if (!value || *value < 64.0 || *value > 16384.0 || *value != static_cast<int>(*value))
-      throw_user_error("--size: expected WIDTHxHEIGHT from 64 to 16384, found '{}'", printable(text));
-    return static_cast<int>(*value);
-  };
-  return {part(text.substr(0, x)), part(x == std::string::npos ? "" : text.substr(x + 1))};
-}
 
 std::filesystem::path settings_file() {
   const char* const config = std::getenv("XDG_CONFIG_HOME");
@@ -90,7 +77,7 @@ view::ViewerOptions viewer_options(const ViewOptions& options) {
   };
   viewer.device = options.run.device_options();
   viewer.paused = options.paused;
-  std::tie(viewer.window.width, viewer.window.height) = parse_size(options.size);
+  std::tie(viewer.window.width, viewer.window.height) = parse_window_size(options.size);
   viewer.window.offscreen = options.offscreen;
   viewer.window.validation = options.run.validation;
   viewer.window.device = options.run.device;

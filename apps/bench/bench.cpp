@@ -16,6 +16,7 @@
 #include "apps/bench/radio_bench.h"
 #include "apps/bench/recall.h"
 #include "apps/bench/rig_bench.h"
+#include "apps/bench/view_bench.h"
 #include "apps/console/command_line.h"
 #include "apps/console/json_text.h"
 #include "apps/console/progress.h"
@@ -48,6 +49,8 @@ struct Options {
   RadioBenchOptions radio_options;
   bool rig = false;
   RigBenchOptions rig_options;
+  bool view = false;
+  ViewBenchOptions view_options;
 };
 
 void print(const nlohmann::json& result) {
@@ -152,6 +155,23 @@ void run_rows(const Options& options, BenchOptions bench_options,
   std::cout << (options.json ? json_text(result) + "\n" : text(result));
 }
 
+void add_view_options(CLI::App& command, Options& options) {
+  command.add_flag("--view", options.view,
+                   "measure the viewer instead: orbit, drag to picture, slow-down of a live run, start, "
+                   "scrubbing a data set");
+  ViewBenchOptions& view = options.view_options;
+  command.add_option("--orbit-seconds", view.seconds, "of --view: how long the view orbits")
+      ->capture_default_str()
+      ->check(number_of(0.1, 1e4));
+  command.add_option("--size", view.size, "of --view: of the window, pixels")->capture_default_str();
+  command.add_option("--drags", view.drags, "of --view: measured from rest")
+      ->capture_default_str()
+      ->check(integer_of(1, 1'000'000));
+  command.add_option("--turns", view.rounds, "of --view: of a live run with and without the window")
+      ->capture_default_str()
+      ->check(integer_of(1, 1000));
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app) {
@@ -236,7 +256,8 @@ void add_bench(CLI::App& app) {
   command->add_option("--block", options->rig_options.block, "of --rig: ticks of a round")
       ->capture_default_str()
       ->check(integer_of(1, 1'000'000));
-  const char* const modes[] = {"--recall", "--camera", "--lidar", "--radar", "--radio", "--rig"};
+  add_view_options(*command, *options);
+  const char* const modes[] = {"--recall", "--camera", "--lidar", "--radar", "--radio", "--rig", "--view"};
   for (const char* a : modes)
     for (const char* b : modes)
       if (a != b) command->get_option(a)->excludes(command->get_option(b));
@@ -246,6 +267,7 @@ void add_bench(CLI::App& app) {
     if (options->radar) return run_rows(*options, options->radar_options, radar_bench, radar_bench_text);
     if (options->radio) return run_rows(*options, options->radio_options, radio_bench, radio_bench_text);
     if (options->rig) return run_rows(*options, options->rig_options, rig_bench, rig_bench_text);
+    if (options->view) return run_rows(*options, options->view_options, view_bench, view_bench_text);
     if (!options->recall) return run(*options);
     options->recall_options.scenario = options->scenario;
     options->recall_options.run = options->run;

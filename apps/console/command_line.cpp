@@ -110,6 +110,17 @@ std::string unknown_command(const CLI::App& app, const std::vector<std::string>&
   return fmt::format("expected a command ({}), found none", fmt::join(names, ", "));
 }
 
+std::pair<int, int> parse_window_size(const std::string& text) {
+  const size_t x = text.find('x');
+  const auto part = [&](const std::string& digits) {
+    const auto value = parse_number(digits);
+    if (!value || *value < 64.0 || *value > 16384.0 || *value != static_cast<int>(*value))
+      throw_user_error("--size: expected WIDTHxHEIGHT from 64 to 16384, found '{}'", printable(text));
+    return static_cast<int>(*value);
+  };
+  return {part(text.substr(0, x)), part(x == std::string::npos ? "" : text.substr(x + 1))};
+}
+
 void check_printed() {
   std::cout.flush();
   if (!std::cout) throw_user_error("standard output: cannot be written");

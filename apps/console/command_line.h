@@ -29,6 +29,9 @@ void read_numbers_strictly(CLI::App& app);
 /// 'generate'?") or lack a command. Returns an empty string if the error is a different one.
 std::string unknown_command(const CLI::App& app, const std::vector<std::string>& arguments);
 
+/// Parses the option --size: "1280x720". Throws UserError.
+std::pair<int, int> parse_window_size(const std::string& text);
+
 /// Throws UserError if the output could not be written to standard output, for example because the disk is
 /// full or a size limit is reached.
 void check_printed();

@@ -3,6 +3,7 @@
 //
 // Draws the panels of event cameras.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "draw/sheet/picture_panel.h"
@@ -123,14 +124,23 @@ Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, st
   Array rgb(DType::u8, {height, width, 3});
   const std::span<uint8_t> out = rgb.as<uint8_t>();
   std::ranges::fill(out, uint8_t{128});
+  const auto color_of = [&](int ons, int offs) {
+    const int count = ons + offs;
+    const double strength = std::min(1.0, 0.4 + 0.2 * count);
+    const double share = static_cast<double>(ons) / count;
+    std::array<uint8_t, 3> color;
+    for (size_t c = 0; c < 3; ++c)
+      color[c] = static_cast<uint8_t>(
+          std::lround(grey[c] + strength * (blue[c] + share * (red[c] - blue[c]) - grey[c])));
+    return color;
+  };
+  // Most pixels with events have one.
+  const std::array<uint8_t, 3> one_on = color_of(1, 0), one_off = color_of(0, 1);
   for (size_t i = 0; i < on.size(); ++i) {
     const int count = on[i] + off[i];
     if (count == 0) continue;
-    const double strength = std::min(1.0, 0.4 + 0.2 * count);
-    const double share = static_cast<double>(on[i]) / count;
-    for (size_t c = 0; c < 3; ++c)
-      out[3 * i + c] = static_cast<uint8_t>(
-          std::lround(grey[c] + strength * (blue[c] + share * (red[c] - blue[c]) - grey[c])));
+    const std::array<uint8_t, 3> color = count > 1 ? color_of(on[i], off[i]) : on[i] ? one_on : one_off;
+    std::copy_n(color.begin(), 3, &out[3 * i]);
   }
   return rgb;
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <ranges>
+#include <utility>
 
 #include "core/error.h"
 
@@ -26,11 +28,12 @@ VkBufferImageCopy whole(VkExtent2D extent) {
 
 }  // namespace
 
-Presenter::Presenter(const PresentDevice& device, const Surface* surface) : device_(device) {
+Presenter::Presenter(const PresentDevice& device, const Surface* surface, PresentFaults& faults)
+    : device_(device), faults_(faults) {
   make_render_pass();
   pipeline_ = std::make_unique<UiPipeline>(device_, render_pass_);
   for (Frame& frame : frames_) make_frame(frame);
-  if (surface != nullptr) swapchain_ = std::make_unique<Swapchain>(device_, *surface);
+  if (surface != nullptr) swapchain_ = std::make_unique<Swapchain>(device_, *surface, faults);
 }
 
 Presenter::~Presenter() {
@@ -38,11 +41,11 @@ Presenter::~Presenter() {
   swapchain_.reset();
   pipeline_.reset();
   for (Frame& frame : frames_) {
-    vkDestroyFramebuffer(device_.handle(), frame.framebuffer, nullptr);
     vkDestroySemaphore(device_.handle(), frame.acquired, nullptr);
     vkDestroyFence(device_.handle(), frame.done, nullptr);
     vkDestroyCommandPool(device_.handle(), frame.pool, nullptr);
   }
+  vkDestroyFramebuffer(device_.handle(), framebuffer_, nullptr);
   vkDestroyRenderPass(device_.handle(), render_pass_, nullptr);
 }
 
@@ -50,23 +53,24 @@ void Presenter::make_render_pass() {
   VkAttachmentDescription color{};
   color.format = PresentImage::format;
   color.samples = VK_SAMPLE_COUNT_1_BIT;
-  color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+  color.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
   color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
   color.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
   color.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-  color.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+  color.initialLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
   color.finalLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
   const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
   VkSubpassDescription subpass{};
   subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
   subpass.colorAttachmentCount = 1;
   subpass.pColorAttachments = &reference;
-  // Before: the copy out of the canvas two frames ago, and the copies into textures. After: the copy out.
+  // Before: the drawing and the copy of the frame before, and the copies into textures. After: the copy out.
   const VkSubpassDependency dependencies[] = {
-      {VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_TRANSFER_BIT,
+      {VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
        VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-       VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-       VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT, 0},
+       VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+       VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT,
+       0},
       {0, VK_SUBPASS_EXTERNAL, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
        VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT, 0}};
   VkRenderPassCreateInfo info{VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO};
@@ -95,14 +99,16 @@ void Presenter::make_frame(Frame& frame) {
   GREATX_VK(vkCreateSemaphore(device_.handle(), &semaphore, nullptr, &frame.acquired));
 }
 
-void Presenter::fit_canvas(Frame& frame, VkExtent2D extent) {
-  if (frame.canvas && frame.canvas->extent().width == extent.width &&
-      frame.canvas->extent().height == extent.height)
-    return;
-  vkDestroyFramebuffer(device_.handle(), frame.framebuffer, nullptr);
-  frame.canvas = std::make_unique<PresentImage>(
+void Presenter::fit_canvas(VkExtent2D extent) {
+  if (canvas_ && canvas_->extent().width == extent.width && canvas_->extent().height == extent.height) return;
+  device_.wait_idle();
+  vkDestroyFramebuffer(device_.handle(), framebuffer_, nullptr);
+  framebuffer_ = VK_NULL_HANDLE;
+  canvas_ = std::make_unique<PresentImage>(
       device_, extent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
-  const VkImageView view = frame.canvas->view();
+  canvas_is_new_ = true;
+  changes_.forget();
+  const VkImageView view = canvas_->view();
   VkFramebufferCreateInfo info{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
   info.renderPass = render_pass_;
   info.attachmentCount = 1;
@@ -110,37 +116,58 @@ void Presenter::fit_canvas(Frame& frame, VkExtent2D extent) {
   info.width = extent.width;
   info.height = extent.height;
   info.layers = 1;
-  GREATX_VK(vkCreateFramebuffer(device_.handle(), &info, nullptr, &frame.framebuffer));
+  GREATX_VK(vkCreateFramebuffer(device_.handle(), &info, nullptr, &framebuffer_));
+}
+
+/// Makes the buffer larger if it has less than `bytes`.
+void Presenter::fit(std::unique_ptr<PresentBuffer>& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage) {
+  if (!buffer || buffer->mapped().size() < bytes)
+    buffer = std::make_unique<PresentBuffer>(device_, bytes + bytes / 2, usage);
 }
 
 void Presenter::record_updates(Frame& frame) {
-  frame.staging.clear();
+  VkDeviceSize bytes = 0;
+  for (const auto& [id, texture] : textures_)
+    if (texture.pending) bytes += texture.texels.size();
+  if (bytes == 0) return;
+  fit(frame.staging, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+  VkDeviceSize offset = 0;
   for (auto& [id, texture] : textures_) {
-    if (texture.pending.empty()) continue;
-    frame.staging.push_back(
-        std::make_unique<PresentBuffer>(device_, texture.pending.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT));
-    std::memcpy(frame.staging.back()->mapped().data(), texture.pending.data(), texture.pending.size());
+    if (!std::exchange(texture.pending, false)) continue;
+    std::memcpy(frame.staging->mapped().data() + offset, texture.texels.data(), texture.texels.size());
     const VkImage image = texture.image->handle();
     change_layout(frame.cmd, image,
                   texture.shown ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_UNDEFINED,
                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-    const VkBufferImageCopy copy = whole(texture.image->extent());
-    vkCmdCopyBufferToImage(frame.cmd, frame.staging.back()->handle(), image,
-                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    VkBufferImageCopy copy = whole(texture.image->extent());
+    copy.bufferOffset = std::exchange(offset, offset + texture.texels.size());
+    vkCmdCopyBufferToImage(frame.cmd, frame.staging->handle(), image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                           &copy);
     change_layout(frame.cmd, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                   VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     texture.shown = true;
-    texture.pending.clear();
-    texture.pending.shrink_to_fit();
   }
 }
 
 void Presenter::record_drawing(Frame& frame, VkExtent2D extent, const UiDrawing& drawing) {
+  const std::vector<VkRect2D> parts = changes_.update(
+      extent, drawing, [this](PresentTextureId texture) { return textures_.at(texture).version; });
+  if (parts.empty()) return;
+  if (std::exchange(canvas_is_new_, false))
+    change_layout(frame.cmd, canvas_->handle(), VK_IMAGE_LAYOUT_UNDEFINED,
+                  VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+  VkRenderPassBeginInfo pass{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
+  pass.renderPass = render_pass_;
+  pass.framebuffer = framebuffer_;
+  pass.renderArea.extent = extent;
+  vkCmdBeginRenderPass(frame.cmd, &pass, VK_SUBPASS_CONTENTS_INLINE);
+  bind_triangles(frame, extent, drawing);
+  for (const VkRect2D& part : parts) record_part(frame, part, drawing);
+  vkCmdEndRenderPass(frame.cmd);
+}
+
+void Presenter::bind_triangles(Frame& frame, VkExtent2D extent, const UiDrawing& drawing) {
   if (drawing.indices.empty()) return;
-  const auto fit = [&](std::unique_ptr<PresentBuffer>& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage) {
-    if (!buffer || buffer->mapped().size() < bytes)
-      buffer = std::make_unique<PresentBuffer>(device_, bytes + bytes / 2, usage);
-  };
   const VkDeviceSize vertex_bytes = drawing.vertices.size() * sizeof(UiVertex);
   const VkDeviceSize index_bytes = drawing.indices.size() * sizeof(uint16_t);
   fit(frame.vertices, vertex_bytes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
@@ -152,11 +179,32 @@ void Presenter::record_drawing(Frame& frame, VkExtent2D extent, const UiDrawing&
   vkCmdBindVertexBuffers(frame.cmd, 0, 1, &vertices, &offset);
   vkCmdBindIndexBuffer(frame.cmd, frame.indices->handle(), 0, VK_INDEX_TYPE_UINT16);
   pipeline_->begin(frame.cmd, extent);
+}
+
+/// Tells whether the command is an opaque picture that hides all that was drawn before in the part.
+bool Presenter::covers(const UiCommand& command, const UiDrawing& drawing, const VkRect2D& part) const {
+  if (command.index_count != 6 || !textures_.at(command.texture).opaque) return false;
+  const std::optional<VkRect2D> quad = opaque_quad(command, drawing);
+  return quad && same_rect(intersection(intersection(*quad, command.clip), part), part);
+}
+
+/// Draws all that can be seen in a part of the picture.
+void Presenter::record_part(Frame& frame, const VkRect2D& part, const UiDrawing& drawing) {
+  const auto cover = std::find_if(drawing.commands.rbegin(), drawing.commands.rend(),
+                                  [&](const UiCommand& command) { return covers(command, drawing, part); });
+  if (cover == drawing.commands.rend()) {
+    const VkClearAttachment black{VK_IMAGE_ASPECT_COLOR_BIT, 0, {}};
+    const VkClearRect rect{part, 0, 1};
+    vkCmdClearAttachments(frame.cmd, 1, &black, 1, &rect);
+  }
+  const auto first = cover == drawing.commands.rend() ? drawing.commands.begin() : cover.base() - 1;
   PresentTextureId bound = 0;
-  for (const UiCommand& command : drawing.commands) {
+  for (const UiCommand& command : std::ranges::subrange(first, drawing.commands.end())) {
+    const VkRect2D clip = intersection(command.clip, part);
+    if (clip.extent.width == 0 || clip.extent.height == 0) continue;
     if (command.texture != bound) pipeline_->bind(frame.cmd, textures_.at(command.texture).set);
     bound = command.texture;
-    vkCmdSetScissor(frame.cmd, 0, 1, &command.clip);
+    vkCmdSetScissor(frame.cmd, 0, 1, &clip);
     vkCmdDrawIndexed(frame.cmd, command.index_count, 1, command.first_index,
                      static_cast<int32_t>(command.first_vertex), 0);
   }
@@ -170,9 +218,9 @@ void Presenter::record_copy(Frame& frame, uint32_t image) {
   };
   VkImageBlit blit{};
   blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-  blit.srcOffsets[1] = corner(frame.canvas->extent());
+  blit.srcOffsets[1] = corner(canvas_->extent());
   blit.dstOffsets[1] = corner(swapchain_->extent());
-  vkCmdBlitImage(frame.cmd, frame.canvas->handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target,
+  vkCmdBlitImage(frame.cmd, canvas_->handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target,
                  VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_NEAREST);
   change_layout(frame.cmd, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
@@ -191,31 +239,24 @@ void Presenter::submit(Frame& frame, std::optional<uint32_t> image) {
     submit.pSignalSemaphores = &rendered;
   }
   GREATX_VK(vkResetFences(device_.handle(), 1, &frame.done));
+  check_vk(faults_.take({VK_ERROR_DEVICE_LOST}), "vkQueueSubmit, on purpose");
   GREATX_VK(vkQueueSubmit(device_.queue(), 1, &submit, frame.done));
 }
 
 void Presenter::frame(VkExtent2D extent, const UiDrawing& drawing) {
   if (extent.width == 0 || extent.height == 0) return;
+  faults_.begin_frame();
   Frame& frame = frames_[frame_ % frames_in_flight];
   GREATX_VK(vkWaitForFences(device_.handle(), 1, &frame.done, VK_TRUE, UINT64_MAX));
   sweep();
-  fit_canvas(frame, extent);
+  fit_canvas(extent);
   const std::optional<uint32_t> image =
       swapchain_ ? swapchain_->acquire(extent, frame.acquired) : std::nullopt;
 
   GREATX_VK(vkResetCommandPool(device_.handle(), frame.pool, 0));
   begin(frame.cmd);
   record_updates(frame);
-  const VkClearValue clear{};
-  VkRenderPassBeginInfo pass{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
-  pass.renderPass = render_pass_;
-  pass.framebuffer = frame.framebuffer;
-  pass.renderArea.extent = extent;
-  pass.clearValueCount = 1;
-  pass.pClearValues = &clear;
-  vkCmdBeginRenderPass(frame.cmd, &pass, VK_SUBPASS_CONTENTS_INLINE);
   record_drawing(frame, extent, drawing);
-  vkCmdEndRenderPass(frame.cmd);
   if (image) record_copy(frame, *image);
   submit(frame, image);
   if (image) swapchain_->present(*image);
@@ -226,7 +267,7 @@ void Presenter::frame(VkExtent2D extent, const UiDrawing& drawing) {
 std::vector<std::byte> Presenter::read_back() {
   if (frame_ == 0) return {};
   device_.wait_idle();
-  const PresentImage& canvas = *frames_[(frame_ - 1) % frames_in_flight].canvas;
+  const PresentImage& canvas = *canvas_;
   const PresentBuffer buffer(device_, canvas.bytes(), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
   // The device is idle, so any frame's command buffer is free.
   const VkCommandBuffer cmd = frames_[0].cmd;
@@ -248,14 +289,36 @@ std::vector<std::byte> Presenter::read_back() {
   return {buffer.mapped().begin(), buffer.mapped().end()};
 }
 
-PresentTextureId Presenter::make_texture(VkExtent2D extent) {
+Presenter::Texture Presenter::texture_of(VkExtent2D extent, bool opaque) {
   GREATX_CHECK(extent.width > 0 && extent.height > 0, "a texture of {} x {}", extent.width, extent.height);
   Texture texture;
+  texture.opaque = opaque;
   texture.image = std::make_unique<PresentImage>(
       device_, extent, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   texture.set = pipeline_->make_set(texture.image->view());
-  textures_.emplace(next_texture_, std::move(texture));
+  return texture;
+}
+
+PresentTextureId Presenter::make_texture(VkExtent2D extent, bool opaque) {
+  textures_.emplace(next_texture_, texture_of(extent, opaque));
   return next_texture_++;
+}
+
+Presenter::AllTexels Presenter::take_texels() {
+  AllTexels all;
+  for (auto& [id, texture] : textures_)
+    all[id] = {texture.image->extent(), texture.opaque, std::move(texture.texels)};
+  return all;
+}
+
+void Presenter::restore(AllTexels all) {
+  for (auto& [id, texels] : all) {
+    Texture& texture = textures_.emplace(id, texture_of(texels.extent, texels.opaque)).first->second;
+    texture.pending = !texels.rgba.empty();
+    texture.version = ++texel_versions_;
+    texture.texels = std::move(texels.rgba);
+    next_texture_ = std::max(next_texture_, id + 1);
+  }
 }
 
 VkExtent2D Presenter::extent_of(PresentTextureId texture) const {
@@ -266,7 +329,9 @@ void Presenter::update(PresentTextureId id, std::vector<std::byte> rgba) {
   Texture& texture = textures_.at(id);
   GREATX_CHECK(rgba.size() == texture.image->bytes(), "{} bytes for a texture of {}", rgba.size(),
                texture.image->bytes());
-  texture.pending = std::move(rgba);
+  texture.texels = std::move(rgba);
+  texture.pending = true;
+  texture.version = ++texel_versions_;
 }
 
 void Presenter::drop(PresentTextureId id) {

@@ -23,14 +23,10 @@ VkSurfaceFormatKHR choose_format(VkPhysicalDevice physical, VkSurfaceKHR surface
   return formats.front();
 }
 
-bool is_stale(VkResult result) {
-  return result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_ERROR_SURFACE_LOST_KHR;
-}
-
 }  // namespace
 
-Swapchain::Swapchain(const PresentDevice& device, const Surface& surface)
-    : device_(device), surface_(surface) {}
+Swapchain::Swapchain(const PresentDevice& device, const Surface& surface, PresentFaults& faults)
+    : device_(device), surface_(surface), faults_(faults) {}
 
 Swapchain::~Swapchain() {
   device_.wait_idle();
@@ -93,13 +89,15 @@ std::optional<uint32_t> Swapchain::acquire(VkExtent2D extent, VkSemaphore acquir
     stale_ = false;
   }
   uint32_t image = 0;
-  const VkResult result =
-      vkAcquireNextImageKHR(device_.handle(), swapchain_, UINT64_MAX, acquired, VK_NULL_HANDLE, &image);
-  if (is_stale(result)) {
+  VkResult result = faults_.take({VK_ERROR_SURFACE_LOST_KHR, VK_ERROR_OUT_OF_DATE_KHR});
+  if (result == VK_SUCCESS)
+    result =
+        vkAcquireNextImageKHR(device_.handle(), swapchain_, UINT64_MAX, acquired, VK_NULL_HANDLE, &image);
+  if (result == VK_ERROR_OUT_OF_DATE_KHR) {
     stale_ = true;
     return {};
   }
-  GREATX_VK(result);
+  check_vk(result, "vkAcquireNextImageKHR");
   // A suboptimal image is shown all the same; the next frame has a swapchain that fits.
   if (result == VK_SUBOPTIMAL_KHR) stale_ = true;
   return image;
@@ -113,10 +111,10 @@ void Swapchain::present(uint32_t image) {
   info.pSwapchains = &swapchain_;
   info.pImageIndices = &image;
   const VkResult result = vkQueuePresentKHR(device_.queue(), &info);
-  if (is_stale(result) || result == VK_SUBOPTIMAL_KHR)
+  if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR)
     stale_ = true;
   else
-    GREATX_VK(result);
+    check_vk(result, "vkQueuePresentKHR");
 }
 
 }  // namespace greatx::gpu

@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "gpu/present/present_device.h"
+#include "gpu/present/present_faults.h"
 
 namespace greatx::gpu {
 
 /// The images of a window. It re-creates itself when the window has another size, or when the window system
-/// says that it no longer fits.
+/// says that it no longer fits. Where the surface itself is lost, it throws VulkanError.
 class Swapchain {
  public:
-  Swapchain(const PresentDevice& device, const Surface& surface);
+  Swapchain(const PresentDevice& device, const Surface& surface, PresentFaults& faults);
   ~Swapchain();
   Swapchain(const Swapchain&) = delete;
   Swapchain& operator=(const Swapchain&) = delete;
@@ -36,6 +37,7 @@ class Swapchain {
 
   const PresentDevice& device_;
   const Surface& surface_;
+  PresentFaults& faults_;
   VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
   VkExtent2D wanted_{0, 0}, extent_{0, 0};
   bool stale_ = true;

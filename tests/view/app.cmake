@@ -14,7 +14,14 @@ if(XVFB_RUN)
 endif()
 
 # The real program, by scripts.
-greatx_test(view_program SOURCES edit_program_test.cpp view_program_test.cpp LINK greatx_io)
-target_compile_definitions(test_view_program PRIVATE GREATX_PROGRAM="$<TARGET_FILE:greatx>"
-                                                     GREATX_XVFB_RUN="${XVFB_RUN}")
+greatx_test(view_program SOURCES edit_program_test.cpp view_bench_test.cpp view_program_test.cpp ../support/flip.cpp
+            LINK greatx_io nlohmann_json::nlohmann_json)
+target_compile_definitions(test_view_program
+  PRIVATE GREATX_PROGRAM="$<TARGET_FILE:greatx>" GREATX_XVFB_RUN="${XVFB_RUN}"
+          GREATX_VIEW_GOLDENS="${CMAKE_CURRENT_SOURCE_DIR}/goldens")
 add_dependencies(test_view_program greatx)
+# Only this target rewrites the viewer's picture in the source folder.
+add_custom_target(update-viewer-golden
+  COMMAND ${CMAKE_COMMAND} -E env GREATX_UPDATE_GOLDENS=1
+          $<TARGET_FILE:test_view_program> --gtest_filter=ViewProgram.LooksAsBefore --gtest_brief=1
+  DEPENDS test_view_program USES_TERMINAL)

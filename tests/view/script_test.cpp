@@ -65,7 +65,7 @@ TEST(Script, FaultsNameLineAndAction) {
   EXPECT_THAT(fault_of("click 10 20 top"), testing::HasSubstr("left, right or middle"));
   EXPECT_THAT(fault_of("click -1 20"), testing::HasSubstr("from 0 to 16384"));
   EXPECT_THAT(fault_of("wait tick 1.5"), testing::HasSubstr("whole number"));
-  EXPECT_THAT(fault_of("wait longer"), testing::HasSubstr("ready, picture, tick N or frames N"));
+  EXPECT_THAT(fault_of("wait longer"), testing::HasSubstr("ready, scene, picture, tick N or frames N"));
   EXPECT_THAT(fault_of("key hyper+a"), testing::HasSubstr("ctrl, shift or alt"));
   EXPECT_THAT(fault_of("key F13"), testing::HasSubstr("found 'F13'"));
   EXPECT_THAT(fault_of("quit now"), testing::HasSubstr("found 'now'"));

@@ -20,13 +20,25 @@ namespace greatx {
 class ViewProgramTest : public testing::Test {
  protected:
   std::filesystem::path folder() const { return temporary_.path(); }
+  static const char* size_of(const std::string& what) {
+    return what.find("--size") == std::string::npos ? "--size 800x500 " : "";
+  }
   /// Runs `greatx view WHAT --offscreen` with a script, in the test's folder.
   apps::test::Outcome view(const std::string& what, const std::string& script) const {
     std::ofstream(folder() / "script.txt") << script;
+    return apps::test::greatx(fmt::format("view {} --offscreen --validation {}--script {}/script.txt", what,
+                                          size_of(what), folder().string()),
+                              fmt::format("cd {} &&", folder().string()));
+  }
+  /// Runs the same in a real window, under Xvfb.
+  apps::test::Outcome view_x11(const std::string& what, const std::string& script) const {
+    std::ofstream(folder() / "script.txt") << script;
+    // What follows begins with the shell's `exec`, which is no program that xvfb-run could start.
+    std::ofstream(folder() / "without_exec.sh") << "shift\nexec \"$@\"\n";
     return apps::test::greatx(
-        fmt::format("view {} --offscreen --validation --size 800x500 --script {}/script.txt", what,
-                    folder().string()),
-        fmt::format("cd {} &&", folder().string()));
+        fmt::format("view {} --validation {}--script {}/script.txt", what, size_of(what), folder().string()),
+        fmt::format("cd {} && {} -a -s '-screen 0 1000x800x24 -noreset' sh ./without_exec.sh",
+                    folder().string(), GREATX_XVFB_RUN));
   }
   Array picture(const std::string& name) const {
     const std::string bytes = apps::test::read_file(folder() / name);

@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The real program `greatx view`, driven by scripts, without a display.
+#include "tests/view/view_program.h"
+
+#include <algorithm>
+#include <cstdlib>
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/formats/png.h"
-#include "tests/apps/program.h"
+#include "io/files/file.h"
+#include "tests/support/flip.h"
 
 namespace greatx::view {
 namespace {
@@ -18,32 +22,7 @@ using apps::test::Outcome;
 using apps::test::read_file;
 using testing::HasSubstr;
 
-class ViewProgram : public testing::Test {
- protected:
-  std::filesystem::path folder() const { return temporary_.path(); }
-  /// Runs `greatx view WHAT --offscreen` with a script, in the test's folder.
-  Outcome view(const std::string& what, const std::string& script) const {
-    std::ofstream(folder() / "script.txt") << script;
-    return greatx(fmt::format("view {} --offscreen --validation --size 800x500 --script {}/script.txt", what,
-                              folder().string()),
-                  fmt::format("cd {} &&", folder().string()));
-  }
-  Array picture(const std::string& name) const {
-    const std::string bytes = read_file(folder() / name);
-    return io::decode_png(std::as_bytes(std::span(bytes)), name);
-  }
-  static double mean(const Array& picture, int x0, int y0, int x1, int y1) {
-    double sum = 0.0;
-    for (int y = y0; y < y1; ++y)
-      for (int x = x0; x < x1; ++x)
-        for (int c = 0; c < 3; ++c)
-          sum += static_cast<double>(picture.bytes[static_cast<size_t>((y * picture.shape[1] + x) * 3 + c)]);
-    return sum / (3.0 * (x1 - x0) * (y1 - y0));
-  }
-
- private:
-  greatx::test::TemporaryFolder temporary_;
-};
+class ViewProgram : public ViewProgramTest {};
 
 TEST_F(ViewProgram, ShowsASceneStepsAndPicks) {
   const Outcome run = view("room --paused --ticks 3",
@@ -76,6 +55,88 @@ TEST_F(ViewProgram, FaultsOfTheCommandLineAreErrors) {
   const Outcome unknown = view("room --paused --ticks 1", "wait ready\ndo jump\nquit\n");
   EXPECT_EQ(unknown.code, 1);
   EXPECT_THAT(unknown.err, HasSubstr("expected a command of the viewer, found 'jump'"));
+}
+
+TEST_F(ViewProgram, QuitsWhileItLoads) {
+  for (const char* script : {"quit\n", "wait frames 3\nquit\n", "key ctrl+q\nwait frames 100000\n"}) {
+    const Outcome run = view("city", script);
+    EXPECT_EQ(run.code, 0) << script << run.err;
+  }
+}
+
+constexpr const char* resizing_script =
+    "wait ready\nwait picture\nresize 640 400\nwait frames 5\nwait picture\nscreenshot small.png\n"
+    "minimize\nwait frames 5\nrestore\nwait frames 5\nresize 900 600\nwait frames 5\nwait picture\n"
+    "screenshot large.png\nkey right\nwait tick 1\nprint tick\nclick 200 250\nwait frames 3\n"
+    "print error\nquit\n";
+
+TEST_F(ViewProgram, IsResizedAndMinimized) {
+  const Outcome run = view("room --paused --ticks 3", resizing_script);
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.out, "1\nnone\n");
+  EXPECT_EQ(picture("small.png").shape, (std::vector<int64_t>{400, 640, 3}));
+  EXPECT_EQ(picture("large.png").shape, (std::vector<int64_t>{600, 900, 3}));
+  EXPECT_GT(mean(picture("large.png"), 50, 100, 400, 400), 20.0);
+}
+
+TEST_F(ViewProgram, ARealWindowDoesTheSame) {
+  if (std::string(GREATX_XVFB_RUN).empty() || std::string(GREATX_XVFB_RUN).ends_with("NOTFOUND"))
+    GTEST_SKIP() << "xvfb-run is not installed";
+  const Outcome run = view_x11("room --paused --ticks 3", resizing_script);
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.out, "1\nnone\n");
+  EXPECT_EQ(picture("small.png").shape, (std::vector<int64_t>{400, 640, 3}));
+  EXPECT_EQ(picture("large.png").shape, (std::vector<int64_t>{600, 900, 3}));
+  const double real = mean(picture("large.png"), 50, 100, 400, 400);
+  ASSERT_EQ(view("room --paused --ticks 3", resizing_script).code, 0);
+  EXPECT_NEAR(real, mean(picture("large.png"), 50, 100, 400, 400), 1.0);
+}
+
+TEST_F(ViewProgram, DamagedDataSetsAreErrorsInTheWindow) {
+  const std::filesystem::path data = folder() / "data";
+  ASSERT_EQ(greatx(fmt::format("generate room --ticks 2 -o {}", data.string())).code, 0);
+  const std::string script = "wait ready\nwait frames 20\nprint error\nscreenshot error.png\nquit\n";
+  EXPECT_THAT(view(data.string(), script).out, HasSubstr("none"));
+  // Records that are cut off.
+  const std::filesystem::path record = data / "sequence_0000" / "csi" / "cfr.npy";
+  std::filesystem::resize_file(record, 300);
+  Outcome run = view(data.string(), script);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr(record.filename().string()));
+  // A description that is cut off.
+  std::filesystem::resize_file(data / "dataset.json", 100);
+  run = view(data.string(), script);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("dataset.json"));
+  const Array shot = picture("error.png");
+  int red = 0;  // the colour of errors
+  for (size_t i = 0; i + 2 < shot.bytes.size(); i += 3)
+    red += static_cast<int>(shot.bytes[i]) > 200 && static_cast<int>(shot.bytes[i + 2]) < 120;
+  EXPECT_GT(red, 100) << "the error is written in the window";
+}
+
+/// Returns the part of a screenshot without its first and last rows, whose texts tell times.
+Array without_times(const Array& shot) {
+  constexpr int64_t above = 24, below = 64;
+  const int64_t row = shot.shape[1] * 3, height = shot.shape[0] - above - below;
+  Array part(DType::u8, {height, shot.shape[1], 3});
+  std::copy_n(shot.bytes.begin() + above * row, height * row, part.bytes.begin());
+  return part;
+}
+
+TEST_F(ViewProgram, LooksAsBefore) {
+  const Outcome run =
+      view("room --paused --ticks 3 --size 480x300",
+           "wait ready\ndo show.lidar on\nwait picture\nwait frames 5\nscreenshot a.png\nquit\n");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Array now = without_times(picture("a.png"));
+  const std::filesystem::path golden = std::filesystem::path(GREATX_VIEW_GOLDENS) / "room.png";
+  if (std::getenv("GREATX_UPDATE_GOLDENS") != nullptr) io::write_file_atomically(golden, io::encode_png(now));
+  const std::string bytes = read_file(golden);
+  const Array before = io::decode_png(std::as_bytes(std::span(bytes)), golden.string());
+  ASSERT_EQ(now.shape, before.shape);
+  // Another font or driver moves edges by a part of a pixel; an overlay or a panel that lacks is far more.
+  EXPECT_LT(test::flip(before, now).mean, 0.03);
 }
 
 }  // namespace

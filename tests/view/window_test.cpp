@@ -17,8 +17,10 @@
 namespace greatx::view {
 namespace {
 
-std::unique_ptr<Window> open(bool offscreen, int width = 320, int height = 200) {
+std::unique_ptr<Window> open(bool offscreen, int width = 320, int height = 200,
+                             std::vector<WindowFault> faults = {}) {
   WindowOptions options;
+  options.faults = std::move(faults);
   options.width = width;
   options.height = height;
   options.offscreen = offscreen;
@@ -39,7 +41,7 @@ Rgb pixel(const Array& picture, int x, int y) {
 
 template <typename Draw>
 void frame(Window& window, Draw draw) {
-  ASSERT_TRUE(window.begin_frame(0.0));
+  ASSERT_TRUE(window.begin_frame({}));
   draw();
   window.end_frame();
   for (const std::string& message : window.validation_messages()) ADD_FAILURE() << message;
@@ -170,6 +172,94 @@ void minimizes(bool offscreen) {
   EXPECT_EQ(pixel(window->screenshot(), 4, 4), (Rgb{255, 255, 255}));
 }
 
+/// Draws text, a texture of each kind and rectangles that change; it does not look at the time.
+void busy_drawing(int i, const TextureId (&textures)[2]) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const auto at = [&](int n, int most) { return static_cast<float>((n * 37 + 11) % most); };
+  for (int n = 0; n < 12; ++n)
+    list.AddRectFilled({at(n, 250), at(n + 3, 150)}, {at(n, 250) + 40.0f, at(n + 3, 150) + 25.0f},
+                       IM_COL32(20 * n, 200 - 9 * n, n == i % 12 ? 255 : 30, 200));
+  list.AddImage(textures[0], {60, 40}, {220, 160});  // opaque: what is below need not be drawn
+  list.AddImage(textures[1], {at(i / 3, 200), 20}, {at(i / 3, 200) + 64.0f, 52});
+  list.AddText({80, 60}, IM_COL32_WHITE, std::to_string(i / 2).c_str());
+  if (i % 5 == 0) list.AddLine({0, 0}, {300, 190}, IM_COL32(255, 0, 0, 255), 3.0f);
+  ImGui::SetNextWindowPos({100, 90});
+  ImGui::SetNextWindowSize({90, 60});
+  ImGui::Begin("w", nullptr, ImGuiWindowFlags_NoTitleBar);
+  ImGui::Text("%d", i);
+  ImGui::End();
+}
+
+/// [4, 8, 4] with texels that let through what is below.
+Array veil(int shift) {
+  Array picture(DType::u8, {4, 8, 4});
+  for (size_t i = 0; i < picture.bytes.size(); ++i)
+    picture.bytes[i] = static_cast<std::byte>((static_cast<int>(i) * 5 + shift) % 256);
+  return picture;
+}
+
+TEST(Window, DrawingWhatHasChangedIsDrawingAll) {
+  const auto window = open(true);
+  const TextureId textures[] = {window->make_texture(texels(0)), window->make_texture(veil(0))};
+  for (int i = 0; i < 40; ++i) {
+    if (i % 4 == 0) window->update_texture(textures[0], texels(i));
+    if (i % 7 == 0) window->update_texture(textures[1], veil(i));
+    frame(*window, [&] { busy_drawing(i, textures); });
+    if (i < 3 || i % 3 != 0) continue;
+    const Array parts = window->screenshot();
+    // Another size makes the next frames new in all parts.
+    InputEvent resize;
+    resize.kind = InputEvent::Kind::resize;
+    for (const int width : {321, 320}) {
+      resize.x = width;
+      resize.y = 200;
+      window->inject(resize);
+      frame(*window, [&] { busy_drawing(i, textures); });
+    }
+    EXPECT_TRUE(window->screenshot().bytes == parts.bytes) << "frame " << i;
+  }
+}
+
+/// Draws over some faults, and expects the texture to be there after each.
+void survives(bool offscreen, std::vector<WindowFault> faults) {
+  const auto window = open(offscreen, 320, 200, std::move(faults));
+  const TextureId first = window->make_texture(texels(0));
+  window->drop_texture(first);
+  const TextureId texture = window->make_texture(texels(5));
+  const Array wanted = texels(5);
+  for (int i = 0; i < 12; ++i) {
+    frame(*window, [&] {
+      ImGui::GetBackgroundDrawList()->AddImage(texture, {5, 6}, {13, 10});
+      ImGui::GetBackgroundDrawList()->AddText({40, 40}, IM_COL32_WHITE, "text");
+    });
+    const Array picture = window->screenshot();
+    ASSERT_EQ(pixel(picture, 5 + 7, 6 + 3), pixel(wanted, 7, 3)) << "frame " << i;
+    int bright = 0;
+    for (int x = 40; x < 70; ++x)
+      for (int y = 40; y < 56; ++y) bright += pixel(picture, x, y).r > 128;
+    EXPECT_GT(bright, 10) << "the font, frame " << i;
+  }
+}
+constexpr WindowFault::Kind device_lost = WindowFault::Kind::device_lost,
+                            surface_lost = WindowFault::Kind::surface_lost,
+                            out_of_date = WindowFault::Kind::out_of_date;
+
+TEST(Window, SurvivesALostDevice) { survives(true, {{device_lost, 0}, {device_lost, 4}, {device_lost, 5}}); }
+
+TEST(Window, ADeviceThatIsLostAgainAndAgainIsAnError) {
+  const auto window =
+      open(true, 320, 200, {{device_lost, 2}, {device_lost, 3}, {device_lost, 4}, {device_lost, 5}});
+  for (int i = 0; i < 2; ++i) frame(*window, [] {});
+  ASSERT_TRUE(window->begin_frame({}));
+  try {
+    window->end_frame();
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("lost after 3 attempts"),
+                                             testing::HasSubstr("VK_ERROR_DEVICE_LOST")));
+  }
+}
+
 TEST(Window, DrawsExactly) { draws_exactly(true); }
 TEST(Window, ShowsTextures) { shows_textures(true); }
 TEST(Window, TakesInput) { takes_input(true); }
@@ -219,6 +309,11 @@ TEST_F(RealWindow, ShowsTextures) { shows_textures(false); }
 TEST_F(RealWindow, TakesInput) { takes_input(false); }
 TEST_F(RealWindow, Resizes) { resizes(false); }
 TEST_F(RealWindow, Minimizes) { minimizes(false); }
+TEST_F(RealWindow, SurvivesALostDevice) { survives(false, {{device_lost, 0}, {device_lost, 4}}); }
+TEST_F(RealWindow, SurvivesALostSurface) { survives(false, {{surface_lost, 0}, {surface_lost, 5}}); }
+TEST_F(RealWindow, SurvivesASwapchainThatIsOutOfDate) {
+  survives(false, {{out_of_date, 1}, {out_of_date, 2}, {out_of_date, 6}});
+}
 
 }  // namespace
 }  // namespace greatx::view

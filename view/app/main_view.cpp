@@ -11,6 +11,7 @@
 
 #include "core/units.h"
 #include "sim/plan/camera_desc.h"
+#include "view/app/overlay_dots.h"
 
 namespace greatx::view {
 
@@ -18,6 +19,8 @@ namespace {
 
 constexpr double vertical_fov = 50.0 * pi / 180.0;
 constexpr double rest_s = 0.15;  ///< without a change, after which the picture is made fine
+/// The same while a run plays. A fine picture costs several coarse ones, and the next tick replaces it.
+constexpr double playing_rest_s = 1.0;
 constexpr double turn_per_pixel = 0.005, zoom_per_turn = 0.85;
 constexpr double fly_per_s = 0.7;  ///< of the distance to the pivot
 constexpr float drag_px = 4.0f;    ///< a click moves less
@@ -47,7 +50,7 @@ dvec3 keys_pressed() {
   return {axis('W', 'S'), axis('A', 'D'), axis('E', 'Q')};
 }
 
-Array rgb_array(const ScenePicture& picture) {
+Array rgb_of(const ScenePicture& picture) {
   return Array::of<uint8_t>({picture.request.view.height, picture.request.view.width, 3}, picture.rgb);
 }
 
@@ -80,6 +83,7 @@ std::unique_ptr<SceneView> MainView::set_scene(std::shared_ptr<const sim::Experi
   std::unique_ptr<SceneView> old = std::exchange(scene_, std::move(scene));
   moments_.emplace(experiment_);
   has_asked_ = false;
+  painted_version_ = ~uint64_t{0};
   if (before == nullptr) {
     look_from_outside();
   } else {
@@ -154,10 +158,11 @@ void MainView::navigate(const ShownTick& tick) {
   if (moved) moved_at_s_ = ImGui::GetTime();
 }
 
-void MainView::request(const ShownTick& tick) {
-  const bool rests = ImGui::GetTime() - moved_at_s_ > rest_s;
+void MainView::request(const ShownTick& tick, bool plays) {
+  const bool rests = ImGui::GetTime() - moved_at_s_ > (plays ? playing_rest_s : rest_s);
   SceneRequest request = wanted(tick, rests);
-  if (has_asked_ && !same_view(request, asked_)) {
+  // The first picture is coarse, too, so that there is something to see soon.
+  if (!has_asked_ || !same_view(request, asked_)) {
     moved_at_s_ = ImGui::GetTime();
     request = wanted(tick, false);
   }
@@ -166,25 +171,38 @@ void MainView::request(const ShownTick& tick) {
     asked_ = request;
     has_asked_ = true;
   }
-  settled_ = request.fine && picture_ && same_request(picture_->request, request);
-  busy_ = !settled_;
+  awaits_ = !picture_ || !same_request(picture_->request, request);
+  settled_ = request.fine && !awaits_;
 }
 
-void MainView::show_picture() {
+bool MainView::has_picture_of(const ShownTick& tick) const {
+  if (scene_ == nullptr || !scene_->error().empty()) return true;
   const std::shared_ptr<const ScenePicture> newest = scene_->picture();
-  if (newest == nullptr || newest == picture_) return;
+  return newest == nullptr ||
+         (newest->request.sequence == tick.sequence && newest->request.tick == tick.packet.tick);
+}
+
+void MainView::show_picture(const Shapes& shapes, uint64_t shapes_version) {
+  const std::shared_ptr<const ScenePicture> newest = scene_->picture();
+  if (newest == nullptr ||
+      (newest == picture_ && shapes_version == painted_version_ && hovered_id_ == painted_id_))
+    return;
   picture_ = newest;
+  painted_version_ = shapes_version;
+  painted_id_ = hovered_id_;
+  Array rgb = rgb_of(*picture_);
+  paint_dots(shapes, overlay_frame(), hovered_id_, rgb);
   const apps::PictureView& view = picture_->request.view;
   if (texture_ != nullptr && (texture_width_ != view.width || texture_height_ != view.height)) {
     window_.drop_texture(texture_);
     texture_ = nullptr;
   }
   if (texture_ == nullptr) {
-    texture_ = window_.make_texture(rgb_array(*picture_));
+    texture_ = window_.make_texture(rgb);
     texture_width_ = view.width;
     texture_height_ = view.height;
   } else {
-    window_.update_texture(texture_, rgb_array(*picture_));
+    window_.update_texture(texture_, rgb);
   }
 }
 
@@ -207,13 +225,7 @@ Facts MainView::picked_facts(double carrier_hz) const {
 }
 
 OverlayFrame MainView::overlay_frame() const {
-  OverlayFrame frame;
-  frame.view = picture_->request.view;
-  frame.depth = picture_->depth;
-  frame.origin = experiment_->scene().origin;
-  frame.corner = corner_;
-  frame.size = size_;
-  return frame;
+  return {picture_->request.view, picture_->depth, experiment_->scene().origin, corner_, size_};
 }
 
 void MainView::draw_overlays(const Shapes& shapes) {
@@ -230,19 +242,19 @@ void MainView::draw_overlays(const Shapes& shapes) {
   list.PopClipRect();
 }
 
-void MainView::draw(const ShownTick* tick, const Shapes& shapes) {
+void MainView::draw(const ShownTick& tick, const Shapes& shapes, uint64_t shapes_version, bool plays) {
   corner_ = ImGui::GetCursorScreenPos();
   size_ = ImGui::GetContentRegionAvail();
-  settled_ = busy_ = false;
-  if (scene_ == nullptr || tick == nullptr || size_.x < 16.0f || size_.y < 16.0f) return;
+  settled_ = awaits_ = false;
+  if (scene_ == nullptr || size_.x < 16.0f || size_.y < 16.0f) return;
   ImGui::InvisibleButton("main view", size_,
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
   if (ImGui::IsItemActivated()) dragged_ = false;
   if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, drag_px)) dragged_ = true;
-  navigate(*tick);
-  request(*tick);
-  show_picture();
+  navigate(tick);
+  request(tick, plays);
+  show_picture(shapes, shapes_version);
   if (picture_ == nullptr) return;
   // A camera's picture keeps its own shape.
   const apps::PictureView& view = picture_->request.view;

@@ -39,12 +39,20 @@ class MainView {
   bool has_scene() const { return scene_ != nullptr; }
   std::string error() const { return scene_ ? scene_->error() : ""; }
 
-  /// Draws into the current ImGui window, and takes its mouse and keys. `tick` is null before the first one.
-  void draw(const ShownTick* tick, const Shapes& shapes);
+  /// Draws into the current ImGui window, and takes its mouse and keys. `shapes_version` changes with the
+  /// shapes. `plays`: the next tick will follow by itself.
+  void draw(const ShownTick& tick, const Shapes& shapes, uint64_t shapes_version, bool plays);
   /// Whether the shown picture is the one that is wanted, at full quality.
   bool settled() const { return settled_; }
-  /// Whether the next frame should come soon, since something moves.
-  bool busy() const { return busy_; }
+  /// Whether a picture is being drawn for the view that is wanted.
+  bool awaits() const { return awaits_; }
+  /// Whether the newest picture is of this tick, or none will come.
+  bool has_picture_of(const ShownTick& tick) const;
+  /// Changes whenever there is a new picture, or an error.
+  uint64_t version() const { return scene_ ? scene_->version() : 0; }
+  /// The picture that is shown, and the one that was asked for last.
+  const std::shared_ptr<const ScenePicture>& picture() const { return picture_; }
+  const SceneRequest& asked() const { return asked_; }
   double picture_ms() const { return picture_ ? picture_->milliseconds : 0.0; }
 
   void look_from_outside();
@@ -70,9 +78,9 @@ class MainView {
 
  private:
   void navigate(const ShownTick& tick);
-  void request(const ShownTick& tick);
+  void request(const ShownTick& tick, bool plays);
   SceneRequest wanted(const ShownTick& tick, bool fine);
-  void show_picture();
+  void show_picture(const Shapes& shapes, uint64_t shapes_version);
   OverlayFrame overlay_frame() const;
   void draw_overlays(const Shapes& shapes);
   void keep_names(const sim::Experiment& before, const sim::Experiment& after);
@@ -94,7 +102,9 @@ class MainView {
   SceneRequest asked_;
   bool has_asked_ = false;
   double moved_at_s_ = -1e9;  ///< ImGui's time of the last change of the view
-  bool settled_ = false, busy_ = false;
+  bool settled_ = false, awaits_ = false;
+  /// What the texture shows beside the picture.
+  uint64_t painted_version_ = 0, painted_id_ = 0;
   bool dragged_ = false;  ///< since the button went down
   std::optional<Picked> picked_;
   uint64_t hovered_id_ = 0;

@@ -44,10 +44,7 @@ bool is_highlighted(const Shapes& shapes, uint32_t row, uint64_t id) {
 void draw_mark(ImDrawList& list, PointShape::Mark mark, const ImVec2& at, float size, ImU32 color) {
   switch (mark) {
     case PointShape::Mark::dot:
-      // A square of few pixels costs two triangles, and a cloud has a hundred thousand.
-      list.AddRectFilled({at.x - 0.5f * size, at.y - 0.5f * size}, {at.x + 0.5f * size, at.y + 0.5f * size},
-                         color);
-      break;
+      break;  // paint_dots() has drawn it
     case PointShape::Mark::circle:
       list.AddCircle(at, size, color, 0, 1.5f);
       break;
@@ -170,8 +167,9 @@ dvec3 OverlayFrame::place(const dvec3& world) const {
 std::optional<OverlayHit> draw_shapes(ImDrawList& list, const Shapes& shapes, const OverlayFrame& frame,
                                       const std::optional<ImVec2>& cursor, uint64_t highlighted) {
   Drawing drawing(list, shapes, frame, cursor, highlighted);
-  for (const PointShape& point : shapes.points)
-    if (point.mark == PointShape::Mark::dot) drawing.point(point);
+  if (cursor)  // dots are in the picture already; the nearest one is looked for
+    for (const PointShape& point : shapes.points)
+      if (point.mark == PointShape::Mark::dot) drawing.point(point);
   for (const LineShape& line : shapes.lines) drawing.line(line);
   for (const PointShape& point : shapes.points)
     if (point.mark != PointShape::Mark::dot) drawing.point(point);

@@ -34,8 +34,8 @@ struct OverlayHit {
   double distance_px = 0.0;  ///< from the cursor
 };
 
-/// Draws `shapes`. Those of the row whose id is `highlighted` (0: none) are drawn wide. Returns the row under
-/// `cursor`, within a few pixels.
+/// Draws `shapes` without their dots, which paint_dots() draws. Those of the row whose id is `highlighted`
+/// (0: none) are drawn wide. Returns the row under `cursor`, within a few pixels.
 std::optional<OverlayHit> draw_shapes(ImDrawList& list, const Shapes& shapes, const OverlayFrame& frame,
                                       const std::optional<ImVec2>& cursor, uint64_t highlighted);
 

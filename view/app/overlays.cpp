@@ -33,6 +33,7 @@ const Shapes& Overlays::shapes(const std::shared_ptr<const ShownTick>& tick) {
   } catch (const UserError& error) {
     error_ = error.what();
   }
+  ++made_;
   made_of_ = tick;
   made_version_ = settings_.version;
   milliseconds_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();

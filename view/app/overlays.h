@@ -44,6 +44,10 @@ class Overlays {
   const RecordTables& tables() const { return tables_; }
   /// Returns the shapes of `tick`. They are made again only if the tick or the settings have changed.
   const Shapes& shapes(const std::shared_ptr<const ShownTick>& tick);
+  /// Returns the shapes made last.
+  const Shapes& shapes() const { return shapes_; }
+  /// Counts how often shapes() has made them again.
+  uint64_t made() const { return made_; }
   /// The message of an overlay that could not be made; empty if all could.
   const std::string& error() const { return error_; }
   /// Wall time of the last making, ms.
@@ -62,7 +66,7 @@ class Overlays {
   OverlaySettings settings_;
   Shapes shapes_;
   std::shared_ptr<const ShownTick> made_of_;
-  uint64_t made_version_ = ~uint64_t{0};
+  uint64_t made_version_ = ~uint64_t{0}, made_ = 0;
   std::string error_;
   double milliseconds_ = 0.0;
 };

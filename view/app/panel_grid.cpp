@@ -80,6 +80,11 @@ void PanelGrid::toggle(const std::string& title) {
   if (!found) throw_user_error("expected the title of a panel, found '{}'", printable(title));
 }
 
+void PanelGrid::close() {
+  for (auto& [name, tiles] : runs_)
+    for (Tile& tile : tiles.tiles) tile.open = false;
+}
+
 void PanelGrid::draw_choices() {
   if (ImGui::Button("choose panels")) ImGui::OpenPopup("panels");
   if (!ImGui::BeginPopup("panels")) return;

@@ -34,6 +34,8 @@ class PanelGrid {
   void draw(std::span<ShownRun* const> runs);
   /// Opens or closes the tile of this title, e.g. "uav/front: depth". Throws UserError if there is none.
   void toggle(const std::string& title);
+  /// Closes all tiles.
+  void close();
   /// Wall time of drawing the tiles in the last frame, ms.
   double milliseconds() const { return milliseconds_; }
 

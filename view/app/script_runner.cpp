@@ -11,6 +11,8 @@ bool ScriptRunner::run(const ScriptStep& step, const ScriptHost& host) {
   switch (step.kind) {
     case Kind::wait_ready:
       return host.ready();
+    case Kind::wait_scene:
+      return host.content().picture != nullptr || host.run().status().phase == RunStatus::Phase::failed;
     case Kind::wait_picture:
       return host.settled();
     case Kind::wait_tick:

@@ -3,14 +3,24 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "view/run/run.h"
+#include "view/scene/scene_view.h"
 #include "view/script/script.h"
 
 namespace greatx::view {
 
-/// What a script can ask of the viewer.
+/// What the last frame drew, and what it asked for.
+struct FrameContent {
+  std::shared_ptr<const ShownTick> tick;        ///< of overlays and panels; null: none yet
+  std::shared_ptr<const ScenePicture> picture;  ///< null: none yet
+  SceneRequest wanted;                          ///< the picture that should be shown; empty without a tick
+};
+
+/// What a script, or a program, that drives the viewer can ask of it between two frames.
 struct ScriptHost {
   std::function<bool()> ready;    ///< the run has loaded, or has failed
   std::function<bool()> settled;  ///< the main view shows what is wanted, at full quality
@@ -19,6 +29,9 @@ struct ScriptHost {
   std::function<void(const std::string& command, const std::string& argument)> act;
   std::function<void(const std::string& file)> screenshot;
   std::function<void(const std::string& fact)> print;
+  std::function<FrameContent()> content;
+  std::function<void()> finish;  ///< waits until the last frame is drawn
+  std::function<Run&()> run;     ///< that the main view shows
 };
 
 /// Runs a script, a part in each frame.

@@ -127,7 +127,7 @@ void SidePanel::draw_paths(ShownRun& run, MainView& view) {
   }
   draw_filter(run);
   ImGui::Separator();
-  const Shapes& shapes = run.overlays()->shapes(run.run().shown());
+  const Shapes& shapes = run.overlays()->shapes();  // as the main view shows them
   std::vector<bool> listed(shapes.rows.size(), false);
   for (const LineShape& line : shapes.lines) {
     if (line.row == ~0u || listed[line.row] || shapes.rows[line.row].id == 0) continue;

@@ -28,8 +28,10 @@ namespace greatx::view {
 
 namespace {
 
-/// How long a frame waits for input: while something moves, while something may come, and at rest.
-constexpr double moving_wait_s = 0.0, waiting_wait_s = 0.008, resting_wait_s = 0.05;
+constexpr double scripted_wait_s = 0.008;  ///< as ViewerOptions::longest_wait_s, while there is a script
+/// While a picture is being drawn, input alone begins a frame so long after the last one. The picture begins
+/// the next frame anyway, and a frame before it would slow it down.
+constexpr double awaiting_input_s = 1.0 / 30.0;
 constexpr float side_share = 0.42f;  ///< of the width
 
 class Viewer {
@@ -53,31 +55,52 @@ class Viewer {
   }
 
   void loop() {
+    see_news();
     ScriptRunner script(options_.script);
-    while (!quit_ && window_->begin_frame(wait_s())) {
+    while (!quit_ && window_->begin_frame(frame_wait())) {
+      see_news();
       frame();
       window_->end_frame();
       check_validation();
       if (!options_.script.empty() && !script.advance(script_host())) return;
+      if (options_.driver && !options_.driver(script_host())) return;
     }
   }
 
  private:
   ShownRun& shown() { return *runs_[main_run_]; }
 
-  double wait_s() {
-    if (main_.busy()) return moving_wait_s;
-    const bool comes = std::ranges::any_of(runs_, [](const std::unique_ptr<ShownRun>& run) {
-      const RunStatus status = run->run().status();
-      return status.playing || status.phase == RunStatus::Phase::loading;
-    });
-    return comes || !options_.script.empty() ? waiting_wait_s : resting_wait_s;
+  /// Whether there is a tick or a picture that no frame has shown yet. What else changes may wait.
+  bool has_news() const {
+    for (size_t i = 0; i < runs_.size(); ++i)
+      if (runs_[i]->run().shown() != seen_ticks_[i]) return true;
+    return main_.version() != seen_picture_;
+  }
+  void see_news() {
+    seen_ticks_.resize(runs_.size());
+    for (size_t i = 0; i < runs_.size(); ++i) seen_ticks_[i] = runs_[i]->run().shown();
+    seen_picture_ = main_.version();
+  }
+
+  FrameWait frame_wait() const {
+    FrameWait wait;
+    wait.most_s = options_.longest_wait_s;
+    if (!options_.script.empty()) wait.most_s = std::min(wait.most_s, scripted_wait_s);
+    if (main_.awaits()) wait.input_after_s = awaiting_input_s;
+    wait.news = [this] { return has_news(); };
+    return wait;
   }
 
   void check_validation() {
     const std::vector<std::string> messages = window_->validation_messages();
     if (!messages.empty())
       throw std::runtime_error("the validation layer on the window's device: " + messages.front());
+    // Errors are shown and not thrown, but those of the validation layer are faults of the program.
+    if (!options_.window.validation) return;
+    std::vector<std::string> errors{main_.error()};
+    for (const std::unique_ptr<ShownRun>& run : runs_) errors.push_back(run->run().status().error);
+    for (const std::string& error : errors)
+      if (error.find("validation") != std::string::npos) throw std::runtime_error(error);
   }
 
   void update() {
@@ -135,14 +158,17 @@ class Viewer {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
     ImGui::Begin("scene", nullptr, fixed_window | ImGuiWindowFlags_NoScrollWithMouse);
     ImGui::PopStyleVar();
-    const std::shared_ptr<const ShownTick> tick = shown().run().shown();
+    const std::shared_ptr<const ShownTick> tick = drawn_ = shown().run().shown();
     static const Shapes none;
     Overlays* const overlays = shown().overlays();
-    const Shapes& shapes = overlays != nullptr ? overlays->shapes(tick) : none;
-    if (main_.has_scene() && tick != nullptr)
-      main_.draw(tick.get(), shapes);
-    else
-      draw_progress();
+    // Overlays follow with the picture of their tick: both fit, and the scene is drawn once for each tick.
+    if (tick == nullptr || main_.has_picture_of(*tick)) overlaid_ = tick;
+    const Shapes& shapes = overlays != nullptr ? overlays->shapes(overlaid_) : none;
+    static const ShownTick start;  // so that the scene is there before its first tick
+    if (main_.has_scene())
+      main_.draw(tick != nullptr ? *tick : start, shapes, overlays != nullptr ? overlays->made() : 0,
+                 shown().run().status().playing);
+    if (tick == nullptr) draw_progress();
     draw_errors();
     ImGui::End();
   }
@@ -271,6 +297,13 @@ class Viewer {
                    [this](const std::string& name) { side_.open_tab(name); },
                    {},
                    [this] { return shown().info() != nullptr; }});
+    commands_.add({"panels.close",
+                   "View",
+                   "Close all panels",
+                   "",
+                   [this](const std::string&) { side_.grid().close(); },
+                   {},
+                   {}});
     add_switch(commands_, "side", "View", "Panels", "tab", side_open_);
     add_overlay_commands();
     add_switch(commands_, "help", "Help", "Keys and mouse", "F1", help_open_);
@@ -406,12 +439,17 @@ class Viewer {
           return status.phase == RunStatus::Phase::failed ||
                  (status.phase == RunStatus::Phase::ready && shown().run().shown() != nullptr);
         },
-        [this] { return main_.settled(); },
+        [this] { return main_.settled() && drawn_ != nullptr; },
         [this] { return shown().run().status().tick; },
         [this](const InputEvent& event) { window_->inject(event); },
         [this](const std::string& command, const std::string& argument) { commands_.run(command, argument); },
         [this](const std::string& file) { write_screenshot(options_.script_folder / file); },
-        [this](const std::string& fact) { print(fact); }};
+        [this](const std::string& fact) { print(fact); },
+        [this] {
+          return FrameContent{drawn_, main_.picture(), main_.asked()};
+        },
+        [this] { window_->finish(); },
+        [this]() -> Run& { return shown().run(); }};
   }
 
   void write_screenshot(const std::filesystem::path& file) {
@@ -467,10 +505,14 @@ class Viewer {
   size_t main_run_ = 0;
   EditSession edit_;
   Gizmo gizmo_;
+  std::shared_ptr<const ShownTick> drawn_;     ///< in the last frame
+  std::shared_ptr<const ShownTick> overlaid_;  ///< of the overlays
   MainView main_;
   SidePanel side_;
   Commands commands_;
   bool side_open_ = true, help_open_ = false, quit_ = false;
+  std::vector<std::shared_ptr<const ShownTick>> seen_ticks_;  ///< [runs]
+  uint64_t seen_picture_ = 0;
   std::string command_error_;
 };
 

@@ -19,6 +19,8 @@
 
 namespace greatx::view {
 
+struct ScriptHost;
+
 struct ViewerOptions {
   std::string title;  ///< of the scenario or data set, for the window
   /// Returns the scenario of a live run; empty for data sets. It is called on the run's thread.
@@ -36,6 +38,10 @@ struct ViewerOptions {
   std::vector<ScriptStep> script;       ///< empty: a person drives
   std::filesystem::path script_folder;  ///< where the script's screenshots go
   bool paused = false;
+  double longest_wait_s = 0.05;  ///< of a frame for input or news
+  /// Drives the viewer from a program, beside a script or a person: it is called after each frame, and the
+  /// viewer ends when it returns false. Empty: nothing does.
+  std::function<bool(const ScriptHost&)> driver;
 };
 
 /// Opens the viewer and returns when the user closes it or the script ends. Throws UserError if the window

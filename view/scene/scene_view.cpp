@@ -6,9 +6,12 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 #include <tuple>
 #include <utility>
+
+#include <spdlog/spdlog.h>
 
 #include "draw/paths/render.h"
 #include "renderer/camera/camera.h"
@@ -90,6 +93,8 @@ class Renderer {
     return picture;
   }
 
+  std::vector<std::string> validation_messages() { return device_.validation_log()->take(); }
+
  private:
   static constexpr VkDeviceSize upload_bytes = 1 << 20, readback_bytes = 16 << 20;
 
@@ -121,8 +126,11 @@ class Renderer {
 
 class SceneView::Worker {
  public:
-  Worker(std::shared_ptr<const sim::Experiment> experiment, gpu::DeviceOptions device)
-      : experiment_(std::move(experiment)), thread_([this, device] { run(device); }) {}
+  Worker(std::shared_ptr<const sim::Experiment> experiment, gpu::DeviceOptions device,
+         std::vector<uint64_t> lost_at)
+      : experiment_(std::move(experiment)),
+        lost_at_(std::move(lost_at)),
+        thread_([this, device] { run(device); }) {}
   ~Worker() {
     {
       const std::lock_guard lock(mutex_);
@@ -155,13 +163,38 @@ class SceneView::Worker {
  private:
   void run(const gpu::DeviceOptions& options) {
     try {
-      Renderer renderer(experiment_, options);
-      while (const std::optional<SceneRequest> request = next()) publish(renderer.draw(*request));
+      std::optional<SceneRequest> failed;
+      do {
+        failed = draw_until_lost(options, failed);
+      } while (failed);
     } catch (const std::exception& error) {
       const std::lock_guard lock(mutex_);
       error_ = error.what();
       ++version_;
     }
+  }
+  /// Draws until there is nothing more to draw, or until the device fails: returns the request that it failed
+  /// at. Throws if that is the request that it failed at before.
+  std::optional<SceneRequest> draw_until_lost(const gpu::DeviceOptions& options,
+                                              const std::optional<SceneRequest>& failed) {
+    Renderer renderer(experiment_, options);
+    if (failed) draw(renderer, *failed);
+    while (const std::optional<SceneRequest> request = next()) try {
+        draw(renderer, *request);
+      } catch (const gpu::VulkanError& error) {
+        spdlog::warn("{}: the device of the scene's picture is opened anew", error.what());
+        return request;
+      }
+    return {};
+  }
+  void draw(Renderer& renderer, const SceneRequest& request) {
+    if (std::ranges::find(lost_at_, draws_++) != lost_at_.end())
+      throw gpu::VulkanError(VK_ERROR_DEVICE_LOST, "a picture, on purpose");
+    publish(renderer.draw(request));
+    const std::vector<std::string> messages = renderer.validation_messages();
+    if (!messages.empty())
+      throw std::runtime_error("the validation layer on the device of the scene's picture: " +
+                               messages.front());
   }
   std::optional<SceneRequest> next() {
     std::unique_lock lock(mutex_);
@@ -175,6 +208,8 @@ class SceneView::Worker {
   }
 
   const std::shared_ptr<const sim::Experiment> experiment_;
+  const std::vector<uint64_t> lost_at_;
+  uint64_t draws_ = 0;
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   bool quit_ = false;
@@ -185,8 +220,9 @@ class SceneView::Worker {
   std::thread thread_;  ///< the last member: it uses the others
 };
 
-SceneView::SceneView(std::shared_ptr<const sim::Experiment> experiment, gpu::DeviceOptions device)
-    : worker_(std::make_unique<Worker>(std::move(experiment), std::move(device))) {}
+SceneView::SceneView(std::shared_ptr<const sim::Experiment> experiment, gpu::DeviceOptions device,
+                     std::vector<uint64_t> lost_at)
+    : worker_(std::make_unique<Worker>(std::move(experiment), std::move(device), std::move(lost_at))) {}
 SceneView::~SceneView() = default;
 void SceneView::look(const SceneRequest& request) { worker_->look(request); }
 std::shared_ptr<const ScenePicture> SceneView::picture() const { return worker_->picture(); }

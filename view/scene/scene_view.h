@@ -42,8 +42,11 @@ struct ScenePicture {
 
 class SceneView {
  public:
-  /// Starts the thread, which uploads the scene. The experiment has a picture plan of its own.
-  SceneView(std::shared_ptr<const sim::Experiment> experiment, gpu::DeviceOptions device);
+  /// Starts the thread, which uploads the scene. The experiment has a picture plan of its own. If the device
+  /// fails, it is opened anew, once for each picture. `lost_at`, for tests: the device is lost on purpose
+  /// when it is to draw for the n-th time, counted from 0.
+  SceneView(std::shared_ptr<const sim::Experiment> experiment, gpu::DeviceOptions device,
+            std::vector<uint64_t> lost_at = {});
   ~SceneView();
   SceneView(const SceneView&) = delete;
   SceneView& operator=(const SceneView&) = delete;

@@ -162,9 +162,10 @@ ScriptStep key(const Line& line) {
 
 ScriptStep wait(const Line& line) {
   ScriptStep step;
-  const std::string& what = line.word(1, "ready, picture, tick N or frames N");
-  if (what == "ready") {
-    step.kind = ScriptStep::Kind::wait_ready;
+  constexpr const char* expected = "ready, scene, picture, tick N or frames N";
+  const std::string& what = line.word(1, expected);
+  if (what == "ready" || what == "scene") {
+    step.kind = what == "ready" ? ScriptStep::Kind::wait_ready : ScriptStep::Kind::wait_scene;
     line.end(1);
   } else if (what == "picture") {
     step.kind = ScriptStep::Kind::wait_picture;
@@ -174,7 +175,7 @@ ScriptStep wait(const Line& line) {
     step.number = line.integer(2, "a whole number");
     line.end(2);
   } else {
-    line.fail("ready, picture, tick N or frames N", fmt::format("'{}'", printable(what)));
+    line.fail(expected, fmt::format("'{}'", printable(what)));
   }
   return step;
 }

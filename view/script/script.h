@@ -17,6 +17,7 @@ namespace greatx::view {
 struct ScriptStep {
   enum class Kind : uint8_t {
     wait_ready,    ///< until the run has loaded, or has failed
+    wait_scene,    ///< until a picture of the scene is shown, whatever its quality, or loading has failed
     wait_picture,  ///< until the main view shows the tick and the view that are wanted, at full quality
     wait_tick,     ///< until tick `number` is shown
     wait_frames,   ///< `number` frames

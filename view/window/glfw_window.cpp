@@ -3,6 +3,8 @@
 //
 // A real window, by GLFW.
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
@@ -74,9 +76,9 @@ class GlfwWindow final : public ImGuiWindow {
       : ImGuiWindow(options),
         window_(options),
         instance_(glfw_.extensions(), options.validation),
-        surface_(instance_, make_surface(instance_, window_.get())) {
+        surface_(std::in_place, instance_, make_surface(instance_, window_.get())) {
     ImGui_ImplGlfw_InitForOther(window_.get(), true);
-    start(instance_, &surface_, options);
+    start(instance_, &*surface_, options);
   }
   ~GlfwWindow() override {
     stop();
@@ -110,6 +112,10 @@ class GlfwWindow final : public ImGuiWindow {
     return glfwWindowShouldClose(window_.get()) == 0;
   }
   void begin_input() override { ImGui_ImplGlfw_NewFrame(); }
+  const gpu::Surface* remake_surface() override {
+    surface_.reset();  // a window has one at a time
+    return &surface_.emplace(instance_, make_surface(instance_, window_.get()));
+  }
   void press_key(const InputEvent& event, bool down) override {
     // The backend takes its modifiers from the keys that are down.
     const int action = down ? GLFW_PRESS : GLFW_RELEASE;
@@ -135,7 +141,7 @@ class GlfwWindow final : public ImGuiWindow {
   Glfw glfw_;
   GlfwHandle window_;
   gpu::PresentInstance instance_;
-  gpu::Surface surface_;
+  std::optional<gpu::Surface> surface_;
 };
 
 }  // namespace

@@ -5,6 +5,11 @@
 #include <algorithm>
 #include <backends/imgui_impl_vulkan.h>
 #include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "core/error.h"
 #include "view/window/style.h"
@@ -19,8 +24,14 @@ std::vector<std::byte> rgba_of(const Array& picture) {
                "a picture of {} axes", picture.shape.size());
   if (picture.shape[2] == 4) return picture.bytes;
   const size_t pixels = picture.bytes.size() / 3;
-  std::vector<std::byte> rgba(4 * pixels, std::byte{255});
-  for (size_t i = 0; i < pixels; ++i) std::copy_n(&picture.bytes[3 * i], 3, &rgba[4 * i]);
+  std::vector<std::byte> rgba(4 * pixels);
+  const std::byte* rgb = picture.bytes.data();
+  for (std::byte *texel = rgba.data(), *const end = texel + rgba.size(); texel != end; texel += 4, rgb += 3) {
+    texel[0] = rgb[0];
+    texel[1] = rgb[1];
+    texel[2] = rgb[2];
+    texel[3] = std::byte{255};
+  }
   return rgba;
 }
 
@@ -76,6 +87,25 @@ gpu::UiDrawing drawing_of(const ImDrawData& data, VkExtent2D extent) {
   return drawing;
 }
 
+gpu::PresentFaults faults_of(const std::vector<WindowFault>& faults) {
+  std::vector<gpu::PresentFaults::Fault> results;
+  for (const WindowFault& fault : faults) {
+    constexpr VkResult of_kind[] = {VK_ERROR_DEVICE_LOST, VK_ERROR_SURFACE_LOST_KHR,
+                                    VK_ERROR_OUT_OF_DATE_KHR};
+    results.push_back({fault.frame, of_kind[static_cast<size_t>(fault.kind)]});
+  }
+  return gpu::PresentFaults(std::move(results));
+}
+
+using Clock = std::chrono::steady_clock;
+double seconds_between(Clock::time_point begin, Clock::time_point end) {
+  return std::chrono::duration<double>(end - begin).count();
+}
+
+constexpr double news_every_s = 0.002;  ///< they are asked for
+/// So often in a row a device that is lost is opened anew.
+constexpr int most_losses = 3;
+
 }  // namespace
 
 ImGuiWindow::ImGuiWindow(const WindowOptions& options) : settings_file_(options.settings_file) {
@@ -90,8 +120,11 @@ ImGuiWindow::~ImGuiWindow() { ImGui::DestroyContext(context_); }
 
 void ImGuiWindow::start(const gpu::PresentInstance& instance, const gpu::Surface* surface,
                         const WindowOptions& options) {
-  device_ = std::make_unique<gpu::PresentDevice>(instance, surface, options.device);
-  presenter_ = std::make_unique<gpu::Presenter>(*device_, surface);
+  instance_ = &instance;
+  device_name_ = options.device;
+  faults_ = faults_of(options.faults);
+  device_ = std::make_unique<gpu::PresentDevice>(instance, surface, device_name_);
+  presenter_ = std::make_unique<gpu::Presenter>(*device_, surface, faults_);
   set_style(static_cast<float>(pixel_scale()));
   load_fonts();
 }
@@ -111,8 +144,25 @@ void ImGuiWindow::stop() {
   device_.reset();
 }
 
-bool ImGuiWindow::begin_frame(double wait_s) {
-  if (!poll(injected_.empty() ? wait_s : 0.0)) return false;
+/// Returns false if the window was closed.
+bool ImGuiWindow::wait_for_frame(const FrameWait& wait) {
+  const Clock::time_point begin = Clock::now();
+  for (bool input = false;;) {
+    const Clock::time_point now = Clock::now();
+    const double left_s = wait.most_s - seconds_between(begin, now);
+    const bool may_begin = seconds_between(frame_began_, now) >= wait.input_after_s;
+    input |= !injected_.empty();
+    if (left_s <= 0.0 || (input && may_begin) || (wait.news && wait.news())) return poll(0.0);
+    const double slice_s = std::min(left_s, news_every_s);
+    if (!poll(slice_s)) return false;
+    // It returns early for nothing but an event.
+    input |= seconds_between(now, Clock::now()) < 0.9 * slice_s;
+  }
+}
+
+bool ImGuiWindow::begin_frame(const FrameWait& wait) {
+  if (!wait_for_frame(wait)) return false;
+  frame_began_ = Clock::now();
   take_injected();
   begin_input();
   ImGuiIO& io = ImGui::GetIO();
@@ -178,7 +228,29 @@ void ImGuiWindow::end_frame() {
   const VkExtent2D extent{static_cast<uint32_t>(std::max(width(), 0)),
                           static_cast<uint32_t>(std::max(height(), 0))};
   if (minimized() || extent.width == 0 || extent.height == 0) return;
-  presenter_->frame(extent, drawing_of(*ImGui::GetDrawData(), extent));
+  const gpu::UiDrawing drawing = drawing_of(*ImGui::GetDrawData(), extent);
+  for (;;) try {
+      presenter_->frame(extent, drawing);
+      losses_ = 0;
+      return;
+    } catch (const gpu::VulkanError& error) {
+      if (!gpu::Presenter::is_loss(error.result())) throw;
+      if (++losses_ > most_losses)
+        throw std::runtime_error(fmt::format(
+            "the window is lost after {} attempts to open its device anew: {}", most_losses, error.what()));
+      spdlog::warn("{}: the window's device is opened anew", error.what());
+      rebuild();
+    }
+}
+
+/// Makes everything anew that was on a device or a surface that is lost.
+void ImGuiWindow::rebuild() {
+  gpu::Presenter::AllTexels texels = presenter_->take_texels();
+  stop();
+  const gpu::Surface* const surface = remake_surface();
+  device_ = std::make_unique<gpu::PresentDevice>(*instance_, surface, device_name_);
+  presenter_ = std::make_unique<gpu::Presenter>(*device_, surface, faults_);
+  presenter_->restore(std::move(texels));
 }
 
 Array ImGuiWindow::screenshot() {
@@ -190,7 +262,7 @@ Array ImGuiWindow::screenshot() {
 }
 
 TextureId ImGuiWindow::make_texture(const Array& picture) {
-  const gpu::PresentTextureId texture = presenter_->make_texture(extent_of(picture));
+  const gpu::PresentTextureId texture = presenter_->make_texture(extent_of(picture), picture.shape[2] == 3);
   presenter_->update(texture, rgba_of(picture));
   return id_of(texture);
 }

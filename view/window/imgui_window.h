@@ -4,6 +4,7 @@
 // What a window and a run without one share: the ImGui context, its drawing, textures and injected input.
 #pragma once
 
+#include <chrono>
 #include <deque>
 #include <imgui.h>
 
@@ -14,8 +15,9 @@ namespace greatx::view {
 
 class ImGuiWindow : public Window {
  public:
-  bool begin_frame(double wait_s) final;
+  bool begin_frame(const FrameWait& wait) final;
   void end_frame() final;
+  void finish() final { device_->wait_idle(); }
   Array screenshot() final;
   void inject(const InputEvent& event) final { injected_.push_back(event); }
   TextureId make_texture(const Array& picture) final;
@@ -38,17 +40,26 @@ class ImGuiWindow : public Window {
   virtual void change_window(const InputEvent& event) = 0;
   /// A key of a script, given to ImGui as the window system would give it.
   virtual void press_key(const InputEvent& event, bool down);
+  /// Makes the surface anew, because it is lost. Nothing uses the old one any more. Returns null without a
+  /// window.
+  virtual const gpu::Surface* remake_surface() { return nullptr; }
 
   /// Whether the input of a script holds the mouse, so that the real one must not move it.
   bool scripted() const { return scripted_; }
 
  private:
+  bool wait_for_frame(const FrameWait& wait);
   void load_fonts();
+  void rebuild();
   void take_injected();
   void apply(const InputEvent& event);
 
   ImGuiContext* context_ = nullptr;
-  std::string settings_file_;
+  std::string settings_file_, device_name_;
+  const gpu::PresentInstance* instance_ = nullptr;
+  gpu::PresentFaults faults_;
+  std::chrono::steady_clock::time_point frame_began_;
+  int losses_ = 0;  ///< since the last frame that was drawn
   std::unique_ptr<gpu::PresentDevice> device_;
   std::unique_ptr<gpu::Presenter> presenter_;
   std::deque<InputEvent> injected_;

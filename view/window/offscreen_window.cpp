@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A window that exists in memory alone. Its time goes on by a sixtieth of a second with every frame, so that
-// two runs of a script draw the same.
+// A window that exists in memory alone. Unless asked otherwise, its time goes on by a sixtieth of a second
+// with every frame, so that two runs of a script draw the same.
+#include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "view/window/imgui_window.h"
 
@@ -12,13 +14,16 @@ namespace greatx::view {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 class OffscreenWindow final : public ImGuiWindow {
  public:
   explicit OffscreenWindow(const WindowOptions& options)
       : ImGuiWindow(options),
         instance_({}, options.validation),
         width_(options.width),
-        height_(options.height) {
+        height_(options.height),
+        wall_clock_(options.wall_clock) {
     ImGui::GetIO().BackendPlatformName = "greatx offscreen";
     // ImGui's own keys by GLFW's codes, as its backend for GLFW sets them.
     ImGuiIO& io = ImGui::GetIO();
@@ -50,7 +55,9 @@ class OffscreenWindow final : public ImGuiWindow {
   void begin_input() override {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(width_), static_cast<float>(height_)};
-    io.DeltaTime = 1.0f / 60.0f;
+    const Clock::time_point now = Clock::now();
+    const float passed_s = std::chrono::duration<float>(now - std::exchange(last_frame_, now)).count();
+    io.DeltaTime = wall_clock_ ? std::max(passed_s, 1e-6f) : 1.0f / 60.0f;
   }
   void change_window(const InputEvent& event) override {
     minimized_ = event.kind == InputEvent::Kind::minimize;
@@ -61,6 +68,8 @@ class OffscreenWindow final : public ImGuiWindow {
 
   gpu::PresentInstance instance_;
   int width_, height_;
+  const bool wall_clock_;
+  Clock::time_point last_frame_ = Clock::now();
   bool minimized_ = false;
 };
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,13 +16,22 @@
 
 namespace greatx::view {
 
+/// Something that is lost on purpose, for tests.
+struct WindowFault {
+  enum class Kind : uint8_t { device_lost, surface_lost, out_of_date };
+  Kind kind = Kind::device_lost;
+  uint64_t frame = 0;  ///< counted from 0
+};
+
 struct WindowOptions {
   std::string title = "greatx";
   int width = 1280, height = 720;  ///< of the content, in screen coordinates
   bool offscreen = false;          ///< no display is needed
+  bool wall_clock = false;         ///< offscreen: time goes on as outside, not by a sixtieth of a second
   bool validation = false;         ///< of the window's own device
   std::string device;              ///< index or part of the name of a device; empty: as gpu::choose_device()
   std::string settings_file;       ///< where ImGui keeps what the user arranged; empty: nowhere
+  std::vector<WindowFault> faults;
 };
 
 /// An input from a script. Coordinates are pixels of the window from its upper left corner.
@@ -46,6 +56,16 @@ struct InputEvent {
   std::string text;
 };
 
+/// Says when a frame begins.
+struct FrameWait {
+  double most_s = 0.0;  ///< for input or news
+  /// Input begins a frame so long after the last one at the soonest.
+  double input_after_s = 0.0;
+  /// Whether there is something new to show, which begins a frame at once. It is asked every few
+  /// milliseconds. Empty: there is none.
+  std::function<bool()> news;
+};
+
 /// A picture that ImGui::Image() shows: an ImTextureID.
 using TextureId = void*;
 
@@ -55,12 +75,15 @@ class Window {
   static std::unique_ptr<Window> open(const WindowOptions& options);
   virtual ~Window() = default;
 
-  /// Waits at most `wait_s` for input, takes it, and begins an ImGui frame. Returns false if the user has
+  /// Waits for input or news, takes the input, and begins an ImGui frame. Returns false if the user has
   /// closed the window; no frame has begun then.
-  virtual bool begin_frame(double wait_s) = 0;
-  /// Draws the ImGui frame and presents it. Re-creates the swapchain where it must. A minimised window draws
+  virtual bool begin_frame(const FrameWait& wait) = 0;
+  /// Draws the ImGui frame and presents it. Re-creates the swapchain where it must, and surface and device if
+  /// one of them is lost. Throws runtime_error if they are lost again and again. A minimised window draws
   /// nothing.
   virtual void end_frame() = 0;
+  /// Waits until the last frame is drawn.
+  virtual void finish() = 0;
   /// The picture of the last frame drawn, u8 [height, width, 3]. `begin_frame` and `end_frame` must have been
   /// called once.
   virtual Array screenshot() = 0;
@@ -75,7 +98,7 @@ class Window {
   virtual int width() const = 0;   ///< pixels
   virtual int height() const = 0;  ///< pixels
 
-  /// Makes a texture of u8 [h, w, 3] or [h, w, 4] texels. The size is fixed.
+  /// Makes a texture of u8 [h, w, 3] or [h, w, 4] texels. The size is fixed. One of three channels is opaque.
   virtual TextureId make_texture(const Array& picture) = 0;
   /// Replaces the texels, which the next end_frame() shows. The size must be the texture's.
   virtual void update_texture(TextureId texture, const Array& picture) = 0;
