@@ -112,4 +112,12 @@ void add_switch(Commands& commands, const std::string& name, const std::string& 
                 {}});
 }
 
+void count_changes(Commands& commands, uint64_t& version) {
+  Command& command = commands.last();
+  command.run = [run = command.run, &version](const std::string& argument) {
+    run(argument);
+    ++version;
+  };
+}
+
 }  // namespace greatx::view

@@ -5,6 +5,7 @@
 // scripts run the same table, so that whatever a person can do, a script can do too.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -29,6 +30,7 @@ class Commands {
  public:
   void add(Command command);
   const std::vector<Command>& all() const { return commands_; }
+  Command& last() { return commands_.back(); }
   /// Runs a command by its name. Throws UserError if there is none, or if it is not possible now.
   void run(const std::string& name, const std::string& argument) const;
   /// Draws the menu bar's menus, in the order in which their first commands were added.
@@ -45,5 +47,8 @@ class Commands {
 /// Adds a command that switches `value`. Its argument may be "on" or "off".
 void add_switch(Commands& commands, const std::string& name, const std::string& menu,
                 const std::string& label, const std::string& key, bool& value);
+
+/// Counts `version` up whenever the command that was added last runs.
+void count_changes(Commands& commands, uint64_t& version);
 
 }  // namespace greatx::view

@@ -3,12 +3,14 @@
 #include "view/app/main_view.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "view/app/overlay_panel.h"
 
 namespace greatx::view {
 
@@ -45,8 +47,8 @@ dvec3 keys_pressed() {
   return {axis('W', 'S'), axis('A', 'D'), axis('E', 'Q')};
 }
 
-Array rgb_array(const ScenePicture& picture) {
-  return Array::of<uint8_t>({picture.request.view.height, picture.request.view.width, 3}, picture.rgb);
+Array rgb_array(const ScenePicture& picture, std::span<const uint8_t> rgb) {
+  return Array::of<uint8_t>({picture.request.view.height, picture.request.view.width, 3}, rgb);
 }
 
 }  // namespace
@@ -60,6 +62,9 @@ void MainView::set_scene(std::shared_ptr<const sim::Experiment> experiment,
   experiment_ = std::move(experiment);
   scene_ = std::move(scene);
   moments_.emplace(experiment_);
+  map_.reset();
+  painted_.reset();
+  pinned_id_ = 0;
   look_from_outside();
 }
 
@@ -146,19 +151,24 @@ void MainView::request(const ShownTick& tick) {
 
 void MainView::show_picture() {
   const std::shared_ptr<const ScenePicture> newest = scene_->picture();
-  if (newest == nullptr || newest == picture_) return;
+  if (newest == nullptr || (newest == picture_ && map_ == painted_)) return;
   picture_ = newest;
+  painted_ = map_;
+  const auto begin = std::chrono::steady_clock::now();
+  const std::vector<uint8_t> with_map = map_ ? map_->painted(*picture_) : std::vector<uint8_t>();
+  paint_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  const Array shown = rgb_array(*picture_, map_ ? with_map : picture_->rgb);
   const apps::PictureView& view = picture_->request.view;
   if (texture_ != nullptr && (texture_width_ != view.width || texture_height_ != view.height)) {
     window_.drop_texture(texture_);
     texture_ = nullptr;
   }
   if (texture_ == nullptr) {
-    texture_ = window_.make_texture(rgb_array(*picture_));
+    texture_ = window_.make_texture(shown);
     texture_width_ = view.width;
     texture_height_ = view.height;
   } else {
-    window_.update_texture(texture_, rgb_array(*picture_));
+    window_.update_texture(texture_, shown);
   }
 }
 
@@ -170,6 +180,7 @@ std::optional<ImVec2> MainView::pixel_under(const ImVec2& at) const {
 }
 
 void MainView::click(const ImVec2& at) {
+  if (hovered_id_ != 0) pinned_id_ = hovered_id_;
   if (const std::optional<ImVec2> pixel = pixel_under(at))
     picked_ = pick(*picture_, static_cast<int>(std::floor(pixel->x)), static_cast<int>(std::floor(pixel->y)),
                    experiment_->scene().origin);
@@ -180,7 +191,23 @@ Facts MainView::picked_facts(double carrier_hz) const {
   return facts_of(*picked_, *experiment_, *picture_, carrier_hz);
 }
 
-void MainView::draw_overlays(const Shapes& shapes) {
+dvec3 MainView::focus() const {
+  if (camera_ && picture_ != nullptr) {
+    const Pose& eye = picture_->request.view.local_from_sensor;
+    return eye.apply({10.0, 0.0, 0.0}) + experiment_->scene().origin;
+  }
+  return viewpoint_ ? viewpoint_->pivot() : dvec3(0.0);
+}
+
+void MainView::draw_map_value(const ImVec2& cursor) const {
+  const std::optional<ImVec2> pixel = pixel_under(cursor);
+  if (!pixel) return;
+  const std::optional<size_t> cell = painted_->cell_at(*picture_, static_cast<int>(std::floor(pixel->x)),
+                                                       static_cast<int>(std::floor(pixel->y)));
+  if (cell) ImGui::SetTooltip("%s", painted_->text_of(*cell).c_str());
+}
+
+void MainView::draw_overlays(const Shapes& shapes, const Shapes& world) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end(corner_.x + size_.x, corner_.y + size_.y);
   list.PushClipRect(corner_, end, true);
@@ -192,14 +219,31 @@ void MainView::draw_overlays(const Shapes& shapes) {
   frame.size = size_;
   std::optional<ImVec2> cursor;
   if (ImGui::IsItemHovered()) cursor = ImGui::GetMousePos();
-  const std::optional<OverlayHit> hit = draw_shapes(list, shapes, frame, cursor, hovered_id_);
-  if (cursor) hovered_id_ = hit ? shapes.rows[hit->row].id : 0;
-  if (hit) ImGui::SetTooltip("%s", shapes.rows[hit->row].text.c_str());
-  draw_legend(list, shapes, {corner_.x + 10.0f, corner_.y + 10.0f});
+  const Highlights highlights{hovered_id_, pinned_id_};
+  const Shapes* under = nullptr;
+  std::optional<OverlayHit> hit;
+  for (const Shapes* const some : {&world, &shapes}) {
+    const auto found = draw_shapes(list, *some, frame, cursor, highlights, camera_.has_value());
+    if (!found || (hit && hit->distance_px < found->distance_px)) continue;
+    hit = found;
+    under = some;
+  }
+  if (cursor) hovered_id_ = hit ? under->rows[hit->row].id : 0;
+  if (hit)
+    ImGui::SetTooltip("%s", under->rows[hit->row].text.c_str());
+  else if (cursor && painted_ != nullptr)
+    draw_map_value(*cursor);
+  Shapes legend;
+  legend.legend = shapes.legend;
+  legend.legend.insert(legend.legend.end(), world.legend.begin(), world.legend.end());
+  draw_legend(list, legend, {corner_.x + 10.0f, corner_.y + 10.0f});
+  if (painted_ != nullptr) draw_map_legend(list, *painted_, {end.x - 10.0f, end.y - 10.0f});
   list.PopClipRect();
 }
 
-void MainView::draw(const ShownTick* tick, const Shapes& shapes) {
+void MainView::draw(const ShownTick* tick, const Shapes& shapes, const Shapes& world,
+                    std::shared_ptr<const MapLayerPaint> map) {
+  map_ = std::move(map);
   corner_ = ImGui::GetCursorScreenPos();
   size_ = ImGui::GetContentRegionAvail();
   settled_ = busy_ = false;
@@ -219,7 +263,7 @@ void MainView::draw(const ShownTick* tick, const Shapes& shapes) {
   size_.y = std::min(size_.y, size_.x * shape);
   size_.x = size_.y / shape;
   ImGui::GetWindowDrawList()->AddImage(texture_, corner_, {corner_.x + size_.x, corner_.y + size_.y});
-  draw_overlays(shapes);
+  draw_overlays(shapes, world);
   if (ImGui::IsItemDeactivated() && !dragged_ && ImGui::IsItemHovered() &&
       ImGui::IsMouseReleased(ImGuiMouseButton_Left))
     click(ImGui::GetMousePos());

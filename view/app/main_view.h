@@ -20,6 +20,7 @@
 #include "view/scene/moment_cache.h"
 #include "view/scene/scene_view.h"
 #include "view/window/window.h"
+#include "view/world/map_paint.h"
 
 namespace greatx::view {
 
@@ -36,11 +37,15 @@ class MainView {
   std::string error() const { return scene_ ? scene_->error() : ""; }
 
   /// Draws into the current ImGui window, and takes its mouse and keys. `tick` is null before the first one.
-  void draw(const ShownTick* tick, const Shapes& shapes);
+  /// The shapes come from records and from the experiment; `map` may be null.
+  void draw(const ShownTick* tick, const Shapes& shapes, const Shapes& world,
+            std::shared_ptr<const MapLayerPaint> map);
   /// Whether the shown picture is the one that is wanted, at full quality.
   bool settled() const { return settled_; }
   /// Whether the next frame should come soon, since something moves.
   bool busy() const { return busy_; }
+  /// Wall time of painting the map into the last picture.
+  double paint_ms() const { return paint_ms_; }
   double picture_ms() const { return picture_ ? picture_->milliseconds : 0.0; }
 
   void look_from_outside();
@@ -58,13 +63,19 @@ class MainView {
   /// The identity of the shape under the cursor; 0: none. It stays highlighted while it moves.
   uint64_t hovered_id() const { return hovered_id_; }
   void highlight(uint64_t id) { hovered_id_ = id; }
+  /// The identity of the shape that the user clicked at; 0: none. It stays highlighted, too.
+  uint64_t pinned_id() const { return pinned_id_; }
+  void pin(uint64_t id) { pinned_id_ = id; }
+  /// The point of the world around which the user looks.
+  dvec3 focus() const;
 
  private:
   void navigate(const ShownTick& tick);
   void request(const ShownTick& tick);
   SceneRequest wanted(const ShownTick& tick, bool fine);
   void show_picture();
-  void draw_overlays(const Shapes& shapes);
+  void draw_overlays(const Shapes& shapes, const Shapes& world);
+  void draw_map_value(const ImVec2& cursor) const;
   void click(const ImVec2& at);
   std::optional<ImVec2> pixel_under(const ImVec2& at) const;
 
@@ -77,6 +88,7 @@ class MainView {
   dvec3 followed_at_{0.0};
   std::optional<apps::CameraName> camera_;
   std::shared_ptr<const ScenePicture> picture_;
+  std::shared_ptr<const MapLayerPaint> map_, painted_;  ///< wanted, and in the texture
   TextureId texture_ = nullptr;
   uint32_t texture_width_ = 0, texture_height_ = 0;
   ImVec2 corner_{0, 0}, size_{0, 0};  ///< of the view in the window
@@ -86,7 +98,8 @@ class MainView {
   bool settled_ = false, busy_ = false;
   bool dragged_ = false;  ///< since the button went down
   std::optional<Picked> picked_;
-  uint64_t hovered_id_ = 0;
+  uint64_t hovered_id_ = 0, pinned_id_ = 0;
+  double paint_ms_ = 0.0;
 };
 
 }  // namespace greatx::view

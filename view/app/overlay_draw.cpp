@@ -44,8 +44,9 @@ class Nearest {
   std::optional<OverlayHit> hit_;
 };
 
-bool is_highlighted(const Shapes& shapes, uint32_t row, uint64_t id) {
-  return id != 0 && row != ~0u && shapes.rows[row].id == id;
+bool is_highlighted(const Shapes& shapes, uint32_t row, const Highlights& ids) {
+  if (row == ~0u || shapes.rows[row].id == 0) return false;
+  return shapes.rows[row].id == ids.hovered || shapes.rows[row].id == ids.pinned;
 }
 
 void draw_mark(ImDrawList& list, PointShape::Mark mark, const ImVec2& at, float size, ImU32 color) {
@@ -92,7 +93,7 @@ void draw_head(ImDrawList& list, const ImVec2& from, const ImVec2& to, float wid
 class Drawing {
  public:
   Drawing(ImDrawList& list, const Shapes& shapes, const OverlayFrame& frame,
-          const std::optional<ImVec2>& cursor, uint64_t highlighted)
+          const std::optional<ImVec2>& cursor, const Highlights& highlighted)
       : list_(list), shapes_(shapes), frame_(frame), nearest_(cursor), highlighted_(highlighted) {}
 
   void line(const LineShape& line) {
@@ -123,6 +124,25 @@ class Drawing {
     draw_mark(list_, point.mark, at, point.size_px * (wide ? 1.6f : 1.0f),
               packed(point.color, hidden ? faint : 255));
     nearest_.point(point.row, at);
+  }
+
+  void rectangle(const PictureShape& shape) {
+    const double scale = frame_.size.x / shapes_.picture_width;
+    const auto at = [&](const dvec2& pixel) {
+      return ImVec2(static_cast<float>(frame_.corner.x + scale * pixel.x),
+                    static_cast<float>(frame_.corner.y + scale * pixel.y));
+    };
+    const ImVec2 low = at(shape.low), high = at(shape.high);
+    if (shape.filled) {
+      list_.AddRectFilled(low, high, packed(shape.color));
+      return;
+    }
+    const bool wide = is_highlighted(shapes_, shape.row, highlighted_);
+    list_.AddRect(low, high, packed(shape.color), 0.0f, 0, wide ? 3.0f : 1.5f);
+    nearest_.line(shape.row, low, {high.x, low.y});
+    nearest_.line(shape.row, {high.x, low.y}, high);
+    nearest_.line(shape.row, high, {low.x, high.y});
+    nearest_.line(shape.row, {low.x, high.y}, low);
   }
 
   void label(const LabelShape& label) {
@@ -157,7 +177,7 @@ class Drawing {
   const Shapes& shapes_;
   const OverlayFrame& frame_;
   Nearest nearest_;
-  uint64_t highlighted_;
+  Highlights highlighted_;
 };
 
 }  // namespace
@@ -168,8 +188,11 @@ dvec3 OverlayFrame::place(const dvec3& world) const {
 }
 
 std::optional<OverlayHit> draw_shapes(ImDrawList& list, const Shapes& shapes, const OverlayFrame& frame,
-                                      const std::optional<ImVec2>& cursor, uint64_t highlighted) {
-  Drawing drawing(list, shapes, frame, cursor, highlighted);
+                                      const std::optional<ImVec2>& cursor, const Highlights& highlights,
+                                      bool through_camera) {
+  Drawing drawing(list, shapes, frame, cursor, highlights);
+  if (through_camera && shapes.picture_width > 0.0)
+    for (const PictureShape& shape : shapes.picture) drawing.rectangle(shape);
   for (const PointShape& point : shapes.points)
     if (point.mark == PointShape::Mark::dot) drawing.point(point);
   for (const LineShape& line : shapes.lines) drawing.line(line);

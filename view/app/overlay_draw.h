@@ -34,10 +34,16 @@ struct OverlayHit {
   double distance_px = 0.0;  ///< from the cursor
 };
 
-/// Draws `shapes`. Those of the row whose id is `highlighted` (0: none) are drawn wide. Returns the row under
-/// `cursor`, within a few pixels.
+/// The ids of rows that are drawn wide; 0: none.
+struct Highlights {
+  uint64_t hovered = 0, pinned = 0;
+};
+
+/// Draws `shapes`; their rectangles of a picture only if `through_camera`. Returns the row under `cursor`,
+/// within a few pixels.
 std::optional<OverlayHit> draw_shapes(ImDrawList& list, const Shapes& shapes, const OverlayFrame& frame,
-                                      const std::optional<ImVec2>& cursor, uint64_t highlighted);
+                                      const std::optional<ImVec2>& cursor, const Highlights& highlights,
+                                      bool through_camera);
 
 /// Draws the legend into the corner at `corner`, with one line of text for each entry.
 void draw_legend(ImDrawList& list, const Shapes& shapes, const ImVec2& corner);

@@ -13,6 +13,7 @@
 #include "view/app/main_view.h"
 #include "view/app/panel_grid.h"
 #include "view/app/shown_run.h"
+#include "view/app/world_overlays.h"
 
 namespace greatx::view {
 
@@ -20,17 +21,18 @@ class SidePanel {
  public:
   explicit SidePanel(Window& window) : grid_(window) {}
   /// Draws into the current ImGui window. `main` is the run that the main view shows.
-  void draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view);
+  void draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view, WorldOverlays& world);
   PanelGrid& grid() { return grid_; }
   /// Returns the carrier of the chosen channel, or of the first one; 3.5 GHz if there is none.
   double carrier_hz(ShownRun& run) const;
 
  private:
   void draw_picked(ShownRun& run, MainView& view);
-  void draw_paths(ShownRun& run, MainView& view);
+  void draw_paths(ShownRun& run, MainView& view, WorldOverlays& world);
+  void draw_pinned(ShownRun& run, MainView& view, WorldOverlays& world);
   void draw_filter(ShownRun& run);
   void draw_effects(ShownRun& run);
-  void draw_times(ShownRun& run, const MainView& view);
+  void draw_times(ShownRun& run, const MainView& view, const WorldOverlays& world);
   void keep_times(ShownRun& run);
 
   PanelGrid grid_;

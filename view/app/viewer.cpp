@@ -20,6 +20,8 @@
 #include "view/app/shown_run.h"
 #include "view/app/side_panel.h"
 #include "view/app/timeline.h"
+#include "view/app/world_overlays.h"
+#include "view/overlay/tube_shapes.h"
 
 namespace greatx::view {
 
@@ -32,7 +34,11 @@ constexpr float side_share = 0.42f;  ///< of the width
 class Viewer {
  public:
   explicit Viewer(const ViewerOptions& options)
-      : options_(options), window_(Window::open(options.window)), main_(*window_), side_(*window_) {
+      : options_(options),
+        window_(Window::open(options.window)),
+        main_(*window_),
+        world_(options.device),
+        side_(*window_) {
     if (options.datasets.empty())
       runs_.push_back(ShownRun::live(options));
     else
@@ -61,7 +67,7 @@ class Viewer {
       const RunStatus status = run->run().status();
       return status.playing || status.phase == RunStatus::Phase::loading;
     });
-    return comes || !options_.script.empty() ? waiting_wait_s : resting_wait_s;
+    return comes || !world_.idle() || !options_.script.empty() ? waiting_wait_s : resting_wait_s;
   }
 
   void check_validation() {
@@ -75,6 +81,7 @@ class Viewer {
       const std::shared_ptr<const sim::Experiment> loaded = runs_[i]->update();
       if (loaded == nullptr || i != main_run_) continue;
       main_.set_scene(loaded, std::make_unique<SceneView>(loaded, options_.device));
+      world_.set(loaded);
       add_camera_commands(*loaded);
     }
   }
@@ -115,13 +122,41 @@ class Viewer {
     const std::shared_ptr<const ShownTick> tick = shown().run().shown();
     static const Shapes none;
     Overlays* const overlays = shown().overlays();
+    if (overlays != nullptr) overlays->look_through(camera_name());
     const Shapes& shapes = overlays != nullptr ? overlays->shapes(tick) : none;
     if (main_.has_scene() && tick != nullptr)
-      main_.draw(tick.get(), shapes);
+      main_.draw(tick.get(), shapes, world_shapes(*tick), world_.paint());
     else
       draw_progress();
     draw_errors();
     ImGui::End();
+  }
+
+  size_t chosen_channel() { return shown().overlays() ? shown().overlays()->settings().channel : 0; }
+
+  /// "node/sensor" of the camera that the main view looks through; empty: none.
+  std::string camera_name() {
+    if (!main_.camera() || shown().experiment() == nullptr) return {};
+    const sim::NodeConfig& node = shown().experiment()->scenario.nodes[main_.camera()->node];
+    return node.name + "/" + node.sensors[main_.camera()->sensor].name;
+  }
+
+  std::optional<PathStory> pinned_story(const ShownTick& tick) {
+    if (main_.pinned_id() == 0 || shown().overlays() == nullptr) return {};
+    std::optional<PathStory> story = shown().overlays()->story(tick, main_.pinned_id());
+    if (story) world_.explain(*story, tick, chosen_channel());
+    return story;
+  }
+
+  /// What the experiment gives, and the tube of the pinned path.
+  const Shapes& world_shapes(const ShownTick& tick) {
+    const Shapes& world = world_.shapes(tick, main_.focus(), chosen_channel());
+    if (!world_.settings().tubes) return world;
+    const std::optional<PathStory> story = pinned_story(tick);
+    if (!story) return world;
+    with_tube_ = world;
+    with_tube_.append(fresnel_shapes(*story));
+    return with_tube_;
   }
 
   void draw_progress() {
@@ -141,6 +176,7 @@ class Viewer {
   void draw_errors() {
     std::vector<std::string> errors{shown().run().status().error, shown().scene_error(), main_.error()};
     if (const Overlays* const overlays = shown().overlays()) errors.push_back(overlays->error());
+    errors.push_back(world_.error());
     errors.push_back(command_error_);
     ImGui::SetCursorPos({20.0f, 60.0f});
     ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - 20.0f);
@@ -155,7 +191,7 @@ class Viewer {
     ImGui::Begin("side", nullptr, fixed_window);
     std::vector<ShownRun*> runs;
     for (const std::unique_ptr<ShownRun>& run : runs_) runs.push_back(run.get());
-    side_.draw(runs, shown(), main_);
+    side_.draw(runs, shown(), main_, world_);
     ImGui::End();
   }
 
@@ -234,6 +270,7 @@ class Viewer {
                    [this] { return shown().info() != nullptr; }});
     add_switch(commands_, "side", "View", "Panels", "tab", side_open_);
     add_overlay_commands();
+    add_world_commands();
     add_switch(commands_, "help", "Help", "Keys and mouse", "F1", help_open_);
   }
 
@@ -248,12 +285,56 @@ class Viewer {
         {"show.radar", "Radar detections", "3", &OverlaySettings::radar},
         {"show.boxes", "Boxes of objects", "4", &OverlaySettings::boxes},
         {"show.trajectories", "Trajectories", "5", &OverlaySettings::trajectories},
-        {"show.sensors", "Sensors and antennas", "6", &OverlaySettings::sensors}};
+        {"show.sensors", "Sensors and antennas", "6", &OverlaySettings::sensors},
+        {"show.events", "Events of a camera", "7", &OverlaySettings::events}};
     for (const Switch& s : switches)
       commands_.add({s.name, "Show", s.label, s.key,
                      [this, s](const std::string& argument) { switch_overlay(s.name, s.value, argument); },
                      [this, s] { return shown().overlays() && shown().overlays()->settings().*s.value; },
                      [this] { return shown().overlays() != nullptr; }});
+  }
+
+  /// Overlays of the experiment.
+  void add_world_commands() {
+    WorldSettings& s = world_.settings();
+    const auto add = [&](const char* name, const char* label, const char* key, bool& value) {
+      add_switch(commands_, name, "Show", label, key, value);
+      count_changes(commands_, s.version);
+    };
+    add("show.ways", "Whole ways of the nodes", "8", s.courses);
+    add("show.facets", "Facets of radio", "9", s.facets);
+    add("show.wedges", "Wedges that diffract", "0", s.wedges);
+    add("show.map", "Radio map", "", s.map);
+    add("show.tubes", "Fresnel zone of the pinned path", "", s.tubes);
+    const auto is_there = [this] { return shown().experiment() != nullptr && shown().run().shown(); };
+    commands_.add({"map",
+                   "Run",
+                   "Compute a radio map of this tick",
+                   "",
+                   [this](const std::string& argument) { compute_map(argument); },
+                   {},
+                   is_there});
+    commands_.add({"pin",
+                   "View",
+                   "Pin the strongest path",
+                   "",
+                   [this](const std::string& rank) { pin_path(rank); },
+                   {},
+                   is_there});
+  }
+
+  void compute_map(const std::string& words) {
+    parse_map_words(words, world_.settings());
+    world_.compute_map(*shown().run().shown(), chosen_channel());
+  }
+  void pin_path(const std::string& rank) {
+    if (rank == "off") return main_.pin(0);
+    const auto number = parse_number(rank.empty() ? "1" : rank);
+    if (!number || *number < 1.0 || *number != std::floor(*number))
+      throw_user_error("pin: expected 1 for the strongest path, 2 for the next, or off, found '{}'",
+                       printable(rank));
+    if (shown().overlays() == nullptr) return;
+    main_.pin(shown().overlays()->path_of_rank(shown().run().shown(), static_cast<size_t>(*number)));
   }
 
   void switch_overlay(const std::string& name, bool OverlaySettings::*value, const std::string& argument) {
@@ -325,7 +406,7 @@ class Viewer {
           return status.phase == RunStatus::Phase::failed ||
                  (status.phase == RunStatus::Phase::ready && shown().run().shown() != nullptr);
         },
-        [this] { return main_.settled(); },
+        [this] { return main_.settled() && world_.idle(); },
         [this] { return shown().run().status().tick; },
         [this](const InputEvent& event) { window_->inject(event); },
         [this](const std::string& command, const std::string& argument) { commands_.run(command, argument); },
@@ -349,10 +430,20 @@ class Viewer {
       if (!main_.picked()) std::cout << "nothing\n";
     } else if (fact == "hovered") {
       std::cout << fmt::format("{:016x}\n", main_.hovered_id());
+    } else if (fact == "path") {
+      print_path();
     } else {
-      throw_user_error("print: expected tick, error, picked or hovered, found '{}'", printable(fact));
+      throw_user_error("print: expected tick, error, picked, hovered or path, found '{}'", printable(fact));
     }
     std::cout.flush();
+  }
+
+  void print_path() {
+    const std::shared_ptr<const ShownTick> tick = shown().run().shown();
+    const std::optional<PathStory> story = tick ? pinned_story(*tick) : std::nullopt;
+    if (!story) std::cout << "nothing\n";
+    if (story)
+      for (const std::string& line : words_of(*story)) std::cout << line << '\n';
   }
 
   static constexpr ImGuiWindowFlags fixed_window =
@@ -364,6 +455,8 @@ class Viewer {
   std::vector<std::unique_ptr<ShownRun>> runs_;
   size_t main_run_ = 0;
   MainView main_;
+  WorldOverlays world_;
+  Shapes with_tube_;
   SidePanel side_;
   Commands commands_;
   bool side_open_ = true, help_open_ = false, quit_ = false;
