@@ -222,12 +222,14 @@ void MainView::draw_overlays(const Shapes& shapes, const Shapes& world) {
   const Highlights highlights{hovered_id_, pinned_id_};
   const Shapes* under = nullptr;
   std::optional<OverlayHit> hit;
+  const auto begin = std::chrono::steady_clock::now();
   for (const Shapes* const some : {&world, &shapes}) {
     const auto found = draw_shapes(list, *some, frame, cursor, highlights, camera_.has_value());
     if (!found || (hit && hit->distance_px < found->distance_px)) continue;
     hit = found;
     under = some;
   }
+  overlay_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   if (cursor) hovered_id_ = hit ? under->rows[hit->row].id : 0;
   if (hit)
     ImGui::SetTooltip("%s", under->rows[hit->row].text.c_str());

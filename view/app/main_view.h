@@ -46,6 +46,8 @@ class MainView {
   bool busy() const { return busy_; }
   /// Wall time of painting the map into the last picture.
   double paint_ms() const { return paint_ms_; }
+  /// Wall time of drawing the overlays of the last frame, without the window's own drawing.
+  double overlay_ms() const { return overlay_ms_; }
   double picture_ms() const { return picture_ ? picture_->milliseconds : 0.0; }
 
   void look_from_outside();
@@ -99,7 +101,7 @@ class MainView {
   bool dragged_ = false;  ///< since the button went down
   std::optional<Picked> picked_;
   uint64_t hovered_id_ = 0, pinned_id_ = 0;
-  double paint_ms_ = 0.0;
+  double paint_ms_ = 0.0, overlay_ms_ = 0.0;
 };
 
 }  // namespace greatx::view

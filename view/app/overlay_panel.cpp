@@ -218,8 +218,12 @@ void draw_overlay_settings(Overlays* overlays, WorldOverlays& world, const Shown
 
 void draw_story(const PathStory& story) {
   constexpr int columns = 7;
-  if (ImGui::BeginTable("story", columns, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
-    for (const char* const name : {"leg m", "what", "object", "material", "angle", "loss dB", "at m"})
+  const float height = (static_cast<float>(story.stops.size()) + 3.0f) * ImGui::GetFrameHeightWithSpacing();
+  if (ImGui::BeginTable("story", columns,
+                        ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollX |
+                            ImGuiTableFlags_BordersInnerV,
+                        {0.0f, height})) {
+    for (const char* const name : {"leg, m", "what", "object", "angle, deg", "loss, dB", "material", "at, m"})
       ImGui::TableSetupColumn(name);
     ImGui::TableHeadersRow();
     const auto row = [](const std::array<std::string, columns>& cells) {
@@ -230,12 +234,12 @@ void draw_story(const PathStory& story) {
       }
     };
     const auto point = [](const dvec3& p) { return fmt::format("{:.1f} {:.1f} {:.1f}", p.x, p.y, p.z); };
-    row({"", "tx", story.from, "", "", "", point(story.start)});
+    row({"", "leaves", story.from, "", "", "", point(story.start)});
     for (const PathStop& stop : story.stops)
-      row({fmt::format("{:.2f}", stop.leg_m), apps::kind_name(stop.type), stop.object, stop.material,
-           stop.angle ? fmt::format("{:.1f} deg", degrees(*stop.angle)) : "",
-           stop.loss_db ? fmt::format("{:.1f}", *stop.loss_db) : "", point(stop.at)});
-    row({fmt::format("{:.2f}", story.last_leg_m), "rx", story.to, "", "", "", point(story.end)});
+      row({fmt::format("{:.2f}", stop.leg_m), apps::kind_name(stop.type), stop.object,
+           stop.angle ? fmt::format("{:.1f}", degrees(*stop.angle)) : "",
+           stop.loss_db ? fmt::format("{:.1f}", *stop.loss_db) : "", stop.material, point(stop.at)});
+    row({fmt::format("{:.2f}", story.last_leg_m), "reaches", story.to, "", "", "", point(story.end)});
     ImGui::EndTable();
   }
   for (const std::string& line : words_of(story)) ImGui::TextWrapped("%s", line.c_str());
@@ -250,7 +254,7 @@ void draw_map_legend(ImDrawList& list, const MapLayerPaint& paint, const ImVec2&
   const std::string title = fmt::format(
       "{}{}{}{}", printable(layer.title), layer.unit.empty() || !layer.classes.empty() ? "" : ", ",
       layer.classes.empty() ? layer.unit : "", paint.map().complete() ? "" : " (not complete)");
-  const float rows = layer.classes.empty() ? 2.0f : static_cast<float>(layer.classes.size()) + 1.0f;
+  const float rows = (layer.classes.empty() ? 2.0f : static_cast<float>(layer.classes.size()) + 1.0f) + 1.0f;
   const float full = std::max(width, ImGui::CalcTextSize(title.c_str()).x);
   const ImVec2 at(corner.x - full - 2.0f * room, corner.y - line * rows - height - 2.0f * room);
   list.AddRectFilled(at, corner, IM_COL32(16, 18, 24, 215), 4.0f);
@@ -258,10 +262,14 @@ void draw_map_legend(ImDrawList& list, const MapLayerPaint& paint, const ImVec2&
   float y = at.y + room;
   list.AddText({x, y}, text_color, title.c_str());
   y += line;
+  const auto swatch = [&](float top, io::Color color, const std::string& text) {
+    list.AddRectFilled({x, top}, {x + height, top + height}, packed(color));
+    list.AddText({x + line, top}, text_color, text.c_str());
+  };
+  swatch(corner.y - room - height, paint.color_at(NAN), layer.nothing);
   if (!layer.classes.empty()) {
     for (size_t i = 0; i < layer.classes.size(); ++i, y += line) {
-      list.AddRectFilled({x, y}, {x + height, y + height}, packed(paint.color_at(static_cast<double>(i))));
-      list.AddText({x + line, y}, text_color, printable(layer.classes[i]).c_str());
+      swatch(y, paint.color_at(static_cast<double>(i)), printable(layer.classes[i]));
     }
     return;
   }

@@ -106,6 +106,7 @@ uint64_t Overlays::path_of_rank(const std::shared_ptr<const ShownTick>& tick, si
 void Overlays::look_through(const std::string& camera) {
   if (camera == settings_.camera) return;
   settings_.camera = camera;
+  settings_.sensor.hidden_node = tables_.node_called(camera.substr(0, camera.find('/')));
   ++settings_.version;
 }
 

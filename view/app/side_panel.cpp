@@ -190,6 +190,7 @@ void SidePanel::draw_times(ShownRun& run, const MainView& view, const WorldOverl
               {"picture of the scene", fmt::format("{:.1f} ms", view.picture_ms())},
               {"overlays", fmt::format("{:.2f} ms", run.overlays() ? run.overlays()->milliseconds() : 0.0)},
               {"facets, wedges, ways", fmt::format("{:.2f} ms", world.milliseconds())},
+              {"overlays, drawn", fmt::format("{:.2f} ms", view.overlay_ms())},
               {"map, painted", fmt::format("{:.2f} ms", view.paint_ms())},
               {"panels", fmt::format("{:.2f} ms", grid_.milliseconds())}});
 }

@@ -62,10 +62,11 @@ std::string text_of(const ShownPath& shown, const PathArrays& arrays, const Reco
   const size_t i = shown.number, depth = static_cast<size_t>(arrays.depth);
   const rf::Path& path = shown.path;
   std::string text = fmt::format(
-      "{} ({}), {} interaction{}\nid {}\nfrom {} to {}\nlength {:.3f} m, delay {:.3f} ns\n"
+      "{} ({}), {} interaction{}, {:.1f} dB, {:.1f} m\nid {}\nfrom {} to {}\nlength {:.3f} m, delay {:.3f} "
+      "ns\n"
       "gain {}, phase {:.2f} deg\ndeparture: {}\narrival: {}\nDoppler {:.3f} Hz",
       apps::chain_of(path), apps::kind_name(apps::kind_of(path)), path.interactions.size(),
-      path.interactions.size() == 1 ? "" : "s", apps::id_text(arrays.id[i]),
+      path.interactions.size() == 1 ? "" : "s", shown.gain_db, path.length_m, apps::id_text(arrays.id[i]),
       printable(channel.transmitters[static_cast<size_t>(arrays.tx[i])].place.name),
       printable(channel.receivers[static_cast<size_t>(arrays.rx[i])].place.name), path.length_m,
       1e9 * path.delay_s, decibels_of(shown.gain_db),

@@ -106,8 +106,9 @@ class SensorDrawing {
 
   Shapes draw() {
     for (const SensorFacts& sensor : tables_.sensors()) {
-      if (sensor.camera && options_.cameras && sensor.camera->shared_with.empty()) camera(sensor);
-      if ((sensor.kind == "lidar" || sensor.kind == "radar") && options_.axes) axes(sensor);
+      const bool hidden = is_hidden(sensor.place);
+      if (!hidden && sensor.camera && options_.cameras && sensor.camera->shared_with.empty()) camera(sensor);
+      if (!hidden && (sensor.kind == "lidar" || sensor.kind == "radar") && options_.axes) axes(sensor);
       if (!sensor.channel || !options_.antennas) continue;
       for (const AntennaFacts& end : sensor.channel->transmitters) antenna(end);
       for (const AntennaFacts& end : sensor.channel->receivers) antenna(end);
@@ -121,6 +122,7 @@ class SensorDrawing {
   }
 
  private:
+  bool is_hidden(const Place& place) const { return place.node && place.node == options_.hidden_node; }
   std::optional<Pose> placed(const Place& place) {
     std::optional<Pose> pose = poses_.world_from(place);
     if (!pose) ++unplaced_;
@@ -153,7 +155,7 @@ class SensorDrawing {
 
   /// An antenna of several channels once, with the spacing that it has in the first of them.
   void antenna(const AntennaFacts& antenna) {
-    if (!drawn_.insert(antenna.place.name).second) return;
+    if (is_hidden(antenna.place) || !drawn_.insert(antenna.place.name).second) return;
     const std::optional<Pose> pose = placed(antenna.place);
     if (!pose) return;
     const rf::AntennaArray& array = antenna.array;
