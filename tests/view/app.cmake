@@ -14,7 +14,7 @@ if(XVFB_RUN)
 endif()
 
 # The real program, by scripts.
-greatx_test(view_program SOURCES view_program_test.cpp LINK greatx_io)
+greatx_test(view_program SOURCES overlay_program_test.cpp view_program_test.cpp LINK greatx_io)
 target_compile_definitions(test_view_program PRIVATE GREATX_PROGRAM="$<TARGET_FILE:greatx>"
                                                      GREATX_XVFB_RUN="${XVFB_RUN}")
 add_dependencies(test_view_program greatx)

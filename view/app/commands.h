@@ -48,6 +48,17 @@ class Commands {
 void add_switch(Commands& commands, const std::string& name, const std::string& menu,
                 const std::string& label, const std::string& key, bool& value);
 
+/// Returns the place of `name` among `names`, or the one after `now` if the name is empty. Throws UserError.
+size_t chosen_place(const char* command, const std::string& name, const std::vector<std::string>& names,
+                    size_t now);
+/// Sets `value` to the place of `name` among `names`; an empty name chooses the next one. Throws UserError,
+/// which begins with `command`, if the name is none of them.
+template <typename Enum>
+void choose(const char* command, const std::string& name, const std::vector<std::string>& names,
+            Enum& value) {
+  value = static_cast<Enum>(chosen_place(command, name, names, static_cast<size_t>(value)));
+}
+
 /// Counts `version` up whenever the command that was added last runs.
 void count_changes(Commands& commands, uint64_t& version);
 

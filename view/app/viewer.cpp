@@ -306,6 +306,7 @@ class Viewer {
     add("show.wedges", "Wedges that diffract", "0", s.wedges);
     add("show.map", "Radio map", "", s.map);
     add("show.tubes", "Fresnel zone of the pinned path", "", s.tubes);
+    add_choices();
     const auto is_there = [this] { return shown().experiment() != nullptr && shown().run().shown(); };
     commands_.add({"map",
                    "Run",
@@ -321,6 +322,48 @@ class Viewer {
                    [this](const std::string& rank) { pin_path(rank); },
                    {},
                    is_there});
+  }
+
+  /// Colours by name; without a name, the next ones.
+  void add_choices() {
+    commands_.add(
+        {"lidar.colors",
+         "Show",
+         "LiDAR points: other colours",
+         "",
+         [this](const std::string& name) {
+           if (shown().overlays() == nullptr) return;
+           OverlaySettings& s = shown().overlays()->settings();
+           choose("lidar.colors", name, {"height", "intensity", "ring", "instance"}, s.cloud.colors);
+           ++s.version;
+         },
+         {},
+         {}});
+    commands_.add({"facets.colors",
+                   "Show",
+                   "Facets: other colours",
+                   "",
+                   [this](const std::string& name) {
+                     WorldSettings& s = world_.settings();
+                     choose("facets.colors", name, {"kind", "material"}, s.radio.colors);
+                     ++s.version;
+                   },
+                   {},
+                   {}});
+    commands_.add({"show.cells",
+                   "Show",
+                   "Resolution cells of detections",
+                   "",
+                   [this](const std::string& argument) {
+                     if (!argument.empty() && argument != "on" && argument != "off")
+                       throw_user_error("show.cells: expected on or off, found '{}'", printable(argument));
+                     if (shown().overlays() == nullptr) return;
+                     OverlaySettings& s = shown().overlays()->settings();
+                     s.detections.cells = argument.empty() ? !s.detections.cells : argument == "on";
+                     ++s.version;
+                   },
+                   [this] { return shown().overlays() && shown().overlays()->settings().detections.cells; },
+                   {}});
   }
 
   void compute_map(const std::string& words) {
