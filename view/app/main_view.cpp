@@ -207,7 +207,7 @@ void MainView::draw_map_value(const ImVec2& cursor) const {
   if (cell) ImGui::SetTooltip("%s", painted_->text_of(*cell).c_str());
 }
 
-void MainView::draw_overlays(const Shapes& shapes, const Shapes& world) {
+void MainView::draw_overlays(const ShownTick& tick, const Shapes& shapes, const Shapes& world) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end(corner_.x + size_.x, corner_.y + size_.y);
   list.PushClipRect(corner_, end, true);
@@ -220,11 +220,13 @@ void MainView::draw_overlays(const Shapes& shapes, const Shapes& world) {
   std::optional<ImVec2> cursor;
   if (ImGui::IsItemHovered()) cursor = ImGui::GetMousePos();
   const Highlights highlights{hovered_id_, pinned_id_};
+  // Rectangles belong to one tick's picture; while another one is still shown, they would be beside it.
+  const bool through = camera_ && picture_->request.tick == tick.packet.tick;
   const Shapes* under = nullptr;
   std::optional<OverlayHit> hit;
   const auto begin = std::chrono::steady_clock::now();
   for (const Shapes* const some : {&world, &shapes}) {
-    const auto found = draw_shapes(list, *some, frame, cursor, highlights, camera_.has_value());
+    const auto found = draw_shapes(list, *some, frame, cursor, highlights, through);
     if (!found || (hit && hit->distance_px < found->distance_px)) continue;
     hit = found;
     under = some;
@@ -265,7 +267,7 @@ void MainView::draw(const ShownTick* tick, const Shapes& shapes, const Shapes& w
   size_.y = std::min(size_.y, size_.x * shape);
   size_.x = size_.y / shape;
   ImGui::GetWindowDrawList()->AddImage(texture_, corner_, {corner_.x + size_.x, corner_.y + size_.y});
-  draw_overlays(shapes, world);
+  draw_overlays(*tick, shapes, world);
   if (ImGui::IsItemDeactivated() && !dragged_ && ImGui::IsItemHovered() &&
       ImGui::IsMouseReleased(ImGuiMouseButton_Left))
     click(ImGui::GetMousePos());

@@ -76,7 +76,7 @@ class MainView {
   void request(const ShownTick& tick);
   SceneRequest wanted(const ShownTick& tick, bool fine);
   void show_picture();
-  void draw_overlays(const Shapes& shapes, const Shapes& world);
+  void draw_overlays(const ShownTick& tick, const Shapes& shapes, const Shapes& world);
   void draw_map_value(const ImVec2& cursor) const;
   void click(const ImVec2& at);
   std::optional<ImVec2> pixel_under(const ImVec2& at) const;

@@ -124,6 +124,7 @@ class Viewer {
     Overlays* const overlays = shown().overlays();
     if (overlays != nullptr) overlays->look_through(camera_name());
     const Shapes& shapes = overlays != nullptr ? overlays->shapes(tick) : none;
+    drawn_ = tick;
     if (main_.has_scene() && tick != nullptr)
       main_.draw(tick.get(), shapes, world_shapes(*tick), world_.paint());
     else
@@ -449,7 +450,7 @@ class Viewer {
           return status.phase == RunStatus::Phase::failed ||
                  (status.phase == RunStatus::Phase::ready && shown().run().shown() != nullptr);
         },
-        [this] { return main_.settled() && world_.idle(); },
+        [this] { return main_.settled() && world_.idle() && drawn_ == shown().run().shown(); },
         [this] { return shown().run().status().tick; },
         [this](const InputEvent& event) { window_->inject(event); },
         [this](const std::string& command, const std::string& argument) { commands_.run(command, argument); },
@@ -500,6 +501,7 @@ class Viewer {
   MainView main_;
   WorldOverlays world_;
   Shapes with_tube_;
+  std::shared_ptr<const ShownTick> drawn_;  ///< in the last frame
   SidePanel side_;
   Commands commands_;
   bool side_open_ = true, help_open_ = false, quit_ = false;

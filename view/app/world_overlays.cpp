@@ -28,13 +28,11 @@ bool is_ready(const std::future<T>& future) {
 }  // namespace
 
 void WorldOverlays::set(std::shared_ptr<const sim::Experiment> experiment) {
-  job_.reset();
-  map_.reset();
-  paint_.reset();
+  forget_map();
   radio_.reset();
   courses_.reset();
-  radio_coming_ = {};
-  courses_coming_ = {};
+  if (radio_coming_.valid()) dropped_radio_.push_back(std::move(radio_coming_));
+  if (courses_coming_.valid()) dropped_courses_.push_back(std::move(courses_coming_));
   radio_channel_.reset();
   courses_sequence_.reset();
   error_.clear();
@@ -84,6 +82,7 @@ const SampledCourses* WorldOverlays::courses(uint32_t sequence) {
 }
 
 const Shapes& WorldOverlays::shapes(const ShownTick& tick, const dvec3& focus, size_t channel) {
+  drop_finished();
   const bool wants_radio = settings_.facets || settings_.wedges;
   const MadeOf wanted{tick.sequence,
                       tick.packet.tick,
@@ -138,7 +137,7 @@ void WorldOverlays::compute_map(const ShownTick& tick, size_t channel) {
   wish.tick = tick.packet.tick;
   wish.request = settings_.map_request;
   sim::check_map_request(wish.request, experiment_->scenario.channels[channel]);
-  job_.reset();  // waits for the cells that the one before computes
+  drop_job();
   job_ = std::make_unique<MapJob>(experiment_, std::move(wish), device_);
   settings_.map = true;
 }
@@ -147,8 +146,21 @@ void WorldOverlays::cancel_map() {
   if (job_ != nullptr) job_->cancel();
 }
 
+/// A job ends when the cells that it computes are done.
+void WorldOverlays::drop_job() {
+  if (job_ == nullptr) return;
+  job_->cancel();
+  dropped_jobs_.push_back(std::move(job_));
+}
+
+void WorldOverlays::drop_finished() {
+  std::erase_if(dropped_jobs_, [](const std::unique_ptr<MapJob>& job) { return job->finished(); });
+  std::erase_if(dropped_radio_, [](const auto& future) { return is_ready(future); });
+  std::erase_if(dropped_courses_, [](const auto& future) { return is_ready(future); });
+}
+
 void WorldOverlays::forget_map() {
-  job_.reset();
+  drop_job();
   map_.reset();
   paint_.reset();
 }

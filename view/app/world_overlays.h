@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gpu/device.h"
 #include "view/overlay/path_story.h"
@@ -46,8 +47,8 @@ class WorldOverlays {
   /// Forgets what belongs to the experiment before. A map that is being computed is cancelled.
   void set(std::shared_ptr<const sim::Experiment> experiment);
   WorldSettings& settings() { return settings_; }
-  /// The shapes of a tick around `focus` (world, m), for the place of a channel among the scenario's. They are
-  /// made again only where something has changed.
+  /// The shapes of a tick around `focus` (world, m), for the place of a channel among the scenario's. They
+  /// are made again only where something has changed.
   const Shapes& shapes(const ShownTick& tick, const dvec3& focus, size_t channel);
   /// Adds to a path what the scene knows of it, if it is known by now.
   void explain(PathStory& story, const ShownTick& tick, size_t channel);
@@ -71,6 +72,8 @@ class WorldOverlays {
     FacetOutlines outlines;
   };
   const Radio* radio(size_t channel);
+  void drop_job();
+  void drop_finished();
   const SampledCourses* courses(uint32_t sequence);
   void make(const ShownTick& tick, const dvec3& focus, size_t channel);
 
@@ -87,6 +90,10 @@ class WorldOverlays {
   std::string error_;
 
   std::unique_ptr<MapJob> job_;
+  /// What is no longer wanted, but still works: the window does not wait for it.
+  std::vector<std::unique_ptr<MapJob>> dropped_jobs_;
+  std::vector<std::future<std::shared_ptr<const Radio>>> dropped_radio_;
+  std::vector<std::future<std::shared_ptr<const SampledCourses>>> dropped_courses_;
   std::shared_ptr<const ShownMap> map_;
   std::shared_ptr<const MapLayerPaint> paint_;
   uint64_t paint_version_ = ~uint64_t{0};

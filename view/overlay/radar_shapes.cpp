@@ -94,6 +94,15 @@ void add_cell(Shapes& shapes, const Pose& world_from_sensor, const RadarCell& ce
     }
 }
 
+std::string cells_text(const RadarFacts& radar) {
+  const auto beam = [](double width, const char* name) {
+    return width > 0.0 ? fmt::format("{:.3g} deg {}", degrees(width), name) : fmt::format("any {}", name);
+  };
+  return fmt::format("cells: {:.3g} m range x {} x {}; velocities {:.3g} m/s apart", radar.range_bin_m,
+                     beam(radar.azimuth_beam, "azimuth"), beam(radar.elevation_beam, "elevation"),
+                     radar.velocity_bin_m_s);
+}
+
 /// The direction in which the range grows: away from both ends.
 dvec3 away_from(const dvec3& receiver, const std::optional<dvec3>& transmitter, const dvec3& target) {
   const auto unit = [](const dvec3& v) {
@@ -170,12 +179,8 @@ Shapes radar_shapes(const RecordTables& tables, const SensorSpec& spec, const Re
   shapes.note(fmt::format("{}: {} detections, {} of them false alarms; arrows: {:g} s of radial velocity",
                           spec.name, count, false_alarms, options.arrow_s));
   if (options.cells)
-    shapes.note(radar.illuminator
-                    ? spec.name + ": bistatic, so its resolution cells are not drawn"
-                    : fmt::format("cells: {:.3g} m range x {:.3g} deg azimuth x {:.3g} deg elevation; "
-                                  "velocities {:.3g} m/s apart",
-                                  radar.range_bin_m, degrees(radar.azimuth_beam),
-                                  degrees(radar.elevation_beam), radar.velocity_bin_m_s));
+    shapes.note(radar.illuminator ? spec.name + ": bistatic, so its resolution cells are not drawn"
+                                  : cells_text(radar));
   shapes.legend.emplace_back("receding", receding_color);
   shapes.legend.emplace_back("approaching", approaching_color);
   if (radar.velocity_max_m_s > 0.0)

@@ -9,10 +9,11 @@
 
 namespace greatx::view {
 
-/// The first Fresnel zone around a path: its radius is sqrt(wavelength d1 d2 / (d1 + d2)), with d1 and d2 along
-/// the path to both of its ends. A reflection and a wall keep the wave's curvature, so that the lengths go on
-/// beyond them (image method). A diffraction and a scattering send out a wave of their own, so that a zone ends
-/// there and another one begins. Records hold no tubes: this zone follows from the path's points alone.
+/// The first Fresnel zone around a path: its radius is sqrt(wavelength d1 d2 / (d1 + d2)), with d1 and d2
+/// along the path to both of its ends. A reflection and a wall keep the wave's curvature, so that the lengths
+/// go on beyond them (image method). A diffraction and a scattering send out a wave of their own, so that a
+/// zone ends there and another one begins. Records hold no tubes: this zone follows from the path's points
+/// alone.
 Shapes fresnel_shapes(const PathStory& story);
 
 /// The radius of the first zone, m.

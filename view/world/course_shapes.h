@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The whole way of every node through a sequence, as the scenario has it. It needs no record, so that it shows
-// where nodes will go before they have gone there.
+// The whole way of every node through a sequence, as the scenario has it. It needs no record, so that it
+// shows where nodes will go before they have gone there.
 #pragma once
 
 #include <cstdint>

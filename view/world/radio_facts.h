@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene as the waves of one channel meet it: facets with their kinds and materials at the carrier, and the
-// edges that diffract.
+// The scene as the waves of one channel meet it: facets with their kinds and materials at the carrier, and
+// the edges that diffract.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@
 
 namespace greatx::view {
 
-/// Made once for a channel and not changed afterwards, so that any thread may read it. Making it takes as long
-/// as finding the scene's edges does, which is seconds in a huge scene.
+/// Made once for a channel and not changed afterwards, so that any thread may read it. Making it takes as
+/// long as finding the scene's edges does, which is seconds in a huge scene.
 class RadioFacts {
  public:
   /// `channel`: place among the channels of the scenario. Throws UserError like rf::RadioModel.
@@ -45,9 +45,9 @@ class RadioFacts {
 /// "opaque", "wall that lets waves pass", ...
 const char* name_of(rf::FacetKind kind);
 
-/// Adds to a path what the scene knows of its interactions: angles, losses and what the surfaces are. `bodies`
-/// are the poses of all bodies (local coordinates) at the record's tick. Stops that name no facet of the scene
-/// stay as they are.
+/// Adds to a path what the scene knows of its interactions: angles, losses and what the surfaces are.
+/// `bodies` are the poses of all bodies (local coordinates) at the record's tick. Stops that name no facet of
+/// the scene stay as they are.
 void explain(PathStory& story, const RadioFacts& facts, std::span<const Pose> bodies);
 
 }  // namespace greatx::view

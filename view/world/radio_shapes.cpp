@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <tuple>
 
@@ -89,7 +90,7 @@ class RadioDrawing {
         nearest_items(scene_.facets.size(), options_.most_facets, options_.within_m, [&](uint32_t facet) {
           return distance_to_box(outlines_.bounds(facet), focus_in_body_[scene_.facets[facet].body]);
         });
-    std::map<std::pair<std::string, uint32_t>, size_t> legend;  // of (name, key of the colour)
+    Legend legend;
     for (const auto& [distance, number] : nearest.items) {
       const scene::Facet& facet = scene_.facets[number];
       const bool by_kind = options_.colors == FacetColors::kind;
@@ -103,11 +104,25 @@ class RadioDrawing {
         shapes_.lines.push_back({world(facet.body, edge[0]), world(facet.body, edge[1]), color, 1.2f, row});
     }
     shapes_.note(count_text("facets", nearest, scene_.facets.size()));
-    for (const auto& [key, count] : legend)
+    add_legend(legend);
+  }
+
+  using Legend = std::map<std::pair<std::string, uint32_t>, size_t>;  ///< of (name, key of the colour)
+
+  /// The kinds or materials of most facets: more names would hide the picture.
+  void add_legend(const Legend& legend) {
+    constexpr size_t most_names = 10;
+    std::vector<std::pair<Legend::key_type, size_t>> entries(legend.begin(), legend.end());
+    std::ranges::stable_sort(entries, std::greater(), [](const auto& entry) { return entry.second; });
+    for (size_t i = 0; i < std::min(entries.size(), most_names); ++i) {
+      const auto& [key, count] = entries[i];
       shapes_.legend.emplace_back(fmt::format("{} ({})", key.first, count),
                                   options_.colors == FacetColors::kind
                                       ? color_of_facet(static_cast<rf::FacetKind>(key.second))
                                       : io::color_of_id(key.second));
+    }
+    if (entries.size() > most_names)
+      shapes_.note(fmt::format("{} more materials", entries.size() - most_names));
   }
 
   std::string facet_text(uint32_t number) const {
