@@ -146,6 +146,31 @@ TEST(PathStory, LearnsAnglesAndLossesFromTheScene) {
   EXPECT_FALSE(story.stops[0].angle);
 }
 
+TEST(PathStory, OfOneReflectionLosesWhatTheSurfaceTakes) {
+  const test::KeptRun run = test::keep_run(*shared_yard());
+  const RecordTables tables("{}", run.sensors, "run");
+  const auto record = [&](const char* sensor) -> const Record& {
+    for (const Record& found : run.packets.at(0).records)
+      if (run.sensors[found.sensor].name == sensor) return found;
+    throw std::runtime_error(sensor);
+  };
+  const NodePoses poses(tables, record("poses"));
+  const RadioFacts facts(shared_yard(), 0);
+  const std::span<const uint64_t> ids = run.array<uint64_t>(0, "csi", "id");
+  size_t reflections = 0;
+  for (const uint64_t id : ids) {
+    std::optional<PathStory> story = path_story(tables, run.spec("csi"), record("csi"), poses, id);
+    ASSERT_TRUE(story);
+    if (story->chain != "R") continue;
+    ++reflections;
+    const double by_points = *story->stops[0].angle;
+    explain(*story, facts, rest(*shared_yard()));
+    EXPECT_NEAR(*story->stops[0].angle, by_points, 1e-9) << "the normal's angle is half of the turn";
+    EXPECT_NEAR(story->free_space_db - story->gain_db, *story->stops[0].loss_db, 1e-4);
+  }
+  EXPECT_GE(reflections, 1u);
+}
+
 TEST(CourseShapes, AreBrightBehindAndFaintAhead) {
   const SampledCourses courses = sample_courses(*shared_yard(), 0, 11);
   ASSERT_EQ(courses.nodes.size(), 1u) << "the mast rests";

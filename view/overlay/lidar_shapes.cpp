@@ -73,9 +73,13 @@ std::vector<dvec3> placed_points(const RecordArrays& record, const RecordTables&
 }
 
 void add_scale(Shapes& shapes, double low, double high, const char* format_unit, int digits) {
-  for (const double share : {1.0, 0.5, 0.0})
-    shapes.legend.emplace_back(fmt::format("{:.{}f}{}", low + share * (high - low), digits, format_unit),
-                               cloud_color(share));
+  for (const double share : {1.0, 0.5, 0.0}) {
+    const double unit = std::pow(10.0, -digits), value = low + share * (high - low);
+    // Without "-0.0".
+    shapes.legend.emplace_back(
+        fmt::format("{:.{}f}{}", std::round(value / unit) * unit + 0.0, digits, format_unit),
+        cloud_color(share));
+  }
 }
 
 /// The objects with most returns: more names would hide the picture.
