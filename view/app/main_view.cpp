@@ -232,7 +232,8 @@ void MainView::draw_overlays(const ShownTick& tick, const Shapes& shapes, const 
     under = some;
   }
   overlay_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-  if (cursor) hovered_id_ = hit ? under->rows[hit->row].id : 0;
+  // Rows of the side panel, which come after this, highlight theirs for the next frame.
+  hovered_id_ = hit ? under->rows[hit->row].id : 0;
   if (hit)
     ImGui::SetTooltip("%s", under->rows[hit->row].text.c_str());
   else if (cursor && painted_ != nullptr)

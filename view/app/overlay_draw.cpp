@@ -99,11 +99,15 @@ class Drawing {
   void line(const LineShape& line) {
     const bool wide = is_highlighted(shapes_, line.row, highlighted_);
     const float width = line.width_px * (wide ? highlighted_px : 1.0f);
-    for (const apps::Stretch& stretch : visible(line)) {
+    const auto draw = [&](const apps::Stretch& stretch) {
       const ImVec2 a = window(stretch.a), b = window(stretch.b);
       list_.AddLine(a, b, packed(line.color, stretch.hidden ? faint : 255), width);
       nearest_.line(line.row, a, b);
-    }
+    };
+    if (const std::optional<apps::Stretch> whole = short_stretch(line))
+      draw(*whole);
+    else
+      for (const apps::Stretch& stretch : visible(line)) draw(stretch);
     if (!line.arrow) return;
     const dvec3 from = frame_.place(line.a), to = frame_.place(line.b);
     if (from.z > 0.0 && to.z > 0.0)
@@ -164,6 +168,19 @@ class Drawing {
     if (frame_.depth.empty()) return false;
     const size_t pixel = static_cast<size_t>(place.y) * frame_.view.width + static_cast<size_t>(place.x);
     return apps::is_hidden(place.z, frame_.depth[pixel]);
+  }
+  /// A line of a few pixels, hidden or visible as its middle is: meshes and outlines have thousands of them,
+  /// and looking along each one costs ten times as much.
+  std::optional<apps::Stretch> short_stretch(const LineShape& line) const {
+    constexpr double short_px = 8.0;
+    const dvec3 a = frame_.view.project(line.a - frame_.origin),
+                b = frame_.view.project(line.b - frame_.origin);
+    if (a.z <= frame_.view.near_m || b.z <= frame_.view.near_m) return {};
+    if (glm::distance(dvec2(a), dvec2(b)) > short_px) return {};
+    const dvec3 middle = 0.5 * (a + b);
+    if (middle.x < 0.0 || middle.y < 0.0 || middle.x >= frame_.view.width || middle.y >= frame_.view.height)
+      return {};
+    return apps::Stretch{dvec2(a), dvec2(b), !line.always && is_hidden(middle)};
   }
   std::vector<apps::Stretch> visible(const LineShape& line) const {
     std::vector<apps::Stretch> stretches =
