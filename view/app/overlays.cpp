@@ -104,9 +104,11 @@ uint64_t Overlays::path_of_rank(const std::shared_ptr<const ShownTick>& tick, si
 }
 
 void Overlays::look_through(const std::string& camera) {
-  if (camera == settings_.camera) return;
+  // The node's number may have changed with the scenario, even where the name has not.
+  const std::optional<uint32_t> node = tables_.node_called(camera.substr(0, camera.find('/')));
+  if (camera == settings_.camera && node == settings_.sensor.hidden_node) return;
   settings_.camera = camera;
-  settings_.sensor.hidden_node = tables_.node_called(camera.substr(0, camera.find('/')));
+  settings_.sensor.hidden_node = node;
   ++settings_.version;
 }
 

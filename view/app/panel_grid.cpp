@@ -37,9 +37,24 @@ void PanelGrid::prepare(RunTiles& tiles, ShownRun& run) {
   tiles.choices = panels_of(run.info()->sensors);
   tiles.tiles.resize(tiles.choices.size());
   std::set<std::string> opened;
-  for (size_t i = 0; i < tiles.choices.size(); ++i)
-    tiles.tiles[i].open =
-        usual_kinds.contains(tiles.choices[i].kind) && opened.insert(tiles.choices[i].kind).second;
+  for (size_t i = 0; i < tiles.choices.size(); ++i) {
+    const PanelChoice& choice = tiles.choices[i];
+    const auto before = tiles.open_before.find(choice.title);
+    tiles.tiles[i].open = before != tiles.open_before.end()
+                              ? before->second
+                              : usual_kinds.contains(choice.kind) && opened.insert(choice.kind).second;
+  }
+}
+
+void PanelGrid::replaced(const std::string& name) {
+  const auto found = runs_.find(name);
+  if (found == runs_.end()) return;
+  RunTiles fresh;
+  for (size_t i = 0; i < found->second.choices.size(); ++i) {
+    fresh.open_before[found->second.choices[i].title] = found->second.tiles[i].open;
+    drop(found->second.tiles[i]);
+  }
+  found->second = std::move(fresh);
 }
 
 void PanelGrid::keep(std::span<ShownRun* const> runs) {
