@@ -58,14 +58,6 @@ std::vector<uint8_t> subdued(const MapBackground& background) {
 
 bool has_value(double value) { return !std::isnan(value) && value != -INFINITY; }
 
-Color color_of(const MapLayer& layer, const MapScale& scale, double value) {
-  if (!has_value(value)) return nothing_color;
-  if (!layer.classes.empty())
-    return layer.classes.size() == 2 && layer.unit.empty() ? io::viridis(value > 0.5 ? 0.9 : 0.25)
-                                                           : io::color_of_series(static_cast<size_t>(value));
-  return io::viridis(std::clamp(scale.scale.at(value), 0.0, 1.0));
-}
-
 /// Returns the map in the pixels of the background, without axes, markers and texts.
 Array composed(const MapStage& stage, const MapLayer& layer, const MapScale& scale) {
   const MapBackground& background = stage.background;
@@ -85,7 +77,7 @@ Array composed(const MapStage& stage, const MapLayer& layer, const MapScale& sca
       const size_t cell = size_t{row} * grid.columns + column;
       uint8_t* out = &rgb[3 * (size_t{y} * width + x)];
       if (stage.cells->solved(cell)) {
-        const Color color = color_of(layer, scale, layer.values[cell]);
+        const Color color = color_of_cell(layer, scale, layer.values[cell]);
         out[0] = color.r, out[1] = color.g, out[2] = color.b;
       }
       if (!jump(x, y, x + 1, y) && !jump(x, y, x, y + 1)) continue;
@@ -153,7 +145,7 @@ void draw_colors(Canvas& canvas, const Rect& map, int x, const MapLayer& layer, 
   if (!layer.classes.empty()) {
     for (size_t i = 0; i < layer.classes.size(); ++i)
       draw_swatch(canvas, x, map.y + 4 + theme::line_height * static_cast<int>(i),
-                  color_of(layer, scale, static_cast<double>(i)), layer.classes[i]);
+                  color_of_cell(layer, scale, static_cast<double>(i)), layer.classes[i]);
     return;
   }
   const Rect bar{x, map.y + 28, 22, std::min(map.height - 36, 460)};
@@ -193,6 +185,14 @@ std::string words(std::string name) {
 }
 
 }  // namespace
+
+Color color_of_cell(const MapLayer& layer, const MapScale& scale, double value) {
+  if (!has_value(value)) return nothing_color;
+  if (!layer.classes.empty())
+    return layer.classes.size() == 2 && layer.unit.empty() ? io::viridis(value > 0.5 ? 0.9 : 0.25)
+                                                           : io::color_of_series(static_cast<size_t>(value));
+  return io::viridis(std::clamp(scale.scale.at(value), 0.0, 1.0));
+}
 
 MapScale map_scale(std::span<const double> values) {
   std::vector<double> sorted;

@@ -58,6 +58,9 @@ struct MapLayer {
 MapLayer map_layer(const sim::RadioMap& map, const sim::MapQuantity& quantity,
                    std::optional<size_t> transmitter, const std::vector<MapMarker>& transmitters);
 
+/// Returns the colour of a cell with this value. A value that is NaN or -inf has the colour of "nothing".
+io::Color color_of_cell(const MapLayer& layer, const MapScale& scale, double value);
+
 /// Returns a picture of a layer, u8 [height, width, 3]. Solved cells have the colours of Viridis or of their
 /// classes. Other cells, such as those in buildings, show the subdued scene. The picture also has outlines
 /// where the height of the scene jumps, markers of the transmitters, a title, axes in world metres, a legend

@@ -14,7 +14,9 @@ if(XVFB_RUN)
 endif()
 
 # The real program, by scripts.
-greatx_test(view_program SOURCES edit_program_test.cpp view_bench_test.cpp view_program_test.cpp ../support/flip.cpp
+greatx_test(view_program
+            SOURCES edit_program_test.cpp overlay_program_test.cpp view_bench_test.cpp view_program_test.cpp
+                    ../support/flip.cpp
             LINK greatx_io nlohmann_json::nlohmann_json)
 target_compile_definitions(test_view_program
   PRIVATE GREATX_PROGRAM="$<TARGET_FILE:greatx>" GREATX_XVFB_RUN="${XVFB_RUN}"

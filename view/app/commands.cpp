@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -114,6 +115,23 @@ void add_switch(Commands& commands, const std::string& name, const std::string& 
                 },
                 [&value] { return value; },
                 {}});
+}
+
+size_t chosen_place(const char* command, const std::string& name, const std::vector<std::string>& names,
+                    size_t now) {
+  if (name.empty()) return (now + 1) % names.size();
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end())
+    throw_user_error("{}: expected one of {}, found '{}'", command, fmt::join(names, ", "), printable(name));
+  return static_cast<size_t>(found - names.begin());
+}
+
+void count_changes(Commands& commands, uint64_t& version) {
+  Command& command = commands.last();
+  command.run = [run = command.run, &version](const std::string& argument) {
+    run(argument);
+    ++version;
+  };
 }
 
 }  // namespace greatx::view

@@ -5,6 +5,7 @@
 // scripts run the same table, so that whatever a person can do, a script can do too.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -31,6 +32,7 @@ class Commands {
   /// Takes away the commands of a menu whose names begin with `prefix`.
   void remove(const std::string& prefix);
   const std::vector<Command>& all() const { return commands_; }
+  Command& last() { return commands_.back(); }
   /// Runs a command by its name. Throws UserError if there is none, or if it is not possible now.
   void run(const std::string& name, const std::string& argument) const;
   /// Draws the menu bar's menus, in the order in which their first commands were added.
@@ -47,5 +49,19 @@ class Commands {
 /// Adds a command that switches `value`. Its argument may be "on" or "off".
 void add_switch(Commands& commands, const std::string& name, const std::string& menu,
                 const std::string& label, const std::string& key, bool& value);
+
+/// Returns the place of `name` among `names`, or the one after `now` if the name is empty. Throws UserError.
+size_t chosen_place(const char* command, const std::string& name, const std::vector<std::string>& names,
+                    size_t now);
+/// Sets `value` to the place of `name` among `names`; an empty name chooses the next one. Throws UserError,
+/// which begins with `command`, if the name is none of them.
+template <typename Enum>
+void choose(const char* command, const std::string& name, const std::vector<std::string>& names,
+            Enum& value) {
+  value = static_cast<Enum>(chosen_place(command, name, names, static_cast<size_t>(value)));
+}
+
+/// Counts `version` up whenever the command that was added last runs.
+void count_changes(Commands& commands, uint64_t& version);
 
 }  // namespace greatx::view

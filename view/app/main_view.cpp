@@ -3,6 +3,7 @@
 #include "view/app/main_view.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "core/units.h"
 #include "sim/plan/camera_desc.h"
 #include "view/app/overlay_dots.h"
+#include "view/app/overlay_panel.h"
 
 namespace greatx::view {
 
@@ -50,8 +52,8 @@ dvec3 keys_pressed() {
   return {axis('W', 'S'), axis('A', 'D'), axis('E', 'Q')};
 }
 
-Array rgb_of(const ScenePicture& picture) {
-  return Array::of<uint8_t>({picture.request.view.height, picture.request.view.width, 3}, picture.rgb);
+Array rgb_array(const ScenePicture& picture, std::span<const uint8_t> rgb) {
+  return Array::of<uint8_t>({picture.request.view.height, picture.request.view.width, 3}, rgb);
 }
 
 }  // namespace
@@ -82,6 +84,8 @@ std::unique_ptr<SceneView> MainView::set_scene(std::shared_ptr<const sim::Experi
   const std::shared_ptr<const sim::Experiment> before = std::exchange(experiment_, std::move(experiment));
   std::unique_ptr<SceneView> old = std::exchange(scene_, std::move(scene));
   moments_.emplace(experiment_);
+  map_.reset();
+  painted_.reset();
   has_asked_ = false;
   painted_version_ = ~uint64_t{0};
   if (before == nullptr) {
@@ -184,13 +188,17 @@ bool MainView::has_picture_of(const ShownTick& tick) const {
 
 void MainView::show_picture(const Shapes& shapes, uint64_t shapes_version) {
   const std::shared_ptr<const ScenePicture> newest = scene_->picture();
-  if (newest == nullptr ||
-      (newest == picture_ && shapes_version == painted_version_ && hovered_id_ == painted_id_))
+  if (newest == nullptr || (newest == picture_ && map_ == painted_ && shapes_version == painted_version_ &&
+                            hovered_id_ == painted_id_))
     return;
   picture_ = newest;
+  painted_ = map_;
   painted_version_ = shapes_version;
   painted_id_ = hovered_id_;
-  Array rgb = rgb_of(*picture_);
+  const auto begin = std::chrono::steady_clock::now();
+  const std::vector<uint8_t> with_map = map_ ? map_->painted(*picture_) : std::vector<uint8_t>();
+  paint_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  Array rgb = rgb_array(*picture_, map_ ? with_map : picture_->rgb);
   paint_dots(shapes, overlay_frame(), hovered_id_, rgb);
   const apps::PictureView& view = picture_->request.view;
   if (texture_ != nullptr && (texture_width_ != view.width || texture_height_ != view.height)) {
@@ -214,6 +222,7 @@ std::optional<ImVec2> MainView::pixel_under(const ImVec2& at) const {
 }
 
 void MainView::click(const ImVec2& at) {
+  if (hovered_id_ != 0) pinned_id_ = hovered_id_;
   if (const std::optional<ImVec2> pixel = pixel_under(at))
     picked_ = pick(*picture_, static_cast<int>(std::floor(pixel->x)), static_cast<int>(std::floor(pixel->y)),
                    experiment_->scene().origin);
@@ -224,25 +233,63 @@ Facts MainView::picked_facts(double carrier_hz) const {
   return facts_of(*picked_, *experiment_, *picture_, carrier_hz);
 }
 
+dvec3 MainView::focus() const {
+  if (camera_ && picture_ != nullptr) {
+    const Pose& eye = picture_->request.view.local_from_sensor;
+    return eye.apply({10.0, 0.0, 0.0}) + experiment_->scene().origin;
+  }
+  return viewpoint_ ? viewpoint_->pivot() : dvec3(0.0);
+}
+
+void MainView::draw_map_value(const ImVec2& cursor) const {
+  const std::optional<ImVec2> pixel = pixel_under(cursor);
+  if (!pixel) return;
+  const std::optional<size_t> cell = painted_->cell_at(*picture_, static_cast<int>(std::floor(pixel->x)),
+                                                       static_cast<int>(std::floor(pixel->y)));
+  if (cell) ImGui::SetTooltip("%s", painted_->text_of(*cell).c_str());
+}
+
 OverlayFrame MainView::overlay_frame() const {
   return {picture_->request.view, picture_->depth, experiment_->scene().origin, corner_, size_};
 }
 
-void MainView::draw_overlays(const Shapes& shapes) {
+void MainView::draw_overlays(const ShownTick& tick, const Shapes& shapes, const Shapes& world) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end(corner_.x + size_.x, corner_.y + size_.y);
   list.PushClipRect(corner_, end, true);
   const OverlayFrame frame = overlay_frame();
   std::optional<ImVec2> cursor;
   if (ImGui::IsItemHovered()) cursor = ImGui::GetMousePos();
-  const std::optional<OverlayHit> hit = draw_shapes(list, shapes, frame, cursor, hovered_id_);
-  if (cursor) hovered_id_ = hit ? shapes.rows[hit->row].id : 0;
-  if (hit) ImGui::SetTooltip("%s", shapes.rows[hit->row].text.c_str());
-  draw_legend(list, shapes, {corner_.x + 10.0f, corner_.y + 10.0f});
+  const Highlights highlights{hovered_id_, pinned_id_};
+  // Rectangles belong to one tick's picture; while another one is still shown, they would be beside it.
+  const bool through = camera_ && picture_->request.tick == tick.packet.tick;
+  const Shapes* under = nullptr;
+  std::optional<OverlayHit> hit;
+  const auto begin = std::chrono::steady_clock::now();
+  for (const Shapes* const some : {&world, &shapes}) {
+    const auto found = draw_shapes(list, *some, frame, cursor, highlights, through);
+    if (!found || (hit && hit->distance_px < found->distance_px)) continue;
+    hit = found;
+    under = some;
+  }
+  overlay_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  // Rows of the side panel, which come after this, highlight theirs for the next frame.
+  hovered_id_ = hit ? under->rows[hit->row].id : 0;
+  if (hit)
+    ImGui::SetTooltip("%s", under->rows[hit->row].text.c_str());
+  else if (cursor && painted_ != nullptr)
+    draw_map_value(*cursor);
+  Shapes legend;
+  legend.legend = shapes.legend;
+  legend.legend.insert(legend.legend.end(), world.legend.begin(), world.legend.end());
+  draw_legend(list, legend, {corner_.x + 10.0f, corner_.y + 10.0f});
+  if (painted_ != nullptr) draw_map_legend(list, *painted_, {end.x - 10.0f, end.y - 10.0f});
   list.PopClipRect();
 }
 
-void MainView::draw(const ShownTick& tick, const Shapes& shapes, uint64_t shapes_version, bool plays) {
+void MainView::draw(const ShownTick& tick, const Shapes& shapes, uint64_t shapes_version, const Shapes& world,
+                    std::shared_ptr<const MapLayerPaint> map, bool plays) {
+  map_ = std::move(map);
   corner_ = ImGui::GetCursorScreenPos();
   size_ = ImGui::GetContentRegionAvail();
   settled_ = awaits_ = false;
@@ -262,7 +309,7 @@ void MainView::draw(const ShownTick& tick, const Shapes& shapes, uint64_t shapes
   size_.y = std::min(size_.y, size_.x * shape);
   size_.x = size_.y / shape;
   ImGui::GetWindowDrawList()->AddImage(texture_, corner_, {corner_.x + size_.x, corner_.y + size_.y});
-  draw_overlays(shapes);
+  draw_overlays(tick, shapes, world);
   const bool clicked = ImGui::IsItemDeactivated() && !dragged_ && ImGui::IsItemHovered() &&
                        ImGui::IsMouseReleased(ImGuiMouseButton_Left);
   if (clicked && !tool_has_mouse_) click(ImGui::GetMousePos());

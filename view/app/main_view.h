@@ -21,6 +21,7 @@
 #include "view/scene/moment_cache.h"
 #include "view/scene/scene_view.h"
 #include "view/window/window.h"
+#include "view/world/map_paint.h"
 
 namespace greatx::view {
 
@@ -39,9 +40,11 @@ class MainView {
   bool has_scene() const { return scene_ != nullptr; }
   std::string error() const { return scene_ ? scene_->error() : ""; }
 
-  /// Draws into the current ImGui window, and takes its mouse and keys. `shapes_version` changes with the
-  /// shapes. `plays`: the next tick will follow by itself.
-  void draw(const ShownTick& tick, const Shapes& shapes, uint64_t shapes_version, bool plays);
+  /// Draws into the current ImGui window, and takes its mouse and keys. `shapes` come from records, and
+  /// `shapes_version` changes with them. `world` comes from the experiment; `map` may be null. `plays`: the
+  /// next tick will follow by itself.
+  void draw(const ShownTick& tick, const Shapes& shapes, uint64_t shapes_version, const Shapes& world,
+            std::shared_ptr<const MapLayerPaint> map, bool plays);
   /// Whether the shown picture is the one that is wanted, at full quality.
   bool settled() const { return settled_; }
   /// Whether a picture is being drawn for the view that is wanted.
@@ -53,6 +56,10 @@ class MainView {
   /// The picture that is shown, and the one that was asked for last.
   const std::shared_ptr<const ScenePicture>& picture() const { return picture_; }
   const SceneRequest& asked() const { return asked_; }
+  /// Wall time of painting the map into the last picture.
+  double paint_ms() const { return paint_ms_; }
+  /// Wall time of drawing the overlays of the last frame, without the window's own drawing.
+  double overlay_ms() const { return overlay_ms_; }
   double picture_ms() const { return picture_ ? picture_->milliseconds : 0.0; }
 
   void look_from_outside();
@@ -70,6 +77,11 @@ class MainView {
   /// The identity of the shape under the cursor; 0: none. It stays highlighted while it moves.
   uint64_t hovered_id() const { return hovered_id_; }
   void highlight(uint64_t id) { hovered_id_ = id; }
+  /// The identity of the shape that the user clicked at; 0: none. It stays highlighted, too.
+  uint64_t pinned_id() const { return pinned_id_; }
+  void pin(uint64_t id) { pinned_id_ = id; }
+  /// The point of the world around which the user looks.
+  dvec3 focus() const;
 
   /// Draws over the picture and may take the mouse, which it returns; `hovered` tells whether the cursor is
   /// over the picture.
@@ -82,7 +94,8 @@ class MainView {
   SceneRequest wanted(const ShownTick& tick, bool fine);
   void show_picture(const Shapes& shapes, uint64_t shapes_version);
   OverlayFrame overlay_frame() const;
-  void draw_overlays(const Shapes& shapes);
+  void draw_overlays(const ShownTick& tick, const Shapes& shapes, const Shapes& world);
+  void draw_map_value(const ImVec2& cursor) const;
   void keep_names(const sim::Experiment& before, const sim::Experiment& after);
   void click(const ImVec2& at);
   std::optional<ImVec2> pixel_under(const ImVec2& at) const;
@@ -96,6 +109,7 @@ class MainView {
   dvec3 followed_at_{0.0};
   std::optional<apps::CameraName> camera_;
   std::shared_ptr<const ScenePicture> picture_;
+  std::shared_ptr<const MapLayerPaint> map_, painted_;  ///< wanted, and in the texture
   TextureId texture_ = nullptr;
   uint32_t texture_width_ = 0, texture_height_ = 0;
   ImVec2 corner_{0, 0}, size_{0, 0};  ///< of the view in the window
@@ -107,7 +121,8 @@ class MainView {
   uint64_t painted_version_ = 0, painted_id_ = 0;
   bool dragged_ = false;  ///< since the button went down
   std::optional<Picked> picked_;
-  uint64_t hovered_id_ = 0;
+  uint64_t hovered_id_ = 0, pinned_id_ = 0;
+  double paint_ms_ = 0.0, overlay_ms_ = 0.0;
   Tool tool_;
   bool tool_has_mouse_ = false;
 };

@@ -37,8 +37,9 @@ class Nearest {
   std::optional<OverlayHit> hit_;
 };
 
-bool is_highlighted(const Shapes& shapes, uint32_t row, uint64_t id) {
-  return id != 0 && row != ~0u && shapes.rows[row].id == id;
+bool is_highlighted(const Shapes& shapes, uint32_t row, const Highlights& ids) {
+  if (row == ~0u || shapes.rows[row].id == 0) return false;
+  return shapes.rows[row].id == ids.hovered || shapes.rows[row].id == ids.pinned;
 }
 
 void draw_mark(ImDrawList& list, PointShape::Mark mark, const ImVec2& at, float size, ImU32 color) {
@@ -82,17 +83,21 @@ void draw_head(ImDrawList& list, const ImVec2& from, const ImVec2& to, float wid
 class Drawing {
  public:
   Drawing(ImDrawList& list, const Shapes& shapes, const OverlayFrame& frame,
-          const std::optional<ImVec2>& cursor, uint64_t highlighted)
+          const std::optional<ImVec2>& cursor, const Highlights& highlighted)
       : list_(list), shapes_(shapes), frame_(frame), nearest_(cursor), highlighted_(highlighted) {}
 
   void line(const LineShape& line) {
     const bool wide = is_highlighted(shapes_, line.row, highlighted_);
     const float width = line.width_px * (wide ? highlighted_px : 1.0f);
-    for (const apps::Stretch& stretch : visible(line)) {
+    const auto draw = [&](const apps::Stretch& stretch) {
       const ImVec2 a = window(stretch.a), b = window(stretch.b);
       list_.AddLine(a, b, packed(line.color, stretch.hidden ? faint : 255), width);
       nearest_.line(line.row, a, b);
-    }
+    };
+    if (const std::optional<apps::Stretch> whole = short_stretch(line))
+      draw(*whole);
+    else
+      for (const apps::Stretch& stretch : visible(line)) draw(stretch);
     if (!line.arrow) return;
     const dvec3 from = frame_.place(line.a), to = frame_.place(line.b);
     if (from.z > 0.0 && to.z > 0.0)
@@ -115,6 +120,25 @@ class Drawing {
     nearest_.point(point.row, at);
   }
 
+  void rectangle(const PictureShape& shape) {
+    const double scale = frame_.size.x / shapes_.picture_width;
+    const auto at = [&](const dvec2& pixel) {
+      return ImVec2(static_cast<float>(frame_.corner.x + scale * pixel.x),
+                    static_cast<float>(frame_.corner.y + scale * pixel.y));
+    };
+    const ImVec2 low = at(shape.low), high = at(shape.high);
+    if (shape.filled) {
+      list_.AddRectFilled(low, high, packed(shape.color));
+      return;
+    }
+    const bool wide = is_highlighted(shapes_, shape.row, highlighted_);
+    list_.AddRect(low, high, packed(shape.color), 0.0f, 0, wide ? 3.0f : 1.5f);
+    nearest_.line(shape.row, low, {high.x, low.y});
+    nearest_.line(shape.row, {high.x, low.y}, high);
+    nearest_.line(shape.row, high, {low.x, high.y});
+    nearest_.line(shape.row, {low.x, high.y}, low);
+  }
+
   void label(const LabelShape& label) {
     const dvec3 place = frame_.view.project(label.at - frame_.origin);
     if (place.z <= 0.0) return;
@@ -135,6 +159,19 @@ class Drawing {
     const size_t pixel = static_cast<size_t>(place.y) * frame_.view.width + static_cast<size_t>(place.x);
     return apps::is_hidden(place.z, frame_.depth[pixel]);
   }
+  /// A line of a few pixels, hidden or visible as its middle is: meshes and outlines have thousands of them,
+  /// and looking along each one costs ten times as much.
+  std::optional<apps::Stretch> short_stretch(const LineShape& line) const {
+    constexpr double short_px = 8.0;
+    const dvec3 a = frame_.view.project(line.a - frame_.origin),
+                b = frame_.view.project(line.b - frame_.origin);
+    if (a.z <= frame_.view.near_m || b.z <= frame_.view.near_m) return {};
+    if (glm::distance(dvec2(a), dvec2(b)) > short_px) return {};
+    const dvec3 middle = 0.5 * (a + b);
+    if (middle.x < 0.0 || middle.y < 0.0 || middle.x >= frame_.view.width || middle.y >= frame_.view.height)
+      return {};
+    return apps::Stretch{dvec2(a), dvec2(b), !line.always && is_hidden(middle)};
+  }
   std::vector<apps::Stretch> visible(const LineShape& line) const {
     std::vector<apps::Stretch> stretches =
         apps::stretches_of(frame_.view, frame_.depth, line.a - frame_.origin, line.b - frame_.origin);
@@ -147,7 +184,7 @@ class Drawing {
   const Shapes& shapes_;
   const OverlayFrame& frame_;
   Nearest nearest_;
-  uint64_t highlighted_;
+  Highlights highlighted_;
 };
 
 }  // namespace
@@ -165,8 +202,11 @@ dvec3 OverlayFrame::place(const dvec3& world) const {
 }
 
 std::optional<OverlayHit> draw_shapes(ImDrawList& list, const Shapes& shapes, const OverlayFrame& frame,
-                                      const std::optional<ImVec2>& cursor, uint64_t highlighted) {
-  Drawing drawing(list, shapes, frame, cursor, highlighted);
+                                      const std::optional<ImVec2>& cursor, const Highlights& highlights,
+                                      bool through_camera) {
+  Drawing drawing(list, shapes, frame, cursor, highlights);
+  if (through_camera && shapes.picture_width > 0.0)
+    for (const PictureShape& shape : shapes.picture) drawing.rectangle(shape);
   if (cursor)  // dots are in the picture already; the nearest one is looked for
     for (const PointShape& point : shapes.points)
       if (point.mark == PointShape::Mark::dot) drawing.point(point);

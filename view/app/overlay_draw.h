@@ -34,10 +34,16 @@ struct OverlayHit {
   double distance_px = 0.0;  ///< from the cursor
 };
 
-/// Draws `shapes` without their dots, which paint_dots() draws. Those of the row whose id is `highlighted`
-/// (0: none) are drawn wide. Returns the row under `cursor`, within a few pixels.
+/// The ids of rows that are drawn wide; 0: none.
+struct Highlights {
+  uint64_t hovered = 0, pinned = 0;
+};
+
+/// Draws `shapes` without their dots, which paint_dots() draws; their rectangles of a picture only if
+/// `through_camera`. Returns the row under `cursor`, within a few pixels.
 std::optional<OverlayHit> draw_shapes(ImDrawList& list, const Shapes& shapes, const OverlayFrame& frame,
-                                      const std::optional<ImVec2>& cursor, uint64_t highlighted);
+                                      const std::optional<ImVec2>& cursor, const Highlights& highlights,
+                                      bool through_camera);
 
 /// Returns the distance of `p` from the line between `a` and `b`, pixels.
 double distance_to_line(const ImVec2& p, const ImVec2& a, const ImVec2& b);

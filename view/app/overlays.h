@@ -6,12 +6,15 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/dataset/dataset_format.h"
 #include "view/overlay/box_shapes.h"
 #include "view/overlay/path_shapes.h"
+#include "view/overlay/path_story.h"
+#include "view/overlay/picture_shapes.h"
 #include "view/overlay/record_tables.h"
 #include "view/overlay/sensing_shapes.h"
 #include "view/overlay/sensor_shapes.h"
@@ -23,12 +26,16 @@ namespace greatx::view {
 /// The switches and settings of all overlays.
 struct OverlaySettings {
   bool paths = true, lidar = false, radar = true, boxes = false, trajectories = true, sensors = true;
+  bool events = false;  ///< over the picture of an event camera
   PathOptions path;
   LidarOptions cloud;
   RadarOptions detections;
   TrajectoryOptions trajectory;
   SensorOptions sensor;
   BoxOptions box;
+  BoxRectangle rectangle = BoxRectangle::visible;
+  EventOptions event;
+  std::string camera;  ///< "node/sensor" that one looks through; empty: none
   /// Of the channel whose paths are drawn: its place among the sensors of kind csi.
   size_t channel = 0;
   /// Changes whenever a setting changes; whoever changes one counts it up.
@@ -48,6 +55,13 @@ class Overlays {
   const Shapes& shapes() const { return shapes_; }
   /// Counts how often shapes() has made them again.
   uint64_t made() const { return made_; }
+  /// The path of the chosen channel with this identity of its row; none if the tick has no such path. Throws
+  /// UserError if its record is damaged.
+  std::optional<PathStory> story(const ShownTick& tick, uint64_t row_id) const;
+  /// The row of the `rank`-th path of the chosen channel, 1 being the strongest; 0: there are fewer.
+  uint64_t path_of_rank(const std::shared_ptr<const ShownTick>& tick, size_t rank);
+  /// Looks through a camera from now on; empty: through none.
+  void look_through(const std::string& camera);
   /// The message of an overlay that could not be made; empty if all could.
   const std::string& error() const { return error_; }
   /// Wall time of the last making, ms.
@@ -58,6 +72,8 @@ class Overlays {
  private:
   void make(const ShownTick& tick);
   void add_sensors(const ShownTick& tick, const NodePoses* poses);
+  void add_boxes(const ShownTick& tick, const NodePoses* poses);
+  void add_picture(const ShownTick& tick);
   const Record* newest(const ShownTick& tick, size_t sensor) const;
 
   std::shared_ptr<const io::DatasetInfo> info_;

@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "draw/paths/facts.h"
+#include "view/app/overlay_panel.h"
 
 namespace greatx::view {
 
@@ -47,7 +48,8 @@ double SidePanel::carrier_hz(ShownRun& run) const {
   return default_carrier_hz;
 }
 
-void SidePanel::draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view, EditSession& session) {
+void SidePanel::draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view, EditSession& session,
+                     WorldOverlays& world) {
   keep_times(main);
   grid_.keep(runs);
   if (!ImGui::BeginTabBar("side tabs")) return;
@@ -62,15 +64,17 @@ void SidePanel::draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& 
   };
   tab("Sensors", [&] { grid_.draw(runs); });
   tab("Picked", [&] { draw_picked(main, view, session); });
-  tab("Paths", [&] { draw_paths(main, view); });
+  tab("Paths", [&] { draw_paths(main, view, world); });
+  tab("Overlays", [&] { draw_overlay_settings(main.overlays(), world, main.run().shown().get()); });
   tab("Effects", [&] { draw_effects(main, session); });
   tab("Edit", [&] { draw_edit(main, session); });
-  tab("Times", [&] { draw_times(main, view); });
+  tab("Times", [&] { draw_times(main, view, world); });
   ImGui::EndTabBar();
 }
 
 void SidePanel::open_tab(const std::string& name) {
-  static constexpr std::string_view tabs[] = {"Sensors", "Picked", "Paths", "Effects", "Edit", "Times"};
+  static constexpr std::string_view tabs[] = {"Sensors", "Picked", "Paths", "Overlays",
+                                              "Effects", "Edit",   "Times"};
   const auto same = [&](std::string_view tab) {
     return std::ranges::equal(
         tab, name, {}, [](char c) { return std::tolower(static_cast<unsigned char>(c)); },
@@ -120,23 +124,42 @@ void SidePanel::draw_filter(ShownRun& run) {
   if (changed) ++settings.version;
 }
 
-void SidePanel::draw_paths(ShownRun& run, MainView& view) {
+/// Why the pinned path is there.
+void SidePanel::draw_pinned(ShownRun& run, MainView& view, WorldOverlays& world) {
+  const std::shared_ptr<const ShownTick> tick = run.run().shown();
+  if (view.pinned_id() == 0 || tick == nullptr) {
+    ImGui::TextDisabled("Click at a path, or at its row, to see why it is there.");
+    return;
+  }
+  std::optional<PathStory> story = run.overlays()->story(*tick, view.pinned_id());
+  if (story) {
+    world.explain(*story, *tick, run.overlays()->settings().channel);
+    draw_story(*story);
+  } else {
+    ImGui::TextWrapped("The pinned path is not there at this tick.");
+  }
+  if (ImGui::SmallButton("unpin")) view.pin(0);
+}
+
+void SidePanel::draw_paths(ShownRun& run, MainView& view, WorldOverlays& world) {
   if (run.overlays() == nullptr || run.overlays()->sensors_of("csi").empty()) {
     ImGui::TextWrapped("This run has no channel.");
     return;
   }
+  draw_pinned(run, view, world);
+  ImGui::Separator();
   draw_filter(run);
   ImGui::Separator();
   const Shapes& shapes = run.overlays()->shapes();  // as the main view shows them
   std::vector<bool> listed(shapes.rows.size(), false);
   for (const LineShape& line : shapes.lines) {
-    if (line.row == ~0u || listed[line.row] || shapes.rows[line.row].id == 0) continue;
+    if (line.row == ~0u || listed[line.row] || !shapes.rows[line.row].is_path) continue;
     listed[line.row] = true;
     const ShapeRow& row = shapes.rows[line.row];
-    const bool chosen = view.hovered_id() == row.id;
+    const bool chosen = view.hovered_id() == row.id || view.pinned_id() == row.id;
     ImGui::PushID(static_cast<int>(line.row));
     ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(line.color.r, line.color.g, line.color.b, 255));
-    ImGui::Selectable(printable(first_line(row.text)).c_str(), chosen);
+    if (ImGui::Selectable(printable(first_line(row.text)).c_str(), chosen)) view.pin(row.id);
     ImGui::PopStyleColor();
     if (ImGui::IsItemHovered()) {
       view.highlight(row.id);
@@ -191,7 +214,7 @@ void SidePanel::keep_times(ShownRun& run) {
   if (tick_ms_.size() > most_times) tick_ms_.pop_front();
 }
 
-void SidePanel::draw_times(ShownRun& run, const MainView& view) {
+void SidePanel::draw_times(ShownRun& run, const MainView& view, const WorldOverlays& world) {
   const RunStatus status = run.run().status();
   const std::vector<float> times(tick_ms_.begin(), tick_ms_.end());
   if (!times.empty()) {
@@ -207,6 +230,9 @@ void SidePanel::draw_times(ShownRun& run, const MainView& view) {
               {"reached", fmt::format("{:.2f} x real time", status.reached)},
               {"picture of the scene", fmt::format("{:.1f} ms", view.picture_ms())},
               {"overlays", fmt::format("{:.2f} ms", run.overlays() ? run.overlays()->milliseconds() : 0.0)},
+              {"facets, wedges, ways", fmt::format("{:.2f} ms", world.milliseconds())},
+              {"overlays, drawn", fmt::format("{:.2f} ms", view.overlay_ms())},
+              {"map, painted", fmt::format("{:.2f} ms", view.paint_ms())},
               {"panels", fmt::format("{:.2f} ms", grid_.milliseconds())}});
 }
 

@@ -14,6 +14,7 @@
 #include "view/app/main_view.h"
 #include "view/app/panel_grid.h"
 #include "view/app/shown_run.h"
+#include "view/app/world_overlays.h"
 
 namespace greatx::view {
 
@@ -21,7 +22,8 @@ class SidePanel {
  public:
   explicit SidePanel(Window& window) : grid_(window) {}
   /// Draws into the current ImGui window. `main` is the run that the main view shows.
-  void draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view, EditSession& session);
+  void draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view, EditSession& session,
+            WorldOverlays& world);
   PanelGrid& grid() { return grid_; }
   /// Brings a tab to the front in the next frame. Throws UserError if there is none of this name.
   void open_tab(const std::string& name);
@@ -31,10 +33,11 @@ class SidePanel {
  private:
   void draw_picked(ShownRun& run, MainView& view, EditSession& session);
   void draw_edit(ShownRun& run, EditSession& session);
-  void draw_paths(ShownRun& run, MainView& view);
+  void draw_paths(ShownRun& run, MainView& view, WorldOverlays& world);
+  void draw_pinned(ShownRun& run, MainView& view, WorldOverlays& world);
   void draw_filter(ShownRun& run);
   void draw_effects(ShownRun& run, EditSession& session);
-  void draw_times(ShownRun& run, const MainView& view);
+  void draw_times(ShownRun& run, const MainView& view, const WorldOverlays& world);
   void keep_times(ShownRun& run);
 
   PanelGrid grid_;

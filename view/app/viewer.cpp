@@ -23,6 +23,8 @@
 #include "view/app/shown_run.h"
 #include "view/app/side_panel.h"
 #include "view/app/timeline.h"
+#include "view/app/world_overlays.h"
+#include "view/overlay/tube_shapes.h"
 
 namespace greatx::view {
 
@@ -41,6 +43,7 @@ class Viewer {
         window_(Window::open(options.window)),
         edit_(options),
         main_(*window_),
+        world_(options.device),
         side_(*window_) {
     if (options.datasets.empty())
       runs_.push_back(ShownRun::live(options));
@@ -87,6 +90,7 @@ class Viewer {
     wait.most_s = options_.longest_wait_s;
     if (!options_.script.empty()) wait.most_s = std::min(wait.most_s, scripted_wait_s);
     if (main_.awaits()) wait.input_after_s = awaiting_input_s;
+    if (!world_.idle()) wait.most_s = std::min(wait.most_s, scripted_wait_s);
     wait.news = [this] { return has_news(); };
     return wait;
   }
@@ -120,6 +124,7 @@ class Viewer {
   void show_scene(const std::shared_ptr<const sim::Experiment>& experiment) {
     auto scene = std::make_unique<SceneView>(experiment, options_.device);
     edit_.disposer().drop(main_.set_scene(experiment, std::move(scene)));
+    world_.set(experiment);
     commands_.remove("camera ");
     commands_.remove("follow ");
     add_camera_commands(*experiment);
@@ -163,14 +168,43 @@ class Viewer {
     Overlays* const overlays = shown().overlays();
     // Overlays follow with the picture of their tick: both fit, and the scene is drawn once for each tick.
     if (tick == nullptr || main_.has_picture_of(*tick)) overlaid_ = tick;
+    if (overlays != nullptr) overlays->look_through(camera_name());
     const Shapes& shapes = overlays != nullptr ? overlays->shapes(overlaid_) : none;
     static const ShownTick start;  // so that the scene is there before its first tick
     if (main_.has_scene())
       main_.draw(tick != nullptr ? *tick : start, shapes, overlays != nullptr ? overlays->made() : 0,
+                 overlaid_ != nullptr ? world_shapes(*overlaid_) : none, world_.paint(),
                  shown().run().status().playing);
     if (tick == nullptr) draw_progress();
     draw_errors();
     ImGui::End();
+  }
+
+  size_t chosen_channel() { return shown().overlays() ? shown().overlays()->settings().channel : 0; }
+
+  /// "node/sensor" of the camera that the main view looks through; empty: none.
+  std::string camera_name() {
+    if (!main_.camera() || shown().experiment() == nullptr) return {};
+    const sim::NodeConfig& node = shown().experiment()->scenario.nodes[main_.camera()->node];
+    return node.name + "/" + node.sensors[main_.camera()->sensor].name;
+  }
+
+  std::optional<PathStory> pinned_story(const ShownTick& tick) {
+    if (main_.pinned_id() == 0 || shown().overlays() == nullptr) return {};
+    std::optional<PathStory> story = shown().overlays()->story(tick, main_.pinned_id());
+    if (story) world_.explain(*story, tick, chosen_channel());
+    return story;
+  }
+
+  /// What the experiment gives, and the tube of the pinned path.
+  const Shapes& world_shapes(const ShownTick& tick) {
+    const Shapes& world = world_.shapes(tick, main_.focus(), chosen_channel());
+    if (!world_.settings().tubes) return world;
+    const std::optional<PathStory> story = pinned_story(tick);
+    if (!story) return world;
+    with_tube_ = world;
+    with_tube_.append(fresnel_shapes(*story));
+    return with_tube_;
   }
 
   void draw_progress() {
@@ -190,6 +224,7 @@ class Viewer {
   void draw_errors() {
     std::vector<std::string> errors{shown().run().status().error, shown().scene_error(), main_.error()};
     if (const Overlays* const overlays = shown().overlays()) errors.push_back(overlays->error());
+    errors.push_back(world_.error());
     errors.push_back(command_error_);
     errors.push_back(edit_.error());
     errors.push_back(gizmo_.error());
@@ -213,7 +248,7 @@ class Viewer {
     ImGui::Begin("side", nullptr, fixed_window);
     std::vector<ShownRun*> runs;
     for (const std::unique_ptr<ShownRun>& run : runs_) runs.push_back(run.get());
-    side_.draw(runs, shown(), main_, edit_);
+    side_.draw(runs, shown(), main_, edit_, world_);
     ImGui::End();
   }
 
@@ -306,6 +341,7 @@ class Viewer {
                    {}});
     add_switch(commands_, "side", "View", "Panels", "tab", side_open_);
     add_overlay_commands();
+    add_world_commands();
     add_switch(commands_, "help", "Help", "Keys and mouse", "F1", help_open_);
   }
 
@@ -361,12 +397,99 @@ class Viewer {
         {"show.radar", "Radar detections", "3", &OverlaySettings::radar},
         {"show.boxes", "Boxes of objects", "4", &OverlaySettings::boxes},
         {"show.trajectories", "Trajectories", "5", &OverlaySettings::trajectories},
-        {"show.sensors", "Sensors and antennas", "6", &OverlaySettings::sensors}};
+        {"show.sensors", "Sensors and antennas", "6", &OverlaySettings::sensors},
+        {"show.events", "Events of a camera", "7", &OverlaySettings::events}};
     for (const Switch& s : switches)
       commands_.add({s.name, "Show", s.label, s.key,
                      [this, s](const std::string& argument) { switch_overlay(s.name, s.value, argument); },
                      [this, s] { return shown().overlays() && shown().overlays()->settings().*s.value; },
                      [this] { return shown().overlays() != nullptr; }});
+  }
+
+  /// Overlays of the experiment.
+  void add_world_commands() {
+    WorldSettings& s = world_.settings();
+    const auto add = [&](const char* name, const char* label, const char* key, bool& value) {
+      add_switch(commands_, name, "Show", label, key, value);
+      count_changes(commands_, s.version);
+    };
+    add("show.ways", "Whole ways of the nodes", "8", s.courses);
+    add("show.facets", "Facets of radio", "9", s.facets);
+    add("show.wedges", "Wedges that diffract", "0", s.wedges);
+    add("show.map", "Radio map", "", s.map);
+    add("show.tubes", "Fresnel zone of the pinned path", "", s.tubes);
+    add_choices();
+    const auto is_there = [this] { return shown().experiment() != nullptr && shown().run().shown(); };
+    commands_.add({"map",
+                   "Run",
+                   "Compute a radio map of this tick",
+                   "",
+                   [this](const std::string& argument) { compute_map(argument); },
+                   {},
+                   is_there});
+    commands_.add({"pin",
+                   "View",
+                   "Pin the strongest path",
+                   "",
+                   [this](const std::string& rank) { pin_path(rank); },
+                   {},
+                   is_there});
+  }
+
+  /// Colours by name; without a name, the next ones.
+  void add_choices() {
+    commands_.add(
+        {"lidar.colors",
+         "Show",
+         "LiDAR points: other colours",
+         "",
+         [this](const std::string& name) {
+           if (shown().overlays() == nullptr) return;
+           OverlaySettings& s = shown().overlays()->settings();
+           choose("lidar.colors", name, {"height", "intensity", "ring", "instance"}, s.cloud.colors);
+           ++s.version;
+         },
+         {},
+         {}});
+    commands_.add({"facets.colors",
+                   "Show",
+                   "Facets: other colours",
+                   "",
+                   [this](const std::string& name) {
+                     WorldSettings& s = world_.settings();
+                     choose("facets.colors", name, {"kind", "material"}, s.radio.colors);
+                     ++s.version;
+                   },
+                   {},
+                   {}});
+    commands_.add({"show.cells",
+                   "Show",
+                   "Resolution cells of detections",
+                   "",
+                   [this](const std::string& argument) {
+                     if (!argument.empty() && argument != "on" && argument != "off")
+                       throw_user_error("show.cells: expected on or off, found '{}'", printable(argument));
+                     if (shown().overlays() == nullptr) return;
+                     OverlaySettings& s = shown().overlays()->settings();
+                     s.detections.cells = argument.empty() ? !s.detections.cells : argument == "on";
+                     ++s.version;
+                   },
+                   [this] { return shown().overlays() && shown().overlays()->settings().detections.cells; },
+                   {}});
+  }
+
+  void compute_map(const std::string& words) {
+    parse_map_words(words, world_.settings());
+    world_.compute_map(*shown().run().shown(), chosen_channel());
+  }
+  void pin_path(const std::string& rank) {
+    if (rank == "off") return main_.pin(0);
+    const auto number = parse_number(rank.empty() ? "1" : rank);
+    if (!number || *number < 1.0 || *number != std::floor(*number))
+      throw_user_error("pin: expected 1 for the strongest path, 2 for the next, or off, found '{}'",
+                       printable(rank));
+    if (shown().overlays() == nullptr) return;
+    main_.pin(shown().overlays()->path_of_rank(shown().run().shown(), static_cast<size_t>(*number)));
   }
 
   void switch_overlay(const std::string& name, bool OverlaySettings::*value, const std::string& argument) {
@@ -439,7 +562,9 @@ class Viewer {
           return status.phase == RunStatus::Phase::failed ||
                  (status.phase == RunStatus::Phase::ready && shown().run().shown() != nullptr);
         },
-        [this] { return main_.settled() && drawn_ != nullptr; },
+        [this] {
+          return main_.settled() && world_.idle() && drawn_ != nullptr && drawn_ == shown().run().shown();
+        },
         [this] { return shown().run().status().tick; },
         [this](const InputEvent& event) { window_->inject(event); },
         [this](const std::string& command, const std::string& argument) { commands_.run(command, argument); },
@@ -469,6 +594,8 @@ class Viewer {
       if (!main_.picked()) std::cout << "nothing\n";
     } else if (fact == "hovered") {
       std::cout << fmt::format("{:016x}\n", main_.hovered_id());
+    } else if (fact == "path") {
+      print_path();
     } else if (fact == "scenario") {
       std::cout << (edit_.document() != nullptr ? edit_.document()->text() : "none\n");
     } else if (fact == "command") {
@@ -479,10 +606,20 @@ class Viewer {
       print_comparison();
     } else {
       throw_user_error(
-          "print: expected tick, error, picked, hovered, scenario, command, handle or comparison, found '{}'",
+          "print: expected tick, error, picked, hovered, path, scenario, command, handle or comparison, "
+          "found "
+          "'{}'",
           printable(fact));
     }
     std::cout.flush();
+  }
+
+  void print_path() {
+    const std::shared_ptr<const ShownTick> tick = shown().run().shown();
+    const std::optional<PathStory> story = tick ? pinned_story(*tick) : std::nullopt;
+    if (!story) std::cout << "nothing\n";
+    if (story)
+      for (const std::string& line : words_of(*story)) std::cout << line << '\n';
   }
 
   void print_comparison() {
@@ -508,6 +645,8 @@ class Viewer {
   std::shared_ptr<const ShownTick> drawn_;     ///< in the last frame
   std::shared_ptr<const ShownTick> overlaid_;  ///< of the overlays
   MainView main_;
+  WorldOverlays world_;
+  Shapes with_tube_;
   SidePanel side_;
   Commands commands_;
   bool side_open_ = true, help_open_ = false, quit_ = false;

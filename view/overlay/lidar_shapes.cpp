@@ -73,19 +73,44 @@ std::vector<dvec3> placed_points(const RecordArrays& record, const RecordTables&
 }
 
 void add_scale(Shapes& shapes, double low, double high, const char* format_unit, int digits) {
-  for (const double share : {1.0, 0.5, 0.0})
-    shapes.legend.emplace_back(fmt::format("{:.{}f}{}", low + share * (high - low), digits, format_unit),
-                               cloud_color(share));
+  for (const double share : {1.0, 0.5, 0.0}) {
+    const double unit = std::pow(10.0, -digits), value = low + share * (high - low);
+    // Without "-0.0".
+    shapes.legend.emplace_back(
+        fmt::format("{:.{}f}{}", std::round(value / unit) * unit + 0.0, digits, format_unit),
+        cloud_color(share));
+  }
+}
+
+/// The objects with most returns: more names would hide the picture.
+void add_object_legend(Shapes& shapes, const RecordTables& tables, std::span<const uint32_t> ids) {
+  constexpr size_t most_objects = 8;
+  std::unordered_map<uint32_t, size_t> counts;
+  for (const uint32_t id : ids) ++counts[id];
+  std::vector<std::pair<size_t, uint32_t>> order;
+  for (const auto& [id, count] : counts) order.emplace_back(count, id);
+  std::ranges::sort(order, [](const auto& a, const auto& b) {
+    return a.first > b.first || (a.first == b.first && a.second < b.second);
+  });
+  for (size_t i = 0; i < std::min(order.size(), most_objects); ++i)
+    shapes.legend.emplace_back(
+        fmt::format("{} ({} returns)",
+                    order[i].second == 0 ? std::string("fog or rain") : tables.instance_name(order[i].second),
+                    order[i].first),
+        io::color_of_id(order[i].second));
+  if (order.size() > most_objects) shapes.note(fmt::format("{} more objects", order.size() - most_objects));
 }
 
 /// What each point shown is coloured by, and the legend of it.
-std::vector<io::Color> point_colors(Shapes& shapes, const RecordArrays& record, LidarColors by,
-                                    const std::vector<dvec3>& points, size_t stride, int64_t count) {
+std::vector<io::Color> point_colors(Shapes& shapes, const RecordArrays& record, const RecordTables& tables,
+                                    LidarColors by, const std::vector<dvec3>& points, size_t stride,
+                                    int64_t count) {
   std::vector<io::Color> colors;
   colors.reserve(points.size());
   if (by == LidarColors::instance) {
     const std::span<const uint32_t> ids = record.get<uint32_t>("instance", {count});
     for (size_t i = 0; i < ids.size(); i += stride) colors.push_back(io::color_of_id(ids[i]));
+    add_object_legend(shapes, tables, ids);
     return colors;
   }
   std::vector<float> values;
@@ -173,7 +198,8 @@ Shapes lidar_shapes(const RecordTables& tables, const SensorSpec& spec, const Re
   shapes.note(stride == 1
                   ? fmt::format("{}: {} points", spec.name, total)
                   : fmt::format("{}: {} of {} points, one in {}", spec.name, points.size(), total, stride));
-  const std::vector<io::Color> colors = point_colors(shapes, arrays, options.colors, points, stride, count);
+  const std::vector<io::Color> colors =
+      point_colors(shapes, arrays, tables, options.colors, points, stride, count);
   const std::vector<uint32_t> rows = object_rows(shapes, arrays, tables, spec.name, stride, count);
   shapes.points.reserve(points.size());
   for (size_t i = 0; i < points.size(); ++i)

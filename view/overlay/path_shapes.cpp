@@ -13,6 +13,7 @@
 
 #include "core/text.h"
 #include "core/units.h"
+#include "view/overlay/path_records.h"
 #include "view/overlay/record_arrays.h"
 #include "view/overlay/shape_parts.h"
 
@@ -26,82 +27,12 @@ using rf::InteractionType;
 constexpr io::Color transmitter_color{255, 92, 92}, receiver_color{96, 200, 255};
 constexpr size_t most_end_names = 12;  // more would hide the picture
 
-/// The arrays of the paths of a record, [paths, ...].
-struct PathArrays {
-  int64_t count = 0, depth = 0;
-  std::span<const int32_t> rx, tx;
-  std::span<const uint64_t> id;
-  std::span<const double> delay, doppler, departure, arrival, vertex;
-  std::span<const std::complex<float>> transfer;
-  std::span<const uint8_t> interaction;
-  std::span<const uint32_t> object, material;
-};
-
 struct ShownPath {
   size_t number = 0;  ///< in the record
   rf::Path path;      ///< what the record says of it; vertices in the world
   double gain_db = 0.0;
   bool shown = true;
 };
-
-PathArrays path_arrays(const RecordArrays& record, const SensorSpec& spec) {
-  PathArrays paths;
-  const int64_t n = paths.count = record.rows("id");
-  const auto declared = std::ranges::find(spec.arrays, "interaction", &ArraySpec::name);
-  if (declared == spec.arrays.end() || declared->shape.size() != 2 || declared->shape[1] < 1)
-    record.fail("interaction", "|u1 [n, depth]", declared == spec.arrays.end() ? "none" : "another shape");
-  const int64_t depth = paths.depth = declared->shape[1];
-  paths.id = record.get<uint64_t>("id", {n});
-  paths.rx = record.get<int32_t>("rx", {n});
-  paths.tx = record.get<int32_t>("tx", {n});
-  paths.delay = record.finite<double>("delay", {n});
-  paths.doppler = record.finite<double>("doppler", {n});
-  paths.departure = record.finite<double>("departure", {n, 2});
-  paths.arrival = record.finite<double>("arrival", {n, 2});
-  paths.transfer = record.get<std::complex<float>>("transfer", {n, 2, 2});
-  paths.interaction = record.get<uint8_t>("interaction", {n, depth});
-  paths.vertex = record.get<double>("vertex", {n, depth, 3});
-  paths.object = record.get<uint32_t>("object", {n, depth});
-  paths.material = record.get<uint32_t>("object_material", {n, depth});
-  return paths;
-}
-
-/// (zenith, azimuth) as a direction.
-dvec3 direction_of(std::span<const double> angles) {
-  return {std::sin(angles[0]) * std::cos(angles[1]), std::sin(angles[0]) * std::sin(angles[1]),
-          std::cos(angles[0])};
-}
-
-/// Path `i` without its ends.
-rf::Path path_of(const RecordArrays& record, const PathArrays& arrays, size_t i) {
-  rf::Path path;
-  path.delay_s = arrays.delay[i];
-  path.length_m = path.delay_s * speed_of_light;
-  path.doppler_hz = arrays.doppler[i];
-  path.departure = direction_of(arrays.departure.subspan(2 * i, 2));
-  path.arrival = direction_of(arrays.arrival.subspan(2 * i, 2));
-  for (size_t k = 0; k < 4; ++k) {
-    const std::complex<float> t = arrays.transfer[4 * i + k];
-    if (!std::isfinite(t.real()) || !std::isfinite(t.imag()))
-      record.fail("transfer", "finite values", fmt::format("({}, {}) in row {}", t.real(), t.imag(), i));
-    path.transfer[k] = rf::Complex(t);
-  }
-  const auto depth = static_cast<size_t>(arrays.depth);
-  for (size_t k = 0; k < depth; ++k) {
-    const uint8_t type = arrays.interaction[i * depth + k];
-    if (type == 0) break;
-    if (type >= apps::path_kinds.size())
-      record.fail("interaction", "0 to 4", fmt::format("{} in row {}", type, i));
-    const double* const v = arrays.vertex.data() + 3 * (i * depth + k);
-    const dvec3 vertex(v[0], v[1], v[2]);
-    if (!std::isfinite(vertex.x) || !std::isfinite(vertex.y) || !std::isfinite(vertex.z))
-      record.fail("vertex", "a place of every interaction",
-                  fmt::format("({}, {}, {}) in row {}", vertex.x, vertex.y, vertex.z, i));
-    path.interactions.push_back({static_cast<InteractionType>(type)});
-    path.vertices.push_back(vertex);
-  }
-  return path;
-}
 
 PointShape::Mark mark_of(InteractionType type) {
   switch (type) {
@@ -131,10 +62,11 @@ std::string text_of(const ShownPath& shown, const PathArrays& arrays, const Reco
   const size_t i = shown.number, depth = static_cast<size_t>(arrays.depth);
   const rf::Path& path = shown.path;
   std::string text = fmt::format(
-      "{} ({}), {} interaction{}\nid {}\nfrom {} to {}\nlength {:.3f} m, delay {:.3f} ns\n"
+      "{} ({}), {} interaction{}, {:.1f} dB, {:.1f} m\nid {}\nfrom {} to {}\nlength {:.3f} m, delay {:.3f} "
+      "ns\n"
       "gain {}, phase {:.2f} deg\ndeparture: {}\narrival: {}\nDoppler {:.3f} Hz",
       apps::chain_of(path), apps::kind_name(apps::kind_of(path)), path.interactions.size(),
-      path.interactions.size() == 1 ? "" : "s", apps::id_text(arrays.id[i]),
+      path.interactions.size() == 1 ? "" : "s", shown.gain_db, path.length_m, apps::id_text(arrays.id[i]),
       printable(channel.transmitters[static_cast<size_t>(arrays.tx[i])].place.name),
       printable(channel.receivers[static_cast<size_t>(arrays.rx[i])].place.name), path.length_m,
       1e9 * path.delay_s, decibels_of(shown.gain_db),
@@ -146,17 +78,6 @@ std::string text_of(const ShownPath& shown, const PathArrays& arrays, const Reco
                         tables.instance_name(arrays.object[i * depth + k]),
                         tables.material_name(arrays.material[i * depth + k]));
   return text;
-}
-
-/// Where the ends are; nothing where the run does not say.
-std::vector<std::optional<dvec3>> positions_of(const std::vector<AntennaFacts>& ends,
-                                               const NodePoses& poses) {
-  std::vector<std::optional<dvec3>> positions;
-  for (const AntennaFacts& end : ends) {
-    const std::optional<Pose> pose = poses.world_from(end.place);
-    positions.push_back(pose ? std::optional(pose->position) : std::nullopt);
-  }
-  return positions;
 }
 
 void add_gain_legend(Shapes& shapes, const GainScale& scale) {
@@ -288,6 +209,7 @@ class PathDrawing {
                       static_cast<uint64_t>(arrays_.tx[shown.number]);
     const uint32_t row = shapes.add_row(text_of(shown, arrays_, tables_, channel_),
                                         path_row_id(arrays_.id[shown.number], link));
+    shapes.rows[row].is_path = true;
     const auto width = static_cast<float>(1.2 + 1.8 * scale_.at(shown.gain_db));
     for (size_t k = 0; k + 1 < path.vertices.size(); ++k)
       shapes.lines.push_back({path.vertices[k], path.vertices[k + 1], color, width, row});
@@ -325,10 +247,6 @@ class PathDrawing {
 };
 
 }  // namespace
-
-uint64_t path_row_id(uint64_t id, uint64_t link) {
-  return link == 0 ? id : id ^ (link * 0x9e3779b97f4a7c15u);  // 2^64 over the golden ratio: odd
-}
 
 Shapes path_shapes(const RecordTables& tables, const SensorSpec& spec, const Record& record,
                    const NodePoses* poses, const PathOptions& options) {

@@ -12,6 +12,7 @@
 #include "core/record.h"
 #include "draw/paths/draw.h"
 #include "draw/paths/facts.h"
+#include "view/overlay/path_records.h"
 #include "view/overlay/record_tables.h"
 #include "view/overlay/shapes.h"
 
@@ -44,10 +45,5 @@ struct PathOptions {
 /// why. Throws UserError if an array is not as docs/dataset.md has it.
 Shapes path_shapes(const RecordTables& tables, const SensorSpec& spec, const Record& record,
                    const NodePoses* poses, const PathOptions& options);
-
-/// The path's identity in the record, where the link is the channel's first one; otherwise mixed with the
-/// link's number (receiver * transmitters + transmitter), because equal interactions of different links have
-/// equal identities.
-uint64_t path_row_id(uint64_t id, uint64_t link);
 
 }  // namespace greatx::view

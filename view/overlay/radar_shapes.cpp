@@ -60,6 +60,49 @@ void add_fan(Shapes& shapes, const SensorSpec& spec, const RadarFacts& facts, co
   }
 }
 
+/// A piece of the shell between two ranges, from the radar as the detection sees it. A beam of no width is
+/// a line there.
+struct RadarCell {
+  double range_m = 0.0, azimuth = 0.0, elevation = 0.0;
+  double range_bin_m = 0.0, azimuth_beam = 0.0, elevation_beam = 0.0;
+};
+
+void add_cell(Shapes& shapes, const Pose& world_from_sensor, const RadarCell& cell, io::Color color,
+              uint32_t row) {
+  constexpr int pieces = 4;                            // of a curved edge
+  const auto at = [&](double u, double v, double w) {  // -0.5 to 0.5 in range, azimuth, elevation
+    const double range_m = std::max(0.0, cell.range_m + u * cell.range_bin_m);
+    const double azimuth = cell.azimuth + v * cell.azimuth_beam,
+                 elevation = std::clamp(cell.elevation + w * cell.elevation_beam, -0.5 * pi, 0.5 * pi);
+    return world_from_sensor.apply(range_m * dvec3(std::cos(elevation) * std::cos(azimuth),
+                                                   std::cos(elevation) * std::sin(azimuth),
+                                                   std::sin(elevation)));
+  };
+  const auto edge = [&](const dvec3& from, const dvec3& to) {
+    for (int i = 0; i < pieces; ++i) {
+      const dvec3 a = glm::mix(from, to, static_cast<double>(i) / pieces),
+                  b = glm::mix(from, to, (i + 1.0) / pieces);
+      const dvec3 p = at(a.x, a.y, a.z), q = at(b.x, b.y, b.z);
+      if (p != q) shapes.lines.push_back({p, q, color, 1.0f, row});
+    }
+  };
+  for (const double s : {-0.5, 0.5})
+    for (const double t : {-0.5, 0.5}) {
+      edge({-0.5, s, t}, {0.5, s, t});
+      edge({s, -0.5, t}, {s, 0.5, t});
+      edge({s, t, -0.5}, {s, t, 0.5});
+    }
+}
+
+std::string cells_text(const RadarFacts& radar) {
+  const auto beam = [](double width, const char* name) {
+    return width > 0.0 ? fmt::format("{:.3g} deg {}", degrees(width), name) : fmt::format("any {}", name);
+  };
+  return fmt::format("cells: {:.3g} m range x {} x {}; velocities {:.3g} m/s apart", radar.range_bin_m,
+                     beam(radar.azimuth_beam, "azimuth"), beam(radar.elevation_beam, "elevation"),
+                     radar.velocity_bin_m_s);
+}
+
 /// The direction in which the range grows: away from both ends.
 dvec3 away_from(const dvec3& receiver, const std::optional<dvec3>& transmitter, const dvec3& target) {
   const auto unit = [](const dvec3& v) {
@@ -122,12 +165,22 @@ Shapes radar_shapes(const RecordTables& tables, const SensorSpec& spec, const Re
         power[i], places[4 * i + 3]));
     shapes.points.push_back(
         {at, color, 5.0f, real ? PointShape::Mark::diamond : PointShape::Mark::cross, row, true});
+    if (options.cells && !radar.illuminator)
+      add_cell(
+          shapes, *middle,
+          {static_cast<double>(range[i]), static_cast<double>(azimuth[i]), static_cast<double>(elevation[i]),
+           radar.range_bin_m, radar.azimuth_beam / std::max(0.1, std::cos(static_cast<double>(azimuth[i]))),
+           radar.elevation_beam},
+          color, row);
     const dvec3 motion =
         options.arrow_s * static_cast<double>(velocity[i]) * away_from(middle->position, transmitter, at);
     if (motion != dvec3(0.0)) shapes.lines.push_back({at, at + motion, color, 2.0f, row, true, true});
   }
   shapes.note(fmt::format("{}: {} detections, {} of them false alarms; arrows: {:g} s of radial velocity",
                           spec.name, count, false_alarms, options.arrow_s));
+  if (options.cells)
+    shapes.note(radar.illuminator ? spec.name + ": bistatic, so its resolution cells are not drawn"
+                                  : cells_text(radar));
   shapes.legend.emplace_back("receding", receding_color);
   shapes.legend.emplace_back("approaching", approaching_color);
   if (radar.velocity_max_m_s > 0.0)

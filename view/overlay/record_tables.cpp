@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "core/units.h"
 #include "io/files/untrusted_json.h"
 #include "view/overlay/antenna_metadata.h"
 #include "view/overlay/json_values.h"
@@ -40,6 +41,29 @@ CameraFacts camera_facts(const JsonValue& json) {
   return facts;
 }
 
+/// Extent of the positions of a list of antennas along the sensor's y and z, m.
+dvec2 aperture_of(const JsonValue& json, const char* key) {
+  if (!json.has(key)) return dvec2(0.0);
+  dvec3 low(farthest_m), high(-farthest_m);
+  for (const JsonValue& antenna : json.at(key).list(most_ends)) {
+    low = glm::min(low, vector_of(antenna));
+    high = glm::max(high, vector_of(antenna));
+  }
+  return high.x < low.x ? dvec2(0.0) : dvec2(high.y - low.y, high.z - low.z);
+}
+
+/// The beams of the virtual array: its aperture is the sum of those of both sides.
+void add_beams(RadarFacts& facts, const JsonValue& json) {
+  if (!json.has("waveform") || !json.at("waveform").has("carrier_hz")) return;
+  const double wavelength_m = speed_of_light / json.at("waveform").at("carrier_hz").number(1.0, 1e15);
+  const dvec2 aperture = aperture_of(json, "transmit_m") + aperture_of(json, "receive_m");
+  const auto beam = [&](double width_m) {
+    return width_m > 0.1 * wavelength_m ? std::min(wavelength_m / width_m, pi) : 0.0;
+  };
+  facts.azimuth_beam = beam(aperture.x);
+  facts.elevation_beam = beam(aperture.y);
+}
+
 RadarFacts radar_facts(const JsonValue& json) {
   RadarFacts facts;
   facts.azimuth_min = number_or(json, "azimuth_min_rad", 0.0, -7.0, 7.0);
@@ -47,6 +71,9 @@ RadarFacts radar_facts(const JsonValue& json) {
   facts.range_span_m = number_or(json, "range_span_m", 0.0, 0.0, 1e9);
   facts.velocity_max_m_s = std::abs(number_or(json, "velocity_min_m_s", 0.0, -1e9, 1e9));
   facts.frame_middle_s = number_or(json, "frame_middle_s", 0.0, 0.0, 1e3);
+  facts.range_bin_m = number_or(json, "range_bin_m", 0.0, 0.0, 1e9);
+  facts.velocity_bin_m_s = number_or(json, "velocity_bin_m_s", 0.0, 0.0, 1e9);
+  add_beams(facts, json);
   return facts;
 }
 

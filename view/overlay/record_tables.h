@@ -44,7 +44,11 @@ struct CameraFacts {
 struct RadarFacts {
   double azimuth_min = 0, azimuth_max = 0;  ///< rad
   double range_span_m = 0;
-  double velocity_max_m_s = 0;       ///< velocities beyond it are aliases
+  double velocity_max_m_s = 0;  ///< velocities beyond it are aliases
+  double range_bin_m = 0, velocity_bin_m_s = 0;
+  /// Widths of a beam across the boresight, wavelength / aperture, rad; 0: the antennas do not tell
+  /// directions apart there.
+  double azimuth_beam = 0, elevation_beam = 0;
   double frame_middle_s = 0;         ///< after the tick: when positions hold
   std::optional<Place> illuminator;  ///< of a bistatic radar
 };

@@ -33,6 +33,9 @@ struct RadarOptions {
   double arrow_s = 1.0;
   bool fan = true;         ///< the field of view at elevation 0, as far as ranges are unambiguous
   double fan_range_m = 0;  ///< of the fan; 0: the unambiguous range
+  /// The resolution cell of each detection: one range bin by one beam (docs/viewer.md). Of a bistatic radar
+  /// there is none, because its cells are no frusta.
+  bool cells = false;
 };
 
 /// The detections as diamonds (false alarms: crosses) with arrows: away from the radar where the target

@@ -89,7 +89,7 @@ double add_pattern(Shapes& shapes, const rf::AntennaArray& array, const Pose& wo
   const auto line = [&](int i0, int j0, int i1, int j1) {
     const double level = std::max(share(i0, j0), share(i1, j1));
     if (level <= 0.0) return;
-    shapes.lines.push_back({point(i0, j0), point(i1, j1), io::turbo(0.12 + 0.8 * level), 1.0f, row});
+    shapes.lines.push_back({point(i0, j0), point(i1, j1), io::viridis(level), 1.0f, row});
   };
   for (int i = 1; i < pattern_zeniths; ++i)
     for (int j = 0; j < pattern_azimuths; ++j) line(i, j, i, j + 1);
@@ -106,21 +106,28 @@ class SensorDrawing {
 
   Shapes draw() {
     for (const SensorFacts& sensor : tables_.sensors()) {
-      if (sensor.camera && options_.cameras && sensor.camera->shared_with.empty()) camera(sensor);
-      if ((sensor.kind == "lidar" || sensor.kind == "radar") && options_.axes) axes(sensor);
+      const bool hidden = is_hidden(sensor.place);
+      if (!hidden && sensor.camera && options_.cameras && sensor.camera->shared_with.empty()) camera(sensor);
+      if (!hidden && (sensor.kind == "lidar" || sensor.kind == "radar") && options_.axes) axes(sensor);
       if (!sensor.channel || !options_.antennas) continue;
       for (const AntennaFacts& end : sensor.channel->transmitters) antenna(end);
       for (const AntennaFacts& end : sensor.channel->receivers) antenna(end);
     }
     if (without_pattern_ > 0)
       shapes_.note(fmt::format("antennas: {} more without their patterns", without_pattern_));
-    if (patterns_ > 0)
-      shapes_.note(fmt::format("patterns: {:.0f} dB from the tip to the antenna", pattern_range_db));
+    if (patterns_ > 0) add_pattern_legend();
     if (unplaced_ > 0) shapes_.note(fmt::format("sensors: {} that the poses do not place", unplaced_));
     return std::move(shapes_);
   }
 
  private:
+  /// Not the colours of gains, which the legend of paths has.
+  void add_pattern_legend() {
+    shapes_.legend.emplace_back("pattern: strongest direction", io::viridis(1.0));
+    shapes_.legend.emplace_back(fmt::format("pattern: {:.0f} dB weaker, at the antenna", pattern_range_db),
+                                io::viridis(0.0));
+  }
+  bool is_hidden(const Place& place) const { return place.node && place.node == options_.hidden_node; }
   std::optional<Pose> placed(const Place& place) {
     std::optional<Pose> pose = poses_.world_from(place);
     if (!pose) ++unplaced_;
@@ -153,7 +160,7 @@ class SensorDrawing {
 
   /// An antenna of several channels once, with the spacing that it has in the first of them.
   void antenna(const AntennaFacts& antenna) {
-    if (!drawn_.insert(antenna.place.name).second) return;
+    if (is_hidden(antenna.place) || !drawn_.insert(antenna.place.name).second) return;
     const std::optional<Pose> pose = placed(antenna.place);
     if (!pose) return;
     const rf::AntennaArray& array = antenna.array;

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 
 #include "view/overlay/record_tables.h"
 #include "view/overlay/shapes.h"
@@ -16,6 +18,8 @@ struct SensorOptions {
   double axis_m = 0.6;
   double pattern_m = 1.5;  ///< from the origin of a pattern to its strongest direction
   bool names = true, cameras = true, axes = true, antennas = true, patterns = true;
+  /// Nothing is drawn of what this node carries: one looks through its camera, and would see it from inside.
+  std::optional<uint32_t> hidden_node;
   size_t most_elements = 4'096;  ///< dots of one panel; of more, every n-th, which its row says
   size_t most_patterns = 16;     ///< the legend says how many antennas have none
 };

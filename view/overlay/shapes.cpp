@@ -23,6 +23,12 @@ void Shapes::append(const Shapes& other) {
   };
   add(lines, other.lines);
   add(points, other.points);
+  if (!other.picture.empty()) {
+    GREATX_CHECK(picture.empty() || picture_width == other.picture_width, "pictures of {} and {} columns",
+                 picture_width, other.picture_width);
+    picture_width = other.picture_width;
+    add(picture, other.picture);
+  }
   labels.insert(labels.end(), other.labels.begin(), other.labels.end());
   rows.insert(rows.end(), other.rows.begin(), other.rows.end());
   legend.insert(legend.end(), other.legend.begin(), other.legend.end());
