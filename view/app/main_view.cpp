@@ -195,7 +195,7 @@ void MainView::draw_overlays(const Shapes& shapes) {
   const std::optional<OverlayHit> hit = draw_shapes(list, shapes, frame, cursor, hovered_id_);
   if (cursor) hovered_id_ = hit ? shapes.rows[hit->row].id : 0;
   if (hit) ImGui::SetTooltip("%s", shapes.rows[hit->row].text.c_str());
-  draw_legend(list, shapes, {corner_.x + 10.0f, corner_.y + 10.0f});
+  if (show_legend_) draw_legend(list, shapes, {corner_.x + 10.0f, corner_.y + 10.0f});
   list.PopClipRect();
 }
 

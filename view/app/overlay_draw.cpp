@@ -14,6 +14,7 @@ namespace {
 constexpr double reach_px = 6.0;  ///< of the cursor
 constexpr uint32_t faint = 70;    ///< alpha of what is hidden, of 255
 constexpr float highlighted_px = 2.5f;
+constexpr ImU32 legend_backing = IM_COL32(16, 18, 22, 170);  ///< dark enough for texts over a bright sky
 
 ImU32 packed(io::Color color, uint32_t alpha = 255) { return IM_COL32(color.r, color.g, color.b, alpha); }
 
@@ -180,12 +181,19 @@ std::optional<OverlayHit> draw_shapes(ImDrawList& list, const Shapes& shapes, co
 }
 
 void draw_legend(ImDrawList& list, const Shapes& shapes, const ImVec2& corner) {
-  const float line = ImGui::GetTextLineHeightWithSpacing();
+  if (shapes.legend.empty()) return;
+  const float line = ImGui::GetTextLineHeightWithSpacing(), margin = 0.4f * line;
+  float width = 0.0f;
+  for (const auto& [text, color] : shapes.legend)
+    width = std::max(width, ImGui::CalcTextSize(text.c_str()).x);
+  list.AddRectFilled({corner.x - margin, corner.y - margin},
+                     {corner.x + line + width + margin,
+                      corner.y + line * static_cast<float>(shapes.legend.size()) + 0.5f * margin},
+                     legend_backing, margin);
   for (size_t i = 0; i < shapes.legend.size(); ++i) {
     const auto& [text, color] = shapes.legend[i];
     const ImVec2 at(corner.x, corner.y + line * static_cast<float>(i));
-    list.AddRectFilled(at, {at.x + line * 0.7f, at.y + line * 0.7f}, packed(color));
-    list.AddText({at.x + line + 1.0f, at.y + 1.0f}, IM_COL32(0, 0, 0, 220), text.c_str());
+    list.AddRectFilled({at.x, at.y + 0.1f * line}, {at.x + line * 0.65f, at.y + line * 0.75f}, packed(color));
     list.AddText({at.x + line, at.y}, IM_COL32(235, 235, 235, 255), text.c_str());
   }
 }

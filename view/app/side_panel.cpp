@@ -7,18 +7,22 @@
 #include <imgui.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "core/error.h"
 #include "core/text.h"
 #include "draw/paths/facts.h"
+#include "view/app/fact_table.h"
 
 namespace greatx::view {
 
 namespace {
 
-constexpr size_t most_times = 200;
 constexpr double default_carrier_hz = 3.5e9;
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+}  // namespace
 
 void draw_facts(const Facts& facts) {
   if (!ImGui::BeginTable("facts", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
@@ -32,8 +36,6 @@ void draw_facts(const Facts& facts) {
   ImGui::EndTable();
 }
 
-}  // namespace
-
 double SidePanel::carrier_hz(ShownRun& run) const {
   if (run.experiment() != nullptr && !run.experiment()->scenario.channels.empty()) {
     const auto& channels = run.experiment()->scenario.channels;
@@ -44,11 +46,13 @@ double SidePanel::carrier_hz(ShownRun& run) const {
 }
 
 void SidePanel::draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view) {
-  keep_times(main);
+  times_.keep(main);
   grid_.keep(runs);
   if (!ImGui::BeginTabBar("side tabs")) return;
-  const auto tab = [](const char* name, auto draw_tab) {
-    if (!ImGui::BeginTabItem(name)) return;
+  const auto tab = [&](const char* name, auto draw_tab) {
+    const bool wanted = wanted_tab_ == name;
+    if (wanted) wanted_tab_.clear();
+    if (!ImGui::BeginTabItem(name, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0)) return;
     ImGui::BeginChild(name);
     draw_tab();
     ImGui::EndChild();
@@ -58,8 +62,15 @@ void SidePanel::draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& 
   tab("Picked", [&] { draw_picked(main, view); });
   tab("Paths", [&] { draw_paths(main, view); });
   tab("Effects", [&] { draw_effects(main); });
-  tab("Times", [&] { draw_times(main, view); });
+  tab("Times", [&] { times_.draw(main, view, grid_.milliseconds()); });
   ImGui::EndTabBar();
+}
+
+void SidePanel::open_tab(const std::string& name) {
+  static constexpr std::string_view names[] = {"Sensors", "Picked", "Paths", "Effects", "Times"};
+  if (std::ranges::find(names, name) == std::end(names))
+    throw_user_error("expected the name of a tab ({}), found '{}'", fmt::join(names, ", "), printable(name));
+  wanted_tab_ = name;
 }
 
 void SidePanel::draw_picked(ShownRun& run, MainView& view) {
@@ -142,33 +153,6 @@ void SidePanel::draw_effects(ShownRun& run) {
     ImGui::TextWrapped("%s", printable(why).c_str());
   }
   ImGui::EndTable();
-}
-
-void SidePanel::keep_times(ShownRun& run) {
-  const std::shared_ptr<const ShownTick> shown = run.run().shown();
-  if (shown == nullptr || shown == timed_) return;
-  timed_ = shown;
-  tick_ms_.push_back(static_cast<float>(shown->simulated_ms));
-  if (tick_ms_.size() > most_times) tick_ms_.pop_front();
-}
-
-void SidePanel::draw_times(ShownRun& run, const MainView& view) {
-  const RunStatus status = run.run().status();
-  const std::vector<float> times(tick_ms_.begin(), tick_ms_.end());
-  if (!times.empty()) {
-    const float most = *std::ranges::max_element(times);
-    std::vector<float> sorted = times;
-    std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
-    ImGui::Text("ticks: median %.1f ms, most %.1f ms", sorted[sorted.size() / 2], most);
-    ImGui::PlotHistogram("##ticks", times.data(), static_cast<int>(times.size()), 0, nullptr, 0.0f,
-                         1.1f * most, {-1.0f, 120.0f});
-  }
-  draw_facts({{"wanted speed", status.speed == 0.0 ? std::string("as fast as it can")
-                                                   : fmt::format("{:g} x real time", status.speed)},
-              {"reached", fmt::format("{:.2f} x real time", status.reached)},
-              {"picture of the scene", fmt::format("{:.1f} ms", view.picture_ms())},
-              {"overlays", fmt::format("{:.2f} ms", run.overlays() ? run.overlays()->milliseconds() : 0.0)},
-              {"panels", fmt::format("{:.2f} ms", grid_.milliseconds())}});
 }
 
 }  // namespace greatx::view

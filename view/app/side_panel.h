@@ -5,14 +5,15 @@
 // plan of effects, and times.
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "view/app/main_view.h"
 #include "view/app/panel_grid.h"
 #include "view/app/shown_run.h"
+#include "view/app/times_panel.h"
 
 namespace greatx::view {
 
@@ -22,6 +23,8 @@ class SidePanel {
   /// Draws into the current ImGui window. `main` is the run that the main view shows.
   void draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view);
   PanelGrid& grid() { return grid_; }
+  /// Brings a tab to the front in the next frame. Throws UserError if there is none of this name.
+  void open_tab(const std::string& name);
   /// Returns the carrier of the chosen channel, or of the first one; 3.5 GHz if there is none.
   double carrier_hz(ShownRun& run) const;
 
@@ -30,12 +33,10 @@ class SidePanel {
   void draw_paths(ShownRun& run, MainView& view);
   void draw_filter(ShownRun& run);
   void draw_effects(ShownRun& run);
-  void draw_times(ShownRun& run, const MainView& view);
-  void keep_times(ShownRun& run);
 
   PanelGrid grid_;
-  std::deque<float> tick_ms_;  ///< of the last ticks that were shown
-  std::shared_ptr<const ShownTick> timed_;
+  TimesPanel times_;
+  std::string wanted_tab_;  ///< empty: the one in front stays
 };
 
 }  // namespace greatx::view

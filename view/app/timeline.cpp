@@ -54,7 +54,7 @@ std::string time_text(const Run& run, const RunStatus& status) {
 
 float timeline_height() { return 2.0f * ImGui::GetFrameHeightWithSpacing() + 10.0f; }
 
-void draw_timeline(const ImVec2& at, const ImVec2& size, std::span<Run* const> runs) {
+void draw_timeline(const ImVec2& at, const ImVec2& size, std::span<Run* const> runs, SteadyText& activity) {
   ImGui::SetNextWindowPos(at);
   ImGui::SetNextWindowSize(size);
   ImGui::Begin("time", nullptr,
@@ -81,9 +81,9 @@ void draw_timeline(const ImVec2& at, const ImVec2& size, std::span<Run* const> r
     draw_sequence(runs, status, *info);
     ImGui::SameLine();
     ImGui::TextUnformatted(time_text(*runs.front(), status).c_str());
-    if (!status.activity.empty()) {
+    if (const std::string& doing = activity.at(status.activity, ImGui::GetTime()); !doing.empty()) {
       ImGui::SameLine();
-      ImGui::TextDisabled("%s", status.activity.c_str());
+      ImGui::TextDisabled("%s", doing.c_str());
     }
   }
   ImGui::End();

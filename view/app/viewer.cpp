@@ -16,6 +16,7 @@
 #include "sim/plan/camera_desc.h"
 #include "view/app/commands.h"
 #include "view/app/main_view.h"
+#include "view/app/recording.h"
 #include "view/app/script_runner.h"
 #include "view/app/shown_run.h"
 #include "view/app/side_panel.h"
@@ -32,7 +33,11 @@ constexpr float side_share = 0.42f;  ///< of the width
 class Viewer {
  public:
   explicit Viewer(const ViewerOptions& options)
-      : options_(options), window_(Window::open(options.window)), main_(*window_), side_(*window_) {
+      : options_(options),
+        window_(Window::open(options.window)),
+        main_(*window_),
+        side_(*window_),
+        recording_(*window_, options.script_folder, !options.script.empty()) {
     if (options.datasets.empty())
       runs_.push_back(ShownRun::live(options));
     else
@@ -48,6 +53,7 @@ class Viewer {
       frame();
       window_->end_frame();
       check_validation();
+      recording_.frame_drawn();
       if (!options_.script.empty() && !script.advance(script_host())) return;
     }
   }
@@ -92,8 +98,9 @@ class Viewer {
     const float side = side_open_ ? std::round(side_share * display.x) : 0.0f;
     draw_main({0.0f, top}, {display.x - side, display.y - top - bottom});
     if (side_open_) draw_side({display.x - side, top}, {side, display.y - top - bottom});
-    draw_timeline({0.0f, display.y - bottom}, {display.x, bottom}, timeline_runs());
+    draw_timeline({0.0f, display.y - bottom}, {display.x, bottom}, timeline_runs(), activity_);
     if (help_open_) draw_help();
+    recording_.draw();
   }
 
   std::vector<Run*> timeline_runs() {
@@ -113,6 +120,7 @@ class Viewer {
     ImGui::Begin("scene", nullptr, fixed_window | ImGuiWindowFlags_NoScrollWithMouse);
     ImGui::PopStyleVar();
     const std::shared_ptr<const ShownTick> tick = shown().run().shown();
+    recording_.before_tick(tick);
     static const Shapes none;
     Overlays* const overlays = shown().overlays();
     const Shapes& shapes = overlays != nullptr ? overlays->shapes(tick) : none;
@@ -142,6 +150,7 @@ class Viewer {
     std::vector<std::string> errors{shown().run().status().error, shown().scene_error(), main_.error()};
     if (const Overlays* const overlays = shown().overlays()) errors.push_back(overlays->error());
     errors.push_back(command_error_);
+    errors.push_back(recording_.error());
     ImGui::SetCursorPos({20.0f, 60.0f});
     ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - 20.0f);
     for (const std::string& error : errors)
@@ -160,8 +169,8 @@ class Viewer {
   }
 
   void draw_status() {
-    const std::string text =
-        fmt::format("{:.0f} frames/s   picture {:.0f} ms", ImGui::GetIO().Framerate, main_.picture_ms());
+    const std::string text = fmt::format("{}   {:.0f} frames/s   picture {:.0f} ms", recording_.status_text(),
+                                         ImGui::GetIO().Framerate, main_.picture_ms());
     ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - 12.0f);
     ImGui::TextDisabled("%s", text.c_str());
   }
@@ -233,8 +242,22 @@ class Viewer {
                    {},
                    [this] { return shown().info() != nullptr; }});
     add_switch(commands_, "side", "View", "Panels", "tab", side_open_);
+    commands_.add({"tab",
+                   "View",
+                   "Where the time goes",
+                   "F3",
+                   [this](const std::string& name) { open_tab(name.empty() ? "Times" : name); },
+                   {},
+                   {}});
+    add_switch(commands_, "legend", "Show", "Legend", "l", main_.show_legend());
+    recording_.add_commands(commands_);
     add_overlay_commands();
     add_switch(commands_, "help", "Help", "Keys and mouse", "F1", help_open_);
+  }
+
+  void open_tab(const std::string& name) {
+    side_open_ = true;
+    side_.open_tab(name);
   }
 
   void add_overlay_commands() {
@@ -365,7 +388,9 @@ class Viewer {
   size_t main_run_ = 0;
   MainView main_;
   SidePanel side_;
+  Recording recording_;
   Commands commands_;
+  SteadyText activity_;
   bool side_open_ = true, help_open_ = false, quit_ = false;
   std::string command_error_;
 };
