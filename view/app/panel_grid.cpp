@@ -37,9 +37,21 @@ void PanelGrid::prepare(RunTiles& tiles, ShownRun& run) {
   tiles.choices = panels_of(run.info()->sensors);
   tiles.tiles.resize(tiles.choices.size());
   std::set<std::string> opened;
-  for (size_t i = 0; i < tiles.choices.size(); ++i)
-    tiles.tiles[i].open =
-        usual_kinds.contains(tiles.choices[i].kind) && opened.insert(tiles.choices[i].kind).second;
+  for (size_t i = 0; i < tiles.choices.size(); ++i) {
+    const PanelChoice& choice = tiles.choices[i];
+    tiles.tiles[i].open = open_at_first_
+                              ? std::ranges::find(*open_at_first_, choice.title) != open_at_first_->end()
+                              : usual_kinds.contains(choice.kind) && opened.insert(choice.kind).second;
+  }
+}
+
+std::vector<std::string> PanelGrid::open() const {
+  std::vector<std::string> titles;
+  for (const auto& [name, tiles] : runs_)
+    for (size_t i = 0; i < tiles.choices.size(); ++i)
+      if (tiles.tiles[i].open && std::ranges::find(titles, tiles.choices[i].title) == titles.end())
+        titles.push_back(tiles.choices[i].title);
+  return titles;
 }
 
 void PanelGrid::keep(std::span<ShownRun* const> runs) {

@@ -6,8 +6,10 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "view/app/shown_run.h"
@@ -31,6 +33,10 @@ class PanelGrid {
   void draw(std::span<ShownRun* const> runs);
   /// Opens or closes the tile of this title, e.g. "uav/front: depth". Throws UserError if there is none.
   void toggle(const std::string& title);
+  /// Says which tiles are open when a run is shown first, instead of the usual ones.
+  void open_at_first(std::vector<std::string> titles) { open_at_first_ = std::move(titles); }
+  /// Returns the titles of the tiles that are open, each once.
+  std::vector<std::string> open() const;
   /// Wall time of drawing the tiles in the last frame, ms.
   double milliseconds() const { return milliseconds_; }
 
@@ -55,6 +61,7 @@ class PanelGrid {
 
   Window& window_;
   std::map<std::string, RunTiles> runs_;  ///< by the run's name
+  std::optional<std::vector<std::string>> open_at_first_;
   double milliseconds_ = 0.0;
 };
 

@@ -18,6 +18,7 @@
 #include "view/app/main_view.h"
 #include "view/app/recording.h"
 #include "view/app/script_runner.h"
+#include "view/app/settings_keeper.h"
 #include "view/app/shown_run.h"
 #include "view/app/side_panel.h"
 #include "view/app/timeline.h"
@@ -28,24 +29,28 @@ namespace {
 
 /// How long a frame waits for input: while something moves, while something may come, and at rest.
 constexpr double moving_wait_s = 0.0, waiting_wait_s = 0.008, resting_wait_s = 0.05;
-constexpr float side_share = 0.42f;  ///< of the width
 
 class Viewer {
  public:
-  explicit Viewer(const ViewerOptions& options)
+  Viewer(const ViewerOptions& options, ViewerSettings settings)
       : options_(options),
         window_(Window::open(options.window)),
         main_(*window_),
         side_(*window_),
-        recording_(*window_, options.script_folder, !options.script.empty()) {
+        recording_(*window_, options.script_folder, !options.script.empty()),
+        settings_(options.settings_file, options.title, std::move(settings)) {
     if (options.datasets.empty())
       runs_.push_back(ShownRun::live(options));
     else
       for (const std::filesystem::path& dataset : options.datasets)
         runs_.push_back(ShownRun::replay(options, dataset));
     window_->set_title("greatx: " + options.title);
+    settings_.apply(settled_parts());
     add_commands();
   }
+
+  /// Writes the settings.
+  void save() { settings_.save(settled_parts(), shown()); }
 
   void loop() {
     ScriptRunner script(options_.script);
@@ -60,6 +65,7 @@ class Viewer {
 
  private:
   ShownRun& shown() { return *runs_[main_run_]; }
+  SettledParts settled_parts() { return {*window_, main_, side_.grid(), side_open_, side_share_}; }
 
   double wait_s() {
     if (main_.busy()) return moving_wait_s;
@@ -79,6 +85,7 @@ class Viewer {
   void update() {
     for (size_t i = 0; i < runs_.size(); ++i) {
       const std::shared_ptr<const sim::Experiment> loaded = runs_[i]->update();
+      settings_.apply(*runs_[i]);
       if (loaded == nullptr || i != main_run_) continue;
       main_.set_scene(loaded, std::make_unique<SceneView>(loaded, options_.device));
       add_camera_commands(*loaded);
@@ -95,7 +102,7 @@ class Viewer {
     }
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float top = ImGui::GetFrameHeight(), bottom = timeline_height();
-    const float side = side_open_ ? std::round(side_share * display.x) : 0.0f;
+    const float side = side_open_ ? std::round(side_share_ * display.x) : 0.0f;
     draw_main({0.0f, top}, {display.x - side, display.y - top - bottom});
     if (side_open_) draw_side({display.x - side, top}, {side, display.y - top - bottom});
     draw_timeline({0.0f, display.y - bottom}, {display.x, bottom}, timeline_runs(), activity_);
@@ -251,6 +258,7 @@ class Viewer {
                    {}});
     add_switch(commands_, "legend", "Show", "Legend", "l", main_.show_legend());
     recording_.add_commands(commands_);
+    settings_.add_commands(commands_);
     add_overlay_commands();
     add_switch(commands_, "help", "Help", "Keys and mouse", "F1", help_open_);
   }
@@ -389,17 +397,35 @@ class Viewer {
   MainView main_;
   SidePanel side_;
   Recording recording_;
+  SettingsKeeper settings_;
   Commands commands_;
   SteadyText activity_;
+  float side_share_ = 0.42f;  ///< of the window's width
   bool side_open_ = true, help_open_ = false, quit_ = false;
   std::string command_error_;
 };
 
 }  // namespace
 
-void run_viewer(const ViewerOptions& options) {
-  Viewer viewer(options);
+void run_viewer(const ViewerOptions& given) {
+  ViewerOptions options = given;
+  ViewerSettings settings;
+  if (!options.settings_file.empty()) {
+    std::string message;
+    settings = load_settings(options.settings_file, message);
+    if (!message.empty()) std::cerr << "warning: " << printable_lines(message) << '\n';
+    if (!options.chosen_size && settings.width > 0) {
+      options.window.width = settings.width;
+      options.window.height = settings.height;
+    }
+  }
+  Viewer viewer(options, std::move(settings));
   viewer.loop();
+  try {
+    viewer.save();
+  } catch (const UserError& error) {
+    std::cerr << "warning: the viewer's settings are not kept: " << printable_lines(error.what()) << '\n';
+  }
 }
 
 }  // namespace greatx::view

@@ -33,6 +33,9 @@ struct ViewerOptions {
   std::vector<ScriptStep> script;       ///< empty: a person drives
   std::filesystem::path script_folder;  ///< where the script's screenshots go
   bool paused = false;
+  /// Where the viewer remembers its settings; empty: nowhere.
+  std::filesystem::path settings_file;
+  bool chosen_size = false;  ///< the window's size was asked for, so the remembered one does not count
 };
 
 /// Opens the viewer and returns when the user closes it or the script ends. Throws UserError if the window
