@@ -20,6 +20,7 @@ struct ViewOptions {
   ScenarioOptions scenario;
   RunOptions run;
   bool offscreen = false, paused = false;
+  double scale = 0.0;
   std::string script, size, settings;
 };
 
@@ -83,6 +84,7 @@ view::ViewerOptions viewer_options(const ViewOptions& options) {
   viewer.paused = options.paused;
   viewer.chosen_size = !options.size.empty();
   if (viewer.chosen_size) std::tie(viewer.window.width, viewer.window.height) = parse_size(options.size);
+  viewer.window.scale = options.scale;
   viewer.window.offscreen = options.offscreen;
   viewer.window.validation = options.run.validation;
   viewer.window.device = options.run.device;
@@ -122,6 +124,8 @@ void add_view(CLI::App& app) {
   options->run.add_to(*command);
   command->add_flag("--paused", options->paused, "show the first tick and wait");
   command->add_option("--size", options->size, "of the window, pixels [that of the last time, or 1280x720]");
+  command->add_option("--scale", options->scale, "of texts and buttons [as the display asks for]")
+      ->check(CLI::Range(0.5, 4.0));
   command->add_option("--settings", options->settings,
                       "file in which the viewer remembers its settings, for scripts, too "
                       "[~/.config/greatx/viewer.json; none for scripts]");

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
+#include <utility>
 
 #include "core/activity.h"
 #include "core/watch.h"
@@ -82,6 +84,16 @@ Simulator::Simulator(gpu::Device& device, const Experiment& experiment)
 Simulator::~Simulator() = default;
 
 void Simulator::start(uint32_t sequence, int64_t first_tick) {
+  TickTimes started;
+  {
+    std::optional<HostScope> scope;
+    if (keep_times_) scope.emplace(*this, &started, "start");
+    start_sequence(sequence, first_tick);
+  }
+  start_ms_ = started.rows.empty() ? 0.0 : started.rows.front().milliseconds;
+}
+
+void Simulator::start_sequence(uint32_t sequence, int64_t first_tick) {
   GREATX_CHECK(pending_ == nullptr, "sequence {} started with a tick in flight", sequence);
   sequence_ = sequence;
   courses_ = make_courses(scenario_, world_, sequence);
@@ -143,6 +155,7 @@ bool Simulator::step(RecordSink& sink) {
   in_flight->slot = &slot;
   in_flight->tick = tick;
   in_flight->due = schedule_.due(tick, due_ticks_++);
+  in_flight->times.start_ms = std::exchange(start_ms_, 0.0);
   record(*in_flight, slot, moment_at(tick));
   next_tick_ = schedule_.next(tick + 1, scenario_.ticks);
   if (looks_ahead_ && next_tick_ < scenario_.ticks) record_ahead(*in_flight, slot);

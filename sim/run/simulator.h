@@ -86,6 +86,7 @@ class Simulator {
  private:
   struct InFlight;
   Moment moment_at(int64_t tick) const;
+  void start_sequence(uint32_t sequence, int64_t first_tick);
   void replay(int64_t end);
   void record(InFlight& in_flight, gpu::TickSlot& slot, const Moment& moment);
   void record_ahead(InFlight& in_flight, gpu::TickSlot& slot);
@@ -113,7 +114,8 @@ class Simulator {
   int64_t due_ticks_ = 0;  ///< due ticks of the sequence before next_tick_
   bool looks_ahead_ = false;
   bool keep_samples_ = false, keep_times_ = false;
-  TickTimes times_;  ///< of the packet collected last
+  TickTimes times_;        ///< of the packet collected last
+  double start_ms_ = 0.0;  ///< of start(), until a tick is recorded; kept for times_ alone
   RunStatistics statistics_;
 };
 

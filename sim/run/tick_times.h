@@ -24,6 +24,7 @@ struct TimeRow {
 struct TickTimes {
   std::vector<TimeRow> rows;     ///< in the order of the work
   double simulated_ms = 0.0;     ///< simulated time since the due tick before it; of the first: to the next
+  double start_ms = 0.0;         ///< wall time of Simulator::start() before the tick: searches, catching up
   bool device_is_a_cpu = false;  ///< the device works on the host's cores
 };
 

@@ -112,6 +112,8 @@ TEST(Live, EachTickSaysWhereItsTimeWent) {
                              "eye/lidar: collect", "eye/lidar: eye/lidar, device", "csi: crossings, device",
                              "eye/camera: eye/camera shade, device", "eye/dvs: eye/dvs events, device"}));
   EXPECT_DOUBLE_EQ(first->times->simulated_ms, 20.0) << "to the next one, which is the event camera's";
+  EXPECT_GT(first->times->start_ms, 0.0);
+  EXPECT_LE(first->times->start_ms, first->simulated_ms);
   EXPECT_GT(first->memory.device_bytes, 100'000u);
   EXPECT_GT(first->memory.kept_bytes, 1000u);
   run->step(1);

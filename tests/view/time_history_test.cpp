@@ -65,6 +65,18 @@ TEST(TimeHistory, SumsByPartAndByLine) {
       "the device: 20 ms. A tick takes 50 ms for 10 ms of simulated time, which is 0.20 x real time.");
 }
 
+TEST(TimeHistory, TheStartOfASequenceIsNoTimeOfATick) {
+  ShownTick tick = tick_of(0, 5000.0, {});
+  auto times = std::make_shared<sim::TickTimes>(*tick.times);
+  times->start_ms = 4900.0;
+  tick.times = times;
+  TimeHistory history;
+  history.add(tick, sensors());
+  history.sum_up();
+  EXPECT_DOUBLE_EQ(history.ticks()[0].wall_ms, 100.0);
+  EXPECT_DOUBLE_EQ(history.ticks()[0].start_ms, 4900.0);
+}
+
 TEST(TimeHistory, ATickThatIsShownAgainCountsOnce) {
   TimeHistory history;
   const ShownTick first = tick_of(0, 5.0, {{"uav/front shade", 0, true, 1, 4.0}});

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "view/window/style.h"
 
 namespace greatx::view {
 
@@ -195,7 +196,7 @@ void MainView::draw_overlays(const Shapes& shapes) {
   const std::optional<OverlayHit> hit = draw_shapes(list, shapes, frame, cursor, hovered_id_);
   if (cursor) hovered_id_ = hit ? shapes.rows[hit->row].id : 0;
   if (hit) ImGui::SetTooltip("%s", shapes.rows[hit->row].text.c_str());
-  if (show_legend_) draw_legend(list, shapes, {corner_.x + 10.0f, corner_.y + 10.0f});
+  if (show_legend_) draw_legend(list, shapes, {corner_.x + scaled(10.0f), corner_.y + scaled(10.0f)});
   list.PopClipRect();
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "draw/paths/stroke.h"
+#include "view/window/style.h"
 
 namespace greatx::view {
 
@@ -98,7 +99,7 @@ class Drawing {
 
   void line(const LineShape& line) {
     const bool wide = is_highlighted(shapes_, line.row, highlighted_);
-    const float width = line.width_px * (wide ? highlighted_px : 1.0f);
+    const float width = scaled(line.width_px) * (wide ? highlighted_px : 1.0f);
     for (const apps::Stretch& stretch : visible(line)) {
       const ImVec2 a = window(stretch.a), b = window(stretch.b);
       list_.AddLine(a, b, packed(line.color, stretch.hidden ? faint : 255), width);
@@ -121,7 +122,7 @@ class Drawing {
     if (hidden && point.mark == PointShape::Mark::dot) return;
     const ImVec2 at = window({place.x, place.y});
     const bool wide = is_highlighted(shapes_, point.row, highlighted_);
-    draw_mark(list_, point.mark, at, point.size_px * (wide ? 1.6f : 1.0f),
+    draw_mark(list_, point.mark, at, scaled(point.size_px) * (wide ? 1.6f : 1.0f),
               packed(point.color, hidden ? faint : 255));
     nearest_.point(point.row, at);
   }
@@ -130,8 +131,9 @@ class Drawing {
     const dvec3 place = frame_.view.project(label.at - frame_.origin);
     if (place.z <= 0.0) return;
     const ImVec2 at = window({place.x, place.y});
-    list_.AddText({at.x + 7.0f, at.y - 13.0f}, IM_COL32(0, 0, 0, 200), label.text.c_str());
-    list_.AddText({at.x + 6.0f, at.y - 14.0f}, packed(label.color), label.text.c_str());
+    list_.AddText({at.x + scaled(6.0f) + 1.0f, at.y - scaled(14.0f) + 1.0f}, IM_COL32(0, 0, 0, 200),
+                  label.text.c_str());
+    list_.AddText({at.x + scaled(6.0f), at.y - scaled(14.0f)}, packed(label.color), label.text.c_str());
   }
 
   const std::optional<OverlayHit>& hit() const { return nearest_.hit(); }

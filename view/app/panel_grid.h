@@ -56,7 +56,7 @@ class PanelGrid {
   };
   void prepare(RunTiles& tiles, ShownRun& run);
   void draw_choices();
-  void draw_tile(Tile& tile, const ShownTick& tick, int width);
+  void draw_tile(Tile& tile, const ShownTick& tick, int shown_width);
   void drop(Tile& tile);
 
   Window& window_;

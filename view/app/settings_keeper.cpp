@@ -60,8 +60,8 @@ void SettingsKeeper::save(const SettledParts& parts, ShownRun& run) {
     settings_.height = static_cast<int>(std::lround(parts.window.height() / scale));
   }
   settings_.side_open = parts.side_open;
-  settings_.side_share =
-      std::clamp<double>(parts.side_share, ViewerSettings::least_side_share, ViewerSettings::most_side_share);
+  const double share = std::round(1e4 * static_cast<double>(parts.side_share)) / 1e4;
+  settings_.side_share = std::clamp(share, ViewerSettings::least_side_share, ViewerSettings::most_side_share);
   settings_.legend = parts.main.show_legend();
   settings_.speed = run.run().status().speed;
   if (Overlays* const overlays = run.overlays()) {

@@ -19,7 +19,7 @@ constexpr float plot_lines = 8.0f;     ///< height in lines of text
 constexpr size_t fewest_slots = 40;    ///< so that the first ticks are no walls
 constexpr double least_percent = 0.5;  ///< of the work, of a part in the legend
 constexpr ImU32 wall_color = IM_COL32(240, 240, 240, 255), real_color = IM_COL32(255, 205, 70, 255);
-constexpr ImU32 grid_color = IM_COL32(255, 255, 255, 28), label_color = IM_COL32(165, 172, 184, 255);
+constexpr ImU32 grid_color = IM_COL32(255, 255, 255, 28), label_color = IM_COL32(235, 238, 243, 255);
 
 double work_of(const TimedTick& tick) {
   return std::accumulate(tick.part_ms.begin(), tick.part_ms.end(), 0.0);
@@ -60,6 +60,7 @@ class Plot {
     list_.AddRectFilled(at_, {at_.x + size_.x, at_.y + size_.y}, IM_COL32(255, 255, 255, 10));
     grid();
     for (size_t i = 0; i < history_.ticks().size(); ++i) bar(i);
+    labels();
     list_.PopClipRect();
   }
   /// Returns the tick under the cursor; ticks().size(): none.
@@ -73,10 +74,18 @@ class Plot {
   float y(double ms) const { return at_.y + size_.y * static_cast<float>(1.0 - ms / top_); }
 
   void grid() {
-    for (double ms = grid_step(top_); ms < top_; ms += grid_step(top_)) {
+    for (double ms = grid_step(top_); ms < top_; ms += grid_step(top_))
       list_.AddLine({at_.x, y(ms)}, {at_.x + size_.x, y(ms)}, grid_color);
-      list_.AddText({at_.x + 3.0f, y(ms) - ImGui::GetTextLineHeight()}, label_color,
-                    fmt::format("{:g} ms", ms).c_str());
+  }
+
+  /// Draws the labels of the grid over the bars, each with a shadow.
+  void labels() {
+    for (double ms = grid_step(top_); ms < top_; ms += grid_step(top_)) {
+      const float top = y(ms) - ImGui::GetTextLineHeight();
+      if (top < at_.y) continue;
+      const std::string text = fmt::format("{:g} ms", ms);
+      list_.AddText({at_.x + 4.0f, top + 1.0f}, IM_COL32(0, 0, 0, 255), text.c_str());
+      list_.AddText({at_.x + 3.0f, top}, label_color, text.c_str());
     }
   }
 
@@ -104,6 +113,8 @@ class Plot {
 void draw_tick_tooltip(const TimeHistory& history, const TimedTick& tick) {
   std::string text = fmt::format("tick {}: {} of wall time", tick.tick, milliseconds_text(tick.wall_ms));
   if (tick.real_ms > 0.0) text += fmt::format(" for {} of simulated time", milliseconds_text(tick.real_ms));
+  if (tick.start_ms > 0.0)
+    text += fmt::format("\nbefore it: {} to start the sequence", milliseconds_text(tick.start_ms));
   for (size_t part = 0; part < tick.part_ms.size(); ++part)
     if (tick.part_ms[part] > 0.0)
       text += fmt::format("\n{}: {}", printable(history.parts()[part].name),

@@ -21,7 +21,9 @@
 #include "view/app/settings_keeper.h"
 #include "view/app/shown_run.h"
 #include "view/app/side_panel.h"
+#include "view/app/splitter.h"
 #include "view/app/timeline.h"
+#include "view/window/style.h"
 
 namespace greatx::view {
 
@@ -29,6 +31,8 @@ namespace {
 
 /// How long a frame waits for input: while something moves, while something may come, and at rest.
 constexpr double moving_wait_s = 0.0, waiting_wait_s = 0.008, resting_wait_s = 0.05;
+
+constexpr float usual_side_share = 0.42f;  ///< of the window's width
 
 class Viewer {
  public:
@@ -103,8 +107,12 @@ class Viewer {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float top = ImGui::GetFrameHeight(), bottom = timeline_height();
     const float side = side_open_ ? std::round(side_share_ * display.x) : 0.0f;
-    draw_main({0.0f, top}, {display.x - side, display.y - top - bottom});
-    if (side_open_) draw_side({display.x - side, top}, {side, display.y - top - bottom});
+    const float height = display.y - top - bottom, gap = side_open_ ? splitter_width() : 0.0f;
+    draw_main({0.0f, top}, {display.x - side - gap, height});
+    if (side_open_) {
+      draw_splitter({display.x - side - gap, top}, height, usual_side_share, side_share_);
+      draw_side({display.x - side, top}, {side, height});
+    }
     draw_timeline({0.0f, display.y - bottom}, {display.x, bottom}, timeline_runs(), activity_);
     if (help_open_) draw_help();
     recording_.draw();
@@ -141,12 +149,12 @@ class Viewer {
 
   void draw_progress() {
     const RunStatus status = shown().run().status();
-    ImGui::SetCursorPos({20.0f, 20.0f});
+    ImGui::SetCursorPos({scaled(20.0f), scaled(20.0f)});
     if (status.phase == RunStatus::Phase::failed) return;
     ImGui::BeginGroup();
     ImGui::TextUnformatted(status.activity.empty() ? "loading" : printable(status.activity).c_str());
     if (status.progress >= 0.0)
-      ImGui::ProgressBar(static_cast<float>(status.progress), {300.0f, 0.0f});
+      ImGui::ProgressBar(static_cast<float>(status.progress), {scaled(300.0f), 0.0f});
     else
       ImGui::TextDisabled("%s",
                           std::string(1 + static_cast<size_t>(ImGui::GetTime() * 3.0) % 3, '.').c_str());
@@ -158,8 +166,8 @@ class Viewer {
     if (const Overlays* const overlays = shown().overlays()) errors.push_back(overlays->error());
     errors.push_back(command_error_);
     errors.push_back(recording_.error());
-    ImGui::SetCursorPos({20.0f, 60.0f});
-    ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - 20.0f);
+    ImGui::SetCursorPos({scaled(20.0f), scaled(60.0f)});
+    ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - scaled(20.0f));
     for (const std::string& error : errors)
       if (!error.empty())
         ImGui::TextColored({1.0f, 0.45f, 0.40f, 1.0f}, "%s", printable_lines(error).c_str());
@@ -178,7 +186,7 @@ class Viewer {
   void draw_status() {
     const std::string text = fmt::format("{}   {:.0f} frames/s   picture {:.0f} ms", recording_.status_text(),
                                          ImGui::GetIO().Framerate, main_.picture_ms());
-    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - 12.0f);
+    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - scaled(12.0f));
     ImGui::TextDisabled("%s", text.c_str());
   }
 
@@ -400,7 +408,7 @@ class Viewer {
   SettingsKeeper settings_;
   Commands commands_;
   SteadyText activity_;
-  float side_share_ = 0.42f;  ///< of the window's width
+  float side_share_ = usual_side_share;
   bool side_open_ = true, help_open_ = false, quit_ = false;
   std::string command_error_;
 };

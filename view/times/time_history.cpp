@@ -69,10 +69,14 @@ void TimeHistory::sum_up() {
   std::vector<double> walls;
   for (size_t i = 0; i < kept_.size(); ++i) {
     const Kept& kept = kept_[i];
-    ticks_.push_back(
-        {kept.sequence, kept.tick, kept.wall_ms, kept.times ? kept.times->simulated_ms : 0.0, {}});
-    walls.push_back(kept.wall_ms);
-    mean_wall_ms_ += kept.wall_ms;
+    TimedTick& tick = ticks_.emplace_back();
+    tick.sequence = kept.sequence;
+    tick.tick = kept.tick;
+    tick.start_ms = kept.times ? kept.times->start_ms : 0.0;
+    tick.wall_ms = std::max(0.0, kept.wall_ms - tick.start_ms);
+    tick.real_ms = kept.times ? kept.times->simulated_ms : 0.0;
+    walls.push_back(tick.wall_ms);
+    mean_wall_ms_ += tick.wall_ms;
     mean_real_ms_ += ticks_.back().real_ms;
     if (kept.times != nullptr) add_rows(i, samples);
   }

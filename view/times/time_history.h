@@ -38,7 +38,8 @@ struct TimePart {
 struct TimedTick {
   uint32_t sequence = 0;
   int64_t tick = 0;
-  double wall_ms = 0.0;         ///< that the tick took to simulate, or to read
+  double start_ms = 0.0;        ///< wall time of the start of the sequence before it
+  double wall_ms = 0.0;         ///< that the tick took to simulate or to read, without start_ms
   double real_ms = 0.0;         ///< simulated time since the due tick before it; 0: unknown
   std::vector<double> part_ms;  ///< [parts]
 };

@@ -92,12 +92,15 @@ void ImGuiWindow::start(const gpu::PresentInstance& instance, const gpu::Surface
                         const WindowOptions& options) {
   device_ = std::make_unique<gpu::PresentDevice>(instance, surface, options.device);
   presenter_ = std::make_unique<gpu::Presenter>(*device_, surface);
-  set_style(static_cast<float>(pixel_scale()));
-  load_fonts();
+  follow_scale();
 }
 
-void ImGuiWindow::load_fonts() {
+void ImGuiWindow::follow_scale() {
+  if (scale_ == pixel_scale()) return;
+  scale_ = pixel_scale();
   ImGuiIO& io = ImGui::GetIO();
+  if (io.Fonts->TexID != nullptr) drop_texture(io.Fonts->TexID);
+  set_style(static_cast<float>(scale_));
   unsigned char* texels = nullptr;
   int width = 0, height = 0;
   io.Fonts->GetTexDataAsRGBA32(&texels, &width, &height);
@@ -114,6 +117,7 @@ void ImGuiWindow::stop() {
 bool ImGuiWindow::begin_frame(double wait_s) {
   if (!poll(injected_.empty() ? wait_s : 0.0)) return false;
   take_injected();
+  follow_scale();
   begin_input();
   ImGuiIO& io = ImGui::GetIO();
   if (scripted_) {
@@ -160,6 +164,7 @@ void ImGuiWindow::apply(const InputEvent& event) {
     case Kind::resize:
     case Kind::minimize:
     case Kind::restore:
+    case Kind::scale:
       change_window(event);
       break;
   }

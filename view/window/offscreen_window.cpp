@@ -18,7 +18,8 @@ class OffscreenWindow final : public ImGuiWindow {
       : ImGuiWindow(options),
         instance_({}, options.validation),
         width_(options.width),
-        height_(options.height) {
+        height_(options.height),
+        scale_(options.scale > 0.0 ? options.scale : 1.0) {
     ImGui::GetIO().BackendPlatformName = "greatx offscreen";
     // ImGui's own keys by GLFW's codes, as its backend for GLFW sets them.
     ImGuiIO& io = ImGui::GetIO();
@@ -37,7 +38,7 @@ class OffscreenWindow final : public ImGuiWindow {
 
   void set_title(const std::string&) override {}
   bool minimized() const override { return minimized_; }
-  double pixel_scale() const override { return 1.0; }
+  double pixel_scale() const override { return scale_; }
   int width() const override { return width_; }
   int height() const override { return height_; }
   std::vector<std::string> validation_messages() override { return instance_.validation_log()->take(); }
@@ -53,6 +54,10 @@ class OffscreenWindow final : public ImGuiWindow {
     io.DeltaTime = 1.0f / 60.0f;
   }
   void change_window(const InputEvent& event) override {
+    if (event.kind == InputEvent::Kind::scale) {
+      scale_ = event.x;
+      return;
+    }
     minimized_ = event.kind == InputEvent::Kind::minimize;
     if (event.kind != InputEvent::Kind::resize) return;
     width_ = static_cast<int>(event.x);
@@ -61,6 +66,7 @@ class OffscreenWindow final : public ImGuiWindow {
 
   gpu::PresentInstance instance_;
   int width_, height_;
+  double scale_;
   bool minimized_ = false;
 };
 
