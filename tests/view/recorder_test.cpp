@@ -9,6 +9,7 @@
 #include <fstream>
 #include <memory>
 #include <set>
+#include <sys/resource.h>
 #include <webp/demux.h>
 
 #include <fmt/format.h>
@@ -154,6 +155,21 @@ TEST_F(Recording, WhatCannotBeWrittenIsAnErrorAndLeavesNothing) {
   const RecorderStatus empty = record(folder() / "empty.webp", 0);
   EXPECT_THAT(empty.error, HasSubstr("nothing was recorded"));
   EXPECT_THAT(names_in(folder()), testing::ElementsAre("plain"));
+}
+
+TEST_F(Recording, AFileThatMayNotGrowIsAnErrorAndLeavesNothing) {
+  io::ignore_file_size_signal();
+  rlimit limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
+  rlimit small = limit;
+  small.rlim_cur = 60;  // as on a full disk
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const RecorderStatus webp = record(folder() / "a.webp", 3), png = record(folder() / "frames", 3);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+  EXPECT_THAT(webp.error, HasSubstr("a.webp"));
+  EXPECT_THAT(png.error, HasSubstr("000000.png"));
+  EXPECT_THAT(names_in(folder()), testing::ElementsAre("frames"));
+  EXPECT_THAT(names_in(folder() / "frames"), testing::IsEmpty());
 }
 
 TEST_F(Recording, VideosAreComplete) {

@@ -77,7 +77,7 @@ class Viewer {
       const RunStatus status = run->run().status();
       return status.playing || status.phase == RunStatus::Phase::loading;
     });
-    return comes || !options_.script.empty() ? waiting_wait_s : resting_wait_s;
+    return comes || recording_.active() || !options_.script.empty() ? waiting_wait_s : resting_wait_s;
   }
 
   void check_validation() {
