@@ -74,6 +74,16 @@ view::ViewerOptions viewer_options(const ViewOptions& options) {
     if (!options.what.empty()) scenario.scenario = options.what.front();
     viewer.title = scenario.scenario;
     viewer.scenario = [scenario] { return load_scenario(scenario); };
+    viewer.assets = options.scenario.assets;
+    viewer.reparse = [assets = options.scenario.assets](const sim::Scenario& before,
+                                                        const std::string& text) {
+      const bool embedded = before.file.empty();
+      sim::Scenario changed =
+          sim::parse_scenario(text, embedded ? before.name + ".yaml" : before.file.string(),
+                              embedded ? std::filesystem::path(".") : before.file.parent_path(), assets);
+      changed.file = before.file;
+      return changed;
+    };
   }
   viewer.scenario_of = [assets = options.scenario.assets](const std::string& text,
                                                           const std::filesystem::path& dataset) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Gives access to the scenarios that are embedded in the program at build time.
+// Gives access to the scenarios, and to their schema, that are embedded in the program at build time.
 #pragma once
 
 #include <span>
@@ -17,5 +17,10 @@ struct EmbeddedScenario {
 
 /// Returns all embedded scenarios.
 std::span<const EmbeddedScenario> embedded_scenarios();
+
+/// Returns docs/scenario.schema.json.
+std::string_view scenario_schema();
+/// Returns docs/radio_materials.schema.json.
+std::string_view materials_schema();
 
 }  // namespace greatx

@@ -13,6 +13,12 @@ Experiment make_experiment(Scenario scenario) {
   return make_experiment(std::move(scenario), std::move(world));
 }
 
+Experiment make_experiment(Scenario scenario, const Experiment& before) {
+  if (!same_world(scenario, before.scenario)) return make_experiment(std::move(scenario));
+  check_world(scenario, *before.world);
+  return make_experiment(std::move(scenario), before.world);
+}
+
 Experiment make_experiment(Scenario scenario, std::shared_ptr<const World> world,
                            const scene::Bounds& points) {
   GREATX_CHECK(world != nullptr, "{}: an experiment without a world", scenario.name);

@@ -12,6 +12,7 @@ struct TurnRate {
   Rational hz;            ///< the size of the rate
   bool negative = false;  ///< clockwise as seen from the axis' tip
   double value_hz() const { return negative ? -hz.value() : hz.value(); }
+  friend bool operator==(const TurnRate&, const TurnRate&) = default;
 };
 
 /// Represents a constant turn about an axis, without drift. Whole turns between ticks are taken off in

@@ -39,6 +39,7 @@ struct Generated {
   uint64_t seed = 1;
   double size_m = 300.0;  ///< city, country: edge of the square; canyon: length
   std::string variant;    ///< quadrotor: small, medium, large; car: hatchback, van
+  friend bool operator==(const Generated&, const Generated&) = default;
 };
 
 /// Names the source of a mesh.

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/world/world.h"
 
+#include <algorithm>
 #include <deque>
 #include <set>
+#include <tuple>
 
 #include "rf/surface/surfaces.h"
 #include "scene/build/build.h"
@@ -69,6 +71,48 @@ void check_radio(const Scenario& scenario, const scene::Scene& scene) {
     }
 }
 
+void check_optical_only(const Scenario& scenario) {
+  if (scenario.scene.optical_only && !scenario.channels.empty())
+    throw_user_error_at(scenario.channels[0].where,
+                        "channel '{}': scene.optical_only says that materials may lack radio properties; "
+                        "expected false in a scenario with channels",
+                        scenario.channels[0].name);
+  if (scenario.scene.optical_only)
+    for (const NodeConfig& node : scenario.nodes)
+      for (const SensorConfig& sensor : node.sensors)
+        if (std::holds_alternative<RadarConfig>(sensor.config))
+          throw_user_error_at(sensor.where,
+                              "radar '{}': scene.optical_only says that materials may lack radio properties; "
+                              "expected false in a scenario with radars",
+                              sensor.name);
+}
+
+bool same_source(const ModelSource& a, const ModelSource& b) { return a.source == b.source; }
+
+bool same_object(const StaticObject& a, const StaticObject& b) {
+  return same_source(a.model, b.model) &&
+         std::tie(a.name, a.position_m, a.rotation, a.scale, a.semantic_class) ==
+             std::tie(b.name, b.position_m, b.rotation, b.scale, b.semantic_class);
+}
+
+bool same_part(const PartConfig& a, const PartConfig& b) {
+  return std::tie(a.nodes, a.axis, a.rate, a.phase) == std::tie(b.nodes, b.axis, b.rate, b.phase);
+}
+
+/// Whether the node puts the same model into the world, at the same place if it never moves.
+bool same_body(const NodeConfig& a, const NodeConfig& b) {
+  if (a.name != b.name || a.model.has_value() != b.model.has_value()) return false;
+  if (!a.model) return true;
+  if (never_moves(a) != never_moves(b)) return false;
+  if (never_moves(a)) {
+    const auto &x = std::get<StaticTrajectory>(a.trajectory), &y = std::get<StaticTrajectory>(b.trajectory);
+    if (x.position_m != y.position_m || x.rotation != y.rotation) return false;
+  }
+  return same_source(*a.model, *b.model) && std::ranges::equal(a.parts, b.parts, same_part) &&
+         std::tie(a.model_mount.position_m, a.model_mount.rotation, a.model_scale, a.semantic_class) ==
+             std::tie(b.model_mount.position_m, b.model_mount.rotation, b.model_scale, b.semantic_class);
+}
+
 /// Finds the carrier and the part of each body. `parts` have their names, and nodes their bodies.
 void find_bodies(World& world) {
   const scene::Scene& scene = world.scene;
@@ -86,20 +130,20 @@ void find_bodies(World& world) {
 
 }  // namespace
 
+bool same_world(const Scenario& a, const Scenario& b) {
+  return a.name == b.name && a.scene.origin_m == b.scene.origin_m &&
+         a.scene.radio_materials == b.scene.radio_materials && a.scene.optical_only == b.scene.optical_only &&
+         std::ranges::equal(a.scene.objects, b.scene.objects, same_object) &&
+         std::ranges::equal(a.nodes, b.nodes, same_body);
+}
+
+void check_world(const Scenario& scenario, const World& world) {
+  check_optical_only(scenario);
+  check_radio(scenario, world.scene);
+}
+
 World load_world(const Scenario& scenario) {
-  if (scenario.scene.optical_only && !scenario.channels.empty())
-    throw_user_error_at(scenario.channels[0].where,
-                        "channel '{}': scene.optical_only says that materials may lack radio properties; "
-                        "expected false in a scenario with channels",
-                        scenario.channels[0].name);
-  if (scenario.scene.optical_only)
-    for (const NodeConfig& node : scenario.nodes)
-      for (const SensorConfig& sensor : node.sensors)
-        if (std::holds_alternative<RadarConfig>(sensor.config))
-          throw_user_error_at(sensor.where,
-                              "radar '{}': scene.optical_only says that materials may lack radio properties; "
-                              "expected false in a scenario with radars",
-                              sensor.name);
+  check_optical_only(scenario);
   World world;
   std::deque<scene::Model> models;  // placements point at them
   std::vector<scene::ModelPlacement> placements;

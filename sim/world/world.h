@@ -38,4 +38,10 @@ struct World {
 /// and not at the first tick.
 World load_world(const Scenario& scenario);
 
+/// Whether load_world() makes the same world of both scenarios, as long as the files that they name stay as
+/// they are.
+bool same_world(const Scenario& a, const Scenario& b);
+/// Checks what load_world() would check of a scenario whose world is already there.
+void check_world(const Scenario& scenario, const World& world);
+
 }  // namespace greatx::sim

@@ -136,7 +136,7 @@ TEST_F(ViewProgram, TheTimesTabAndLargeTextsDraw) {
   EXPECT_THAT(run.out, HasSubstr("none"));
   EXPECT_EQ(view("room --scale 9", "quit\n").code, 1);
   EXPECT_THAT(view("room --paused --ticks 1", "wait ready\ndo tab Tims\nquit\n").err,
-              HasSubstr("expected the name of a tab"));
+              HasSubstr("tab: expected one of"));
 }
 
 TEST_F(ViewProgram, FaultsOfTheCommandLineAreErrors) {

@@ -47,6 +47,10 @@ bool is_pressed(const std::string& name) {
 
 void Commands::add(Command command) { commands_.push_back(std::move(command)); }
 
+void Commands::remove(const std::string& prefix) {
+  std::erase_if(commands_, [&](const Command& command) { return command.name.starts_with(prefix); });
+}
+
 void Commands::run(const std::string& name, const std::string& argument) const {
   const auto found = std::ranges::find(commands_, name, &Command::name);
   if (found == commands_.end()) {

@@ -28,6 +28,8 @@ struct Command {
 class Commands {
  public:
   void add(Command command);
+  /// Takes away the commands of a menu whose names begin with `prefix`.
+  void remove(const std::string& prefix);
   const std::vector<Command>& all() const { return commands_; }
   /// Runs a command by its name. Throws UserError if there is none, or if it is not possible now.
   void run(const std::string& name, const std::string& argument) const;

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "sim/plan/camera_desc.h"
 #include "view/window/style.h"
 
 namespace greatx::view {
@@ -56,12 +58,36 @@ MainView::~MainView() {
   if (texture_ != nullptr) window_.drop_texture(texture_);
 }
 
-void MainView::set_scene(std::shared_ptr<const sim::Experiment> experiment,
-                         std::unique_ptr<SceneView> scene) {
-  experiment_ = std::move(experiment);
-  scene_ = std::move(scene);
+/// Finds what is followed, and the camera that is looked through, in the changed experiment.
+void MainView::keep_names(const sim::Experiment& before, const sim::Experiment& after) {
+  const auto& nodes = after.scenario.nodes;
+  if (followed_) {
+    const auto found =
+        std::ranges::find(nodes, before.scenario.nodes.at(*followed_).name, &sim::NodeConfig::name);
+    follow(found == nodes.end() ? std::nullopt : std::optional(static_cast<uint32_t>(found - nodes.begin())));
+  }
+  if (!camera_) return;
+  const sim::NodeConfig& node = before.scenario.nodes.at(camera_->node);
+  const std::string name = node.name + "/" + node.sensors.at(camera_->sensor).name;
+  const std::optional<sim::SensorPlace> place = sim::find_sensor(nodes, name);
+  camera_.reset();
+  if (place && sim::pinhole_config(nodes[place->node].sensors[place->sensor]) != nullptr)
+    camera_ = apps::CameraName{place->node, place->sensor};
+}
+
+std::unique_ptr<SceneView> MainView::set_scene(std::shared_ptr<const sim::Experiment> experiment,
+                                               std::unique_ptr<SceneView> scene) {
+  const std::shared_ptr<const sim::Experiment> before = std::exchange(experiment_, std::move(experiment));
+  std::unique_ptr<SceneView> old = std::exchange(scene_, std::move(scene));
   moments_.emplace(experiment_);
-  look_from_outside();
+  has_asked_ = false;
+  if (before == nullptr) {
+    look_from_outside();
+  } else {
+    keep_names(*before, *experiment_);
+    if (before->world != experiment_->world) picked_.reset();
+  }
+  return old;
 }
 
 void MainView::look_from_outside() {
@@ -116,7 +142,7 @@ void MainView::navigate(const ShownTick& tick) {
     moved = true;
   }
   const dvec2 delta(io.MouseDelta.x, io.MouseDelta.y);
-  if (ImGui::IsItemActive() && delta != dvec2(0.0)) {
+  if (ImGui::IsItemActive() && !tool_has_mouse_ && delta != dvec2(0.0)) {
     const dvec2 angle = turn_per_pixel * delta;
     if (ImGui::IsMouseDown(ImGuiMouseButton_Right))
       viewpoint_->turn(-angle.x, angle.y);
@@ -181,16 +207,21 @@ Facts MainView::picked_facts(double carrier_hz) const {
   return facts_of(*picked_, *experiment_, *picture_, carrier_hz);
 }
 
-void MainView::draw_overlays(const Shapes& shapes) {
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImVec2 end(corner_.x + size_.x, corner_.y + size_.y);
-  list.PushClipRect(corner_, end, true);
+OverlayFrame MainView::overlay_frame() const {
   OverlayFrame frame;
   frame.view = picture_->request.view;
   frame.depth = picture_->depth;
   frame.origin = experiment_->scene().origin;
   frame.corner = corner_;
   frame.size = size_;
+  return frame;
+}
+
+void MainView::draw_overlays(const Shapes& shapes) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 end(corner_.x + size_.x, corner_.y + size_.y);
+  list.PushClipRect(corner_, end, true);
+  const OverlayFrame frame = overlay_frame();
   std::optional<ImVec2> cursor;
   if (ImGui::IsItemHovered()) cursor = ImGui::GetMousePos();
   const std::optional<OverlayHit> hit = draw_shapes(list, shapes, frame, cursor, hovered_id_);
@@ -221,9 +252,11 @@ void MainView::draw(const ShownTick* tick, const Shapes& shapes) {
   size_.x = size_.y / shape;
   ImGui::GetWindowDrawList()->AddImage(texture_, corner_, {corner_.x + size_.x, corner_.y + size_.y});
   draw_overlays(shapes);
-  if (ImGui::IsItemDeactivated() && !dragged_ && ImGui::IsItemHovered() &&
-      ImGui::IsMouseReleased(ImGuiMouseButton_Left))
-    click(ImGui::GetMousePos());
+  const bool clicked = ImGui::IsItemDeactivated() && !dragged_ && ImGui::IsItemHovered() &&
+                       ImGui::IsMouseReleased(ImGuiMouseButton_Left);
+  if (clicked && !tool_has_mouse_) click(ImGui::GetMousePos());
+  const bool hovered = ImGui::IsItemHovered();
+  tool_has_mouse_ = tool_ && tool_(overlay_frame(), hovered);
 }
 
 }  // namespace greatx::view

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,8 +31,11 @@ class MainView {
   MainView(const MainView&) = delete;
   MainView& operator=(const MainView&) = delete;
 
-  /// Shows a scene. `scene` draws it and has been made from the experiment.
-  void set_scene(std::shared_ptr<const sim::Experiment> experiment, std::unique_ptr<SceneView> scene);
+  /// Shows a scene. `scene` draws it and has been made from the experiment. Whoever looks at another scene
+  /// already goes on to look from there, through the camera or after the node of the same name. Returns what
+  /// drew the scene before, whose end may take a while.
+  std::unique_ptr<SceneView> set_scene(std::shared_ptr<const sim::Experiment> experiment,
+                                       std::unique_ptr<SceneView> scene);
   bool has_scene() const { return scene_ != nullptr; }
   std::string error() const { return scene_ ? scene_->error() : ""; }
 
@@ -61,12 +65,19 @@ class MainView {
   uint64_t hovered_id() const { return hovered_id_; }
   void highlight(uint64_t id) { hovered_id_ = id; }
 
+  /// Draws over the picture and may take the mouse, which it returns; `hovered` tells whether the cursor is
+  /// over the picture.
+  using Tool = std::function<bool(const OverlayFrame& frame, bool hovered)>;
+  void set_tool(Tool tool) { tool_ = std::move(tool); }
+
  private:
   void navigate(const ShownTick& tick);
   void request(const ShownTick& tick);
   SceneRequest wanted(const ShownTick& tick, bool fine);
   void show_picture();
+  OverlayFrame overlay_frame() const;
   void draw_overlays(const Shapes& shapes);
+  void keep_names(const sim::Experiment& before, const sim::Experiment& after);
   void click(const ImVec2& at);
   std::optional<ImVec2> pixel_under(const ImVec2& at) const;
 
@@ -90,6 +101,8 @@ class MainView {
   std::optional<Picked> picked_;
   uint64_t hovered_id_ = 0;
   bool show_legend_ = true;
+  Tool tool_;
+  bool tool_has_mouse_ = false;
 };
 
 }  // namespace greatx::view

@@ -19,13 +19,6 @@ constexpr ImU32 legend_backing = IM_COL32(16, 18, 22, 170);  ///< dark enough fo
 
 ImU32 packed(io::Color color, uint32_t alpha = 255) { return IM_COL32(color.r, color.g, color.b, alpha); }
 
-double distance_to_line(const ImVec2& p, const ImVec2& a, const ImVec2& b) {
-  const dvec2 way(b.x - a.x, b.y - a.y), from(p.x - a.x, p.y - a.y);
-  const double length2 = glm::dot(way, way);
-  const double share = length2 > 0.0 ? std::clamp(glm::dot(from, way) / length2, 0.0, 1.0) : 0.0;
-  return glm::length(from - share * way);
-}
-
 /// Keeps the nearest row.
 class Nearest {
  public:
@@ -164,6 +157,13 @@ class Drawing {
 };
 
 }  // namespace
+
+double distance_to_line(const ImVec2& p, const ImVec2& a, const ImVec2& b) {
+  const dvec2 way(b.x - a.x, b.y - a.y), from(p.x - a.x, p.y - a.y);
+  const double length2 = glm::dot(way, way);
+  const double share = length2 > 0.0 ? std::clamp(glm::dot(from, way) / length2, 0.0, 1.0) : 0.0;
+  return glm::length(from - share * way);
+}
 
 dvec3 OverlayFrame::place(const dvec3& world) const {
   const dvec3 pixel = view.project(world - origin);

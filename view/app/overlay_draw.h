@@ -39,6 +39,9 @@ struct OverlayHit {
 std::optional<OverlayHit> draw_shapes(ImDrawList& list, const Shapes& shapes, const OverlayFrame& frame,
                                       const std::optional<ImVec2>& cursor, uint64_t highlighted);
 
+/// Returns the distance of `p` from the line between `a` and `b`, pixels.
+double distance_to_line(const ImVec2& p, const ImVec2& a, const ImVec2& b);
+
 /// Draws the legend into the corner at `corner`, with one line of text for each entry.
 void draw_legend(ImDrawList& list, const Shapes& shapes, const ImVec2& corner);
 

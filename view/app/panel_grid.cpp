@@ -40,6 +40,11 @@ void PanelGrid::prepare(RunTiles& tiles, ShownRun& run) {
   std::set<std::string> opened;
   for (size_t i = 0; i < tiles.choices.size(); ++i) {
     const PanelChoice& choice = tiles.choices[i];
+    const auto before = tiles.open_before.find(choice.title);
+    if (before != tiles.open_before.end()) {
+      tiles.tiles[i].open = before->second;
+      continue;
+    }
     tiles.tiles[i].open = open_at_first_
                               ? std::ranges::find(*open_at_first_, choice.title) != open_at_first_->end()
                               : usual_kinds.contains(choice.kind) && opened.insert(choice.kind).second;
@@ -53,6 +58,17 @@ std::vector<std::string> PanelGrid::open() const {
       if (tiles.tiles[i].open && std::ranges::find(titles, tiles.choices[i].title) == titles.end())
         titles.push_back(tiles.choices[i].title);
   return titles;
+}
+
+void PanelGrid::replaced(const std::string& name) {
+  const auto found = runs_.find(name);
+  if (found == runs_.end()) return;
+  RunTiles fresh;
+  for (size_t i = 0; i < found->second.choices.size(); ++i) {
+    fresh.open_before[found->second.choices[i].title] = found->second.tiles[i].open;
+    drop(found->second.tiles[i]);
+  }
+  found->second = std::move(fresh);
 }
 
 void PanelGrid::keep(std::span<ShownRun* const> runs) {

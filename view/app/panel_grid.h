@@ -29,6 +29,9 @@ class PanelGrid {
   /// Takes the newest tick of each run into its history. To be called in every frame, drawn or not, so that
   /// panels over time have no gaps.
   void keep(std::span<ShownRun* const> runs);
+  /// To be called when another run has taken the place of the one of this name. Tiles that both have stay
+  /// open or closed.
+  void replaced(const std::string& name);
   /// Draws the tiles into the current ImGui window.
   void draw(std::span<ShownRun* const> runs);
   /// Opens or closes the tile of this title, e.g. "uav/front: depth". Throws UserError if there is none.
@@ -53,6 +56,8 @@ class PanelGrid {
     std::vector<PanelChoice> choices;
     std::vector<Tile> tiles;  ///< [choices]
     std::shared_ptr<const ShownTick> kept;
+    /// Of the run before: whether its tiles were open, by their titles.
+    std::map<std::string, bool> open_before;
   };
   void prepare(RunTiles& tiles, ShownRun& run);
   void draw_choices();

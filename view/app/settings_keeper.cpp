@@ -41,9 +41,9 @@ void SettingsKeeper::apply(const SettledParts& parts) {
 
 void SettingsKeeper::apply(ShownRun& run) {
   if (file_.empty()) return;
-  if (settled_speeds_.insert(&run.run()).second) run.run().set_speed(settings_.speed);
+  if (settled_speeds_.insert(run.name()).second) run.run().set_speed(settings_.speed);
   Overlays* const overlays = run.overlays();
-  if (overlays == nullptr || !settled_overlays_.insert(overlays).second) return;
+  if (overlays == nullptr || !settled_overlays_.insert(run.name()).second) return;
   OverlaySettings& shown = overlays->settings();
   for (const NamedSwitch& overlay : overlay_switches)
     if (const auto found = settings_.shows.find(overlay.name); found != settings_.shows.end())

@@ -37,7 +37,8 @@ class SettingsKeeper {
   void add_commands(Commands& commands);
   /// Brings the settings of the window into the viewer. To be called once.
   void apply(const SettledParts& parts);
-  /// Brings the settings of a run into it as soon as it can take them. To be called in every frame.
+  /// Brings the settings of a run into it as soon as it can take them. To be called in every frame. A run
+  /// that takes the place of another one of the same name keeps what it has.
   void apply(ShownRun& run);
   /// Writes the file, unless the settings are to be forgotten. Throws WriteError.
   void save(const SettledParts& parts, ShownRun& run);
@@ -48,8 +49,7 @@ class SettingsKeeper {
   std::filesystem::path file_;
   std::string title_;
   ViewerSettings settings_;
-  std::set<const Run*> settled_speeds_;
-  std::set<const Overlays*> settled_overlays_;
+  std::set<std::string> settled_speeds_, settled_overlays_;  ///< names of runs
   bool forgotten_ = false;
 };
 

@@ -20,6 +20,21 @@ std::unique_ptr<ShownRun> ShownRun::live(const ViewerOptions& options) {
   return shown;
 }
 
+std::unique_ptr<ShownRun> ShownRun::changed(const std::string& name, const ViewerOptions& options,
+                                            sim::Scenario scenario,
+                                            std::shared_ptr<const sim::Experiment> before) {
+  auto shown = std::unique_ptr<ShownRun>(new ShownRun(name, options));
+  LiveOptions live;
+  live.scenario = [scenario = std::move(scenario)] { return scenario; };
+  live.before = std::move(before);
+  live.device = options.device;
+  live.paused = true;
+  std::unique_ptr<LiveRun> run = live_run(std::move(live));
+  shown->live_ = run.get();
+  shown->run_ = std::move(run);
+  return shown;
+}
+
 std::unique_ptr<ShownRun> ShownRun::replay(const ViewerOptions& options,
                                            const std::filesystem::path& dataset) {
   auto shown = std::unique_ptr<ShownRun>(new ShownRun(dataset.string(), options));

@@ -20,6 +20,11 @@ namespace greatx::view {
 class ShownRun {
  public:
   static std::unique_ptr<ShownRun> live(const ViewerOptions& options);
+  /// A live run of a scenario that was changed after `before` was made, which may be null. It waits at its
+  /// first tick.
+  static std::unique_ptr<ShownRun> changed(const std::string& name, const ViewerOptions& options,
+                                           sim::Scenario scenario,
+                                           std::shared_ptr<const sim::Experiment> before);
   static std::unique_ptr<ShownRun> replay(const ViewerOptions& options, const std::filesystem::path& dataset);
 
   /// Takes what the run has loaded since the last call. Returns an experiment once, when it is there.

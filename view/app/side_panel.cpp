@@ -3,8 +3,10 @@
 #include "view/app/side_panel.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <imgui.h>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -45,11 +47,11 @@ double SidePanel::carrier_hz(ShownRun& run) const {
   return default_carrier_hz;
 }
 
-void SidePanel::draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view) {
+void SidePanel::draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view, EditSession& session) {
   times_.keep(main);
   grid_.keep(runs);
   if (!ImGui::BeginTabBar("side tabs")) return;
-  const auto tab = [&](const char* name, auto draw_tab) {
+  const auto tab = [this](const char* name, auto draw_tab) {
     const bool wanted = wanted_tab_ == name;
     if (wanted) wanted_tab_.clear();
     if (!ImGui::BeginTabItem(name, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0)) return;
@@ -59,26 +61,37 @@ void SidePanel::draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& 
     ImGui::EndTabItem();
   };
   tab("Sensors", [&] { grid_.draw(runs); });
-  tab("Picked", [&] { draw_picked(main, view); });
+  tab("Picked", [&] { draw_picked(main, view, session); });
   tab("Paths", [&] { draw_paths(main, view); });
-  tab("Effects", [&] { draw_effects(main); });
+  tab("Effects", [&] { draw_effects(main, session); });
+  tab("Edit", [&] { draw_edit(main, session); });
   tab("Times", [&] { times_.draw(main, view, grid_.milliseconds()); });
   ImGui::EndTabBar();
 }
 
 void SidePanel::open_tab(const std::string& name) {
-  static constexpr std::string_view names[] = {"Sensors", "Picked", "Paths", "Effects", "Times"};
-  if (std::ranges::find(names, name) == std::end(names))
-    throw_user_error("expected the name of a tab ({}), found '{}'", fmt::join(names, ", "), printable(name));
-  wanted_tab_ = name;
+  static constexpr std::string_view tabs[] = {"Sensors", "Picked", "Paths", "Effects", "Edit", "Times"};
+  const auto same = [&](std::string_view tab) {
+    return std::ranges::equal(
+        tab, name, {}, [](char c) { return std::tolower(static_cast<unsigned char>(c)); },
+        [](char c) { return std::tolower(static_cast<unsigned char>(c)); });
+  };
+  const auto* const found = std::ranges::find_if(tabs, same);
+  if (found == std::end(tabs))
+    throw_user_error("tab: expected one of {}, found '{}'", fmt::join(tabs, ", "), printable(name));
+  wanted_tab_ = *found;
 }
 
-void SidePanel::draw_picked(ShownRun& run, MainView& view) {
+void SidePanel::draw_picked(ShownRun& run, MainView& view, EditSession& session) {
   if (!view.picked()) {
     ImGui::TextWrapped("Click at something in the scene to see what it is, for light and for radio.");
     return;
   }
   draw_facts(view.picked_facts(carrier_hz(run)));
+  if (session.document() == nullptr || run.experiment() == nullptr) return;
+  if (!ImGui::Button("change its radio material")) return;
+  edit_.open_material(run.experiment()->scene().materials.at(view.picked()->material).name);
+  wanted_tab_ = "Edit";
 }
 
 void SidePanel::draw_filter(ShownRun& run) {
@@ -133,15 +146,22 @@ void SidePanel::draw_paths(ShownRun& run, MainView& view) {
   }
 }
 
-void SidePanel::draw_effects(ShownRun& run) {
+void SidePanel::draw_effects(ShownRun& run, EditSession& session) {
   if (run.experiment() == nullptr) {
     ImGui::TextUnformatted("The scenario is not there yet.");
     return;
   }
+  const bool editable = session.document() != nullptr;
+  if (editable && ImGui::CollapsingHeader("Knobs of accuracy and time")) edit_.draw_knobs(session);
+  if (editable && ImGui::CollapsingHeader("Before and after the last change")) edit_.draw_comparison(session);
   if (!ImGui::BeginTable("effects", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
   for (const sim::Effect* const effect : run.experiment()->plan.all()) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
+    if (editable && edit_.is_switch(effect->name)) {
+      edit_.draw_switch(session, effect->name);
+      ImGui::SameLine();
+    }
     if (effect->on)
       ImGui::TextColored({0.45f, 0.85f, 0.50f, 1.0f}, "on");
     else
@@ -153,6 +173,14 @@ void SidePanel::draw_effects(ShownRun& run) {
     ImGui::TextWrapped("%s", printable(why).c_str());
   }
   ImGui::EndTable();
+}
+
+void SidePanel::draw_edit(ShownRun& run, EditSession& session) {
+  std::vector<std::string> materials;
+  if (run.experiment() != nullptr)
+    for (const auto& material : run.experiment()->scene().materials) materials.push_back(material.name);
+  std::ranges::sort(materials);
+  edit_.draw(session, materials);
 }
 
 }  // namespace greatx::view

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "view/app/edit_panel.h"
 #include "view/app/main_view.h"
 #include "view/app/panel_grid.h"
 #include "view/app/shown_run.h"
@@ -21,7 +22,7 @@ class SidePanel {
  public:
   explicit SidePanel(Window& window) : grid_(window) {}
   /// Draws into the current ImGui window. `main` is the run that the main view shows.
-  void draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view);
+  void draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view, EditSession& session);
   PanelGrid& grid() { return grid_; }
   /// Brings a tab to the front in the next frame. Throws UserError if there is none of this name.
   void open_tab(const std::string& name);
@@ -29,12 +30,14 @@ class SidePanel {
   double carrier_hz(ShownRun& run) const;
 
  private:
-  void draw_picked(ShownRun& run, MainView& view);
+  void draw_picked(ShownRun& run, MainView& view, EditSession& session);
+  void draw_edit(ShownRun& run, EditSession& session);
   void draw_paths(ShownRun& run, MainView& view);
   void draw_filter(ShownRun& run);
-  void draw_effects(ShownRun& run);
+  void draw_effects(ShownRun& run, EditSession& session);
 
   PanelGrid grid_;
+  EditPanel edit_;
   TimesPanel times_;
   std::string wanted_tab_;  ///< empty: the one in front stays
 };

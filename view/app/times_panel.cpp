@@ -72,6 +72,8 @@ void number_cell(const std::string& text) {
 void TimesPanel::keep(ShownRun& run) {
   const std::shared_ptr<const ShownTick> shown = run.run().shown();
   if (shown == nullptr || shown == kept_ || run.info() == nullptr) return;
+  if (info_ != run.info()) history_ = TimeHistory();  // an edit has made another run, with times of its own
+  info_ = run.info();
   kept_ = shown;
   history_.add(*shown, run.info()->sensors);
 }

@@ -26,6 +26,7 @@ class TimesPanel {
   void draw_memory(ShownRun& run);
 
   TimeHistory history_;
+  std::shared_ptr<const io::DatasetInfo> info_;  ///< of the run that history_ is of
   std::shared_ptr<const ShownTick> kept_;
   bool all_lines_ = false;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <imgui.h>
 #include <iostream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,8 @@
 #include "io/formats/png.h"
 #include "sim/plan/camera_desc.h"
 #include "view/app/commands.h"
+#include "view/app/edit_session.h"
+#include "view/app/gizmo.h"
 #include "view/app/main_view.h"
 #include "view/app/recording.h"
 #include "view/app/script_runner.h"
@@ -39,6 +42,7 @@ class Viewer {
   Viewer(const ViewerOptions& options, ViewerSettings settings)
       : options_(options),
         window_(Window::open(options.window)),
+        edit_(options),
         main_(*window_),
         side_(*window_),
         recording_(*window_, options.script_folder, !options.script.empty()),
@@ -51,6 +55,9 @@ class Viewer {
     window_->set_title("greatx: " + options.title);
     settings_.apply(settled_parts());
     add_commands();
+    add_edit_commands();
+    main_.set_tool(
+        [this](const OverlayFrame& frame, bool hovered) { return gizmo_.draw(edit_, frame, hovered); });
   }
 
   /// Writes the settings.
@@ -90,10 +97,23 @@ class Viewer {
     for (size_t i = 0; i < runs_.size(); ++i) {
       const std::shared_ptr<const sim::Experiment> loaded = runs_[i]->update();
       settings_.apply(*runs_[i]);
-      if (loaded == nullptr || i != main_run_) continue;
-      main_.set_scene(loaded, std::make_unique<SceneView>(loaded, options_.device));
-      add_camera_commands(*loaded);
+      if (loaded != nullptr && i == main_run_) show_scene(loaded);
     }
+    std::unique_ptr<ShownRun> fresh = edit_.update(shown());
+    if (fresh == nullptr) return;
+    if (fresh->overlays() != nullptr && shown().overlays() != nullptr)
+      fresh->overlays()->settings() = shown().overlays()->settings();
+    edit_.retire(std::exchange(runs_[main_run_], std::move(fresh)));
+    side_.grid().replaced(shown().name());
+    show_scene(shown().experiment());
+  }
+
+  void show_scene(const std::shared_ptr<const sim::Experiment>& experiment) {
+    auto scene = std::make_unique<SceneView>(experiment, options_.device);
+    edit_.disposer().drop(main_.set_scene(experiment, std::move(scene)));
+    commands_.remove("camera ");
+    commands_.remove("follow ");
+    add_camera_commands(*experiment);
   }
 
   void frame() {
@@ -165,6 +185,8 @@ class Viewer {
     std::vector<std::string> errors{shown().run().status().error, shown().scene_error(), main_.error()};
     if (const Overlays* const overlays = shown().overlays()) errors.push_back(overlays->error());
     errors.push_back(command_error_);
+    errors.push_back(edit_.error());
+    errors.push_back(gizmo_.error());
     errors.push_back(recording_.error());
     ImGui::SetCursorPos({scaled(20.0f), scaled(60.0f)});
     ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - scaled(20.0f));
@@ -179,7 +201,7 @@ class Viewer {
     ImGui::Begin("side", nullptr, fixed_window);
     std::vector<ShownRun*> runs;
     for (const std::unique_ptr<ShownRun>& run : runs_) runs.push_back(run.get());
-    side_.draw(runs, shown(), main_);
+    side_.draw(runs, shown(), main_, edit_);
     ImGui::End();
   }
 
@@ -256,12 +278,19 @@ class Viewer {
                    [this](const std::string& title) { side_.grid().toggle(title); },
                    {},
                    [this] { return shown().info() != nullptr; }});
-    add_switch(commands_, "side", "View", "Panels", "tab", side_open_);
     commands_.add({"tab",
+                   "View",
+                   "Tabs: click them",
+                   "",
+                   [this](const std::string& name) { side_.open_tab(name); },
+                   {},
+                   [this] { return shown().info() != nullptr; }});
+    add_switch(commands_, "side", "View", "Panels", "tab", side_open_);
+    commands_.add({"times",
                    "View",
                    "Where the time goes",
                    "F3",
-                   [this](const std::string& name) { open_tab(name.empty() ? "Times" : name); },
+                   [this](const std::string&) { open_tab("Times"); },
                    {},
                    {}});
     add_switch(commands_, "legend", "Show", "Legend", "l", main_.show_legend());
@@ -274,6 +303,47 @@ class Viewer {
   void open_tab(const std::string& name) {
     side_open_ = true;
     side_.open_tab(name);
+  }
+
+  void add_edit_commands() {
+    const auto possible = [this] { return edit_.document() != nullptr; };
+    const auto add = [&](const char* name, const char* label, const char* key,
+                         std::function<void(const std::string&)> act) {
+      commands_.add({name, "Edit", label, key, std::move(act), {}, possible});
+    };
+    add("undo", "Undo", "ctrl+z", [this](const std::string&) { edit_.undo(); });
+    add("redo", "Redo", "ctrl+y", [this](const std::string&) { edit_.redo(); });
+    add("save", "Save the scenario", "ctrl+s", [this](const std::string& file) { edit_.save(file); });
+    add("copy-command", "Copy the command line", "",
+        [this](const std::string&) { ImGui::SetClipboardText(edit_.command().c_str()); });
+    add("reload", "Read the scenario's files again", "ctrl+r",
+        [this](const std::string&) { edit_.reload(); });
+    add("set", "Set a value: in the tab Edit", "", [this](const std::string& words) {
+      const auto [path, value] = split(words);
+      edit_.change({YamlChange::Kind::set, parse_yaml_path(path), value});
+    });
+    add("insert", "Insert an item: in the tab Edit", "", [this](const std::string& words) {
+      const auto [path, value] = split(words);
+      edit_.change({YamlChange::Kind::insert, parse_yaml_path(path), value});
+    });
+    add("unset", "Use a default: in the tab Edit", "", [this](const std::string& path) {
+      edit_.change({YamlChange::Kind::remove, parse_yaml_path(path), ""});
+    });
+    add("set-material", "Set a radio material: in the tab Edit", "", [this](const std::string& words) {
+      const auto [name, value] = split(words);
+      edit_.change_materials({{YamlChange::Kind::set, {YamlStep("materials"), YamlStep(name)}, value}});
+    });
+    add("select", "Select a node to move: click its handle", "",
+        [this](const std::string& node) { gizmo_.select(edit_, node); });
+    add_switch(commands_, "gizmo", "Edit", "Handles to move and turn", "g", gizmo_.on);
+  }
+
+  /// "PATH VALUE" of a script.
+  static std::pair<std::string, std::string> split(const std::string& words) {
+    const size_t space = words.find(' ');
+    if (space == std::string::npos)
+      throw_user_error("expected a path and a value, found '{}'", printable(words));
+    return {words.substr(0, space), words.substr(space + 1)};
   }
 
   void add_overlay_commands() {
@@ -361,6 +431,7 @@ class Viewer {
     return {
         [this] {
           const RunStatus status = shown().run().status();
+          if (edit_.busy()) return false;
           return status.phase == RunStatus::Phase::failed ||
                  (status.phase == RunStatus::Phase::ready && shown().run().shown() != nullptr);
         },
@@ -381,17 +452,36 @@ class Viewer {
     if (fact == "tick") {
       std::cout << status.tick << '\n';
     } else if (fact == "error") {
-      std::cout << (status.error.empty() ? "none" : status.error) << '\n';
+      const std::string& error = status.error.empty() ? edit_.error() : status.error;
+      std::cout << (error.empty() ? "none" : error) << '\n';
     } else if (fact == "picked") {
       for (const auto& [name, value] : main_.picked_facts(side_.carrier_hz(shown())))
         std::cout << name << ": " << value << '\n';
       if (!main_.picked()) std::cout << "nothing\n";
     } else if (fact == "hovered") {
       std::cout << fmt::format("{:016x}\n", main_.hovered_id());
+    } else if (fact == "scenario") {
+      std::cout << (edit_.document() != nullptr ? edit_.document()->text() : "none\n");
+    } else if (fact == "command") {
+      std::cout << edit_.command() << '\n';
+    } else if (fact == "comparison") {
+      print_comparison();
     } else {
-      throw_user_error("print: expected tick, error, picked or hovered, found '{}'", printable(fact));
+      throw_user_error(
+          "print: expected tick, error, picked, hovered, scenario, command or comparison, found '{}'",
+          printable(fact));
     }
     std::cout.flush();
+  }
+
+  void print_comparison() {
+    if (!edit_.comparison()) {
+      std::cout << "none\n";
+      return;
+    }
+    std::cout << edit_.comparison()->label << ", tick " << edit_.comparison()->tick << '\n';
+    for (const Difference& row : edit_.comparison()->rows)
+      std::cout << row.sensor << ' ' << row.array << ": " << (row.equal ? "equal" : row.text) << '\n';
   }
 
   static constexpr ImGuiWindowFlags fixed_window =
@@ -402,6 +492,8 @@ class Viewer {
   std::unique_ptr<Window> window_;
   std::vector<std::unique_ptr<ShownRun>> runs_;
   size_t main_run_ = 0;
+  EditSession edit_;
+  Gizmo gizmo_;
   MainView main_;
   SidePanel side_;
   Recording recording_;

@@ -28,6 +28,9 @@ struct ViewerOptions {
   /// Returns the scenario that a data set was made of, from the text that it holds. It is called on a thread
   /// of its own, and what it throws is shown where the scene would be.
   std::function<sim::Scenario(const std::string& text, const std::filesystem::path& dataset)> scenario_of;
+  /// Parses a changed text of a live run's scenario. Empty: the scenario cannot be edited.
+  std::function<sim::Scenario(const sim::Scenario& before, const std::string& text)> reparse;
+  std::filesystem::path assets;  ///< where the scenario's files are looked for besides its own folder
   gpu::DeviceOptions device;
   WindowOptions window;
   std::vector<ScriptStep> script;       ///< empty: a person drives

@@ -88,7 +88,10 @@ SimulatedTicks::SimulatedTicks(const LiveOptions& options, Handover& handover)
     : device_options_(options.device), store_(options.kept_bytes) {
   {
     const Activity activity("loading the scene");
-    experiment_ = std::make_shared<const sim::Experiment>(sim::make_experiment(options.scenario()));
+    sim::Scenario scenario = options.scenario();
+    experiment_ = std::make_shared<const sim::Experiment>(
+        options.before ? sim::make_experiment(std::move(scenario), *options.before)
+                       : sim::make_experiment(std::move(scenario)));
   }
   handover.give(experiment_);
   checkpoint();

@@ -18,6 +18,9 @@ namespace greatx::view {
 struct LiveOptions {
   /// Returns the scenario. It is called once, on the run's thread; what it throws becomes status().error.
   std::function<sim::Scenario()> scenario;
+  /// The experiment before a change of its scenario; its world is used again if it is the same one. Null:
+  /// none.
+  std::shared_ptr<const sim::Experiment> before;
   gpu::DeviceOptions device;
   bool paused = false;  ///< shows the first tick and waits; otherwise it plays from the beginning
   uint64_t kept_bytes = most_kept_bytes;  ///< of the records that it keeps, to show them again
