@@ -19,10 +19,12 @@ struct ViewOptions {
   ScenarioOptions scenario;
   RunOptions run;
   bool offscreen = false, paused = false;
-  std::string script, size = "1280x720";
+  double scale = 0.0;
+  std::string script, size, settings;
 };
 
-std::filesystem::path settings_file() {
+/// Returns the folder of the viewer's settings; nothing if there can be none.
+std::filesystem::path settings_folder() {
   const char* const config = std::getenv("XDG_CONFIG_HOME");
   const char* const home = std::getenv("HOME");
   std::filesystem::path folder;
@@ -34,7 +36,7 @@ std::filesystem::path settings_file() {
     return {};
   std::error_code error;
   std::filesystem::create_directories(folder / "greatx", error);
-  return error ? std::filesystem::path{} : folder / "greatx" / "viewer.ini";
+  return error ? std::filesystem::path{} : folder / "greatx";
 }
 
 bool is_dataset(const std::string& what) {
@@ -77,7 +79,10 @@ view::ViewerOptions viewer_options(const ViewOptions& options) {
   };
   viewer.device = options.run.device_options();
   viewer.paused = options.paused;
-  std::tie(viewer.window.width, viewer.window.height) = parse_window_size(options.size);
+  viewer.chosen_size = !options.size.empty();
+  if (viewer.chosen_size)
+    std::tie(viewer.window.width, viewer.window.height) = parse_window_size(options.size);
+  viewer.window.scale = options.scale;
   viewer.window.offscreen = options.offscreen;
   viewer.window.validation = options.run.validation;
   viewer.window.device = options.run.device;
@@ -87,8 +92,13 @@ view::ViewerOptions viewer_options(const ViewOptions& options) {
   } else if (options.offscreen) {
     throw_user_error("--offscreen: expected a --script to drive the viewer, found none");
   } else {
-    viewer.window.settings_file = settings_file().string();
+    // Scripts draw the same on every machine, so they remember and know nothing unless they are told to.
+    if (const std::filesystem::path folder = settings_folder(); !folder.empty()) {
+      viewer.window.settings_file = (folder / "viewer.ini").string();
+      viewer.settings_file = folder / "viewer.json";
+    }
   }
+  if (!options.settings.empty()) viewer.settings_file = options.settings;
   return viewer;
 }
 
@@ -111,7 +121,12 @@ void add_view(CLI::App& app) {
       ->check(integer_of(1, 1'000'000));
   options->run.add_to(*command);
   command->add_flag("--paused", options->paused, "show the first tick and wait");
-  command->add_option("--size", options->size, "of the window, pixels")->capture_default_str();
+  command->add_option("--size", options->size, "of the window, pixels [that of the last time, or 1280x720]");
+  command->add_option("--scale", options->scale, "of texts and buttons [as the display asks for]")
+      ->check(CLI::Range(0.5, 4.0));
+  command->add_option("--settings", options->settings,
+                      "file in which the viewer remembers its settings, for scripts, too "
+                      "[~/.config/greatx/viewer.json; none for scripts]");
   command->add_option("--script", options->script, "actions to run instead of a person (docs/viewer.md)");
   command->add_flag("--offscreen", options->offscreen, "draw without a display; needs --script");
   command->callback([options] { view::run_viewer(viewer_options(*options)); });

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "gpu/cmd.h"
+#include "gpu/memory_use.h"
 
 namespace greatx::gpu {
 
@@ -52,7 +53,8 @@ void take_from_file(const Device& device, VkDeviceSize size, std::string_view na
       device.info().name, name, all, limit.rlim_cur);
 }
 
-void give_back_to_file(const Device& device, VkDeviceSize size) {
+void give_back(const Device& device, VkDeviceSize size) {
+  count_freed(size);
   if (keeps_memory_in_file(device)) bytes_in_file -= pages_of(size);
 }
 
@@ -70,6 +72,7 @@ VkDeviceMemory allocate(Device& device, const VkMemoryRequirements& needs, uint3
     throw_user_error("device '{}' is out of memory: '{}' needs {} bytes", device.info().name, name,
                      needs.size);
   GREATX_VK(result);
+  count_allocated(needs.size);
   return memory;
 }
 
@@ -115,7 +118,7 @@ Buffer::~Buffer() {
   device_->finish();
   VkMemoryRequirements had{};
   vkGetBufferMemoryRequirements(device_->handle(), buffer_, &had);
-  give_back_to_file(*device_, had.size);
+  give_back(*device_, had.size);
   vkDestroyBuffer(device_->handle(), buffer_, nullptr);
   vkFreeMemory(device_->handle(), memory_, nullptr);
 }
@@ -163,7 +166,7 @@ Image::~Image() {
   device_->finish();
   VkMemoryRequirements had{};
   vkGetImageMemoryRequirements(device_->handle(), image_, &had);
-  give_back_to_file(*device_, had.size);
+  give_back(*device_, had.size);
   vkDestroyImageView(device_->handle(), view_, nullptr);
   vkDestroyImage(device_->handle(), image_, nullptr);
   vkFreeMemory(device_->handle(), memory_, nullptr);

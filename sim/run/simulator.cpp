@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
+#include <utility>
 
 #include "core/activity.h"
 #include "core/watch.h"
@@ -18,25 +20,34 @@ constexpr VkDeviceSize first_upload_bytes = 4u << 20, first_readback_bytes = 16u
 
 }  // namespace
 
-/// Describes a tick that is submitted and not yet collected.
+/// Describes a tick that is recorded and not yet collected.
 struct Simulator::InFlight {
   const gpu::TickSlot* slot = nullptr;
   int64_t tick = 0;
   std::vector<Due> due;
+  TickTimes times;
+  /// The sensors that recorded scopes, in order, each with the number of scopes until it ended. Kept for
+  /// `times` alone.
+  std::vector<std::pair<uint32_t, uint64_t>> recorded;
 };
 
-/// Adds the wall time of its lifetime to a row of RunStatistics::host, if samples are kept.
+/// Measures the wall time of its lifetime: for a row of RunStatistics::host if samples are kept, and for a
+/// row of the tick's times if those are kept.
 class Simulator::HostScope {
  public:
-  HostScope(Simulator& simulator, const char* doing, const std::string& sensor = {}) {
-    if (!simulator.keep_samples_) return;
-    total_ = &simulator.statistics_.host[sensor.empty() ? doing : doing + (" " + sensor)];
-    begin_ = std::chrono::steady_clock::now();
+  HostScope(Simulator& simulator, TickTimes* times, const char* doing, uint32_t sensor = TimeRow::shared)
+      : times_(simulator.keep_times_ ? times : nullptr), doing_(doing), sensor_(sensor) {
+    if (simulator.keep_samples_)
+      total_ = &simulator.statistics_
+                    .host[sensor == TimeRow::shared ? doing : doing + (" " + simulator.specs_[sensor].name)];
+    if (total_ != nullptr || times_ != nullptr) begin_ = std::chrono::steady_clock::now();
   }
   ~HostScope() {
-    if (total_ == nullptr) return;
+    if (total_ == nullptr && times_ == nullptr) return;
     const double milliseconds =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
+    if (times_ != nullptr) times_->rows.push_back({doing_, sensor_, false, 1, milliseconds});
+    if (total_ == nullptr) return;
     ++total_->count;
     total_->milliseconds += milliseconds;
     total_->samples.push_back(milliseconds);
@@ -46,6 +57,9 @@ class Simulator::HostScope {
 
  private:
   PassTotal* total_ = nullptr;
+  TickTimes* times_;
+  const char* doing_;
+  uint32_t sensor_;
   std::chrono::steady_clock::time_point begin_;
 };
 
@@ -70,6 +84,16 @@ Simulator::Simulator(gpu::Device& device, const Experiment& experiment)
 Simulator::~Simulator() = default;
 
 void Simulator::start(uint32_t sequence, int64_t first_tick) {
+  TickTimes started;
+  {
+    std::optional<HostScope> scope;
+    if (keep_times_) scope.emplace(*this, &started, "start");
+    start_sequence(sequence, first_tick);
+  }
+  start_ms_ = started.rows.empty() ? 0.0 : started.rows.front().milliseconds;
+}
+
+void Simulator::start_sequence(uint32_t sequence, int64_t first_tick) {
   GREATX_CHECK(pending_ == nullptr, "sequence {} started with a tick in flight", sequence);
   sequence_ = sequence;
   courses_ = make_courses(scenario_, world_, sequence);
@@ -102,10 +126,11 @@ void Simulator::replay(int64_t end) {
     std::erase_if(due, [&](const Due& d) { return !sensors_[d.sensor].sensor->remembers(); });
     if (due.empty()) continue;
     gpu::TickSlot& slot = ring_.begin();
-    record(slot, moment_at(tick), due);
+    InFlight in_flight{&slot, tick, std::move(due), {}, {}};
+    record(in_flight, slot, moment_at(tick));
     ring_.submit(slot, gpu::TickRing::Kind::setup);
     ring_.wait(slot);
-    for (const Due& d : due) sensors_[d.sensor].sensor->catch_up(slot);
+    for (const Due& d : in_flight.due) sensors_[d.sensor].sensor->catch_up(slot);
   }
 }
 
@@ -121,46 +146,63 @@ bool Simulator::step(RecordSink& sink) {
     return false;
   }
   if (looks_ahead_ && pending_ != nullptr) {
-    const HostScope scope(*this, "wait to look ahead");
+    const HostScope scope(*this, &pending_->times, "wait to look ahead");
     ring_.wait(*pending_->slot);
   }
   const int64_t tick = next_tick_;
-  std::vector<Due> due = schedule_.due(tick, due_ticks_++);
-
   gpu::TickSlot& slot = ring_.begin();
-  record(slot, moment_at(tick), due);
+  auto in_flight = std::make_unique<InFlight>();
+  in_flight->slot = &slot;
+  in_flight->tick = tick;
+  in_flight->due = schedule_.due(tick, due_ticks_++);
+  in_flight->times.start_ms = std::exchange(start_ms_, 0.0);
+  record(*in_flight, slot, moment_at(tick));
   next_tick_ = schedule_.next(tick + 1, scenario_.ticks);
-  if (looks_ahead_ && next_tick_ < scenario_.ticks) record_ahead(slot);
+  if (looks_ahead_ && next_tick_ < scenario_.ticks) record_ahead(*in_flight, slot);
   ring_.submit(slot);
   ++statistics_.ticks;
 
   drain(sink);  // collects the tick before, while the GPU works on this one
-  pending_ = std::make_unique<InFlight>(InFlight{&slot, tick, std::move(due)});
+  pending_ = std::move(in_flight);
   return true;
 }
 
-void Simulator::record(gpu::TickSlot& slot, const Moment& moment, const std::vector<Due>& due) {
+void Simulator::record(InFlight& in_flight, gpu::TickSlot& slot, const Moment& moment) {
   const Activity activity("recording a tick");
-  gpu_scene_.record_update(slot, moment.bodies);
-  const bool pictures =
-      std::ranges::any_of(due, [&](const Due& d) { return sensors_[d.sensor].sensor->draws_pictures(); });
-  if (pictures) passes_.lighting->record(slot, moment.bodies);
-  for (const Due& d : due) {
+  const uint64_t passes_before = device_.counters().passes;
+  const auto note_passes = [&](uint32_t sensor) {
+    if (keep_times_) in_flight.recorded.emplace_back(sensor, device_.counters().passes - passes_before);
+  };
+  {
+    const HostScope scope(*this, &in_flight.times, "record");
+    gpu_scene_.record_update(slot, moment.bodies);
+    const bool pictures = std::ranges::any_of(
+        in_flight.due, [&](const Due& d) { return sensors_[d.sensor].sensor->draws_pictures(); });
+    if (pictures) passes_.lighting->record(slot, moment.bodies);
+    note_passes(TimeRow::shared);
+  }
+  for (const Due& d : in_flight.due) {
     const RunSensor& run = sensors_[d.sensor];
-    const HostScope scope(*this, "record", specs_[d.sensor].name);
+    const HostScope scope(*this, &in_flight.times, "record", d.sensor);
     located(run.where, [&] { run.sensor->record(slot, moment.context); });
+    note_passes(d.sensor);
   }
 }
 
-void Simulator::record_ahead(gpu::TickSlot& slot) {
+void Simulator::record_ahead(InFlight& in_flight, gpu::TickSlot& slot) {
   const Moment next = moment_at(next_tick_);
   bool updated = false;
+  const uint64_t passes_before = device_.counters().passes;
+  const uint64_t recorded = in_flight.recorded.empty() ? 0 : in_flight.recorded.back().second;
   for (const Due& due : schedule_.due(next_tick_, due_ticks_)) {
     Sensor& sensor = *sensors_[due.sensor].sensor;
     if (!sensor.looks_ahead()) continue;
     if (!updated) gpu_scene_.record_update(slot, next.bodies);
     updated = true;
+    const HostScope scope(*this, &in_flight.times, "look ahead", due.sensor);
     sensor.record_ahead(slot, next.context);
+    if (keep_times_)
+      in_flight.recorded.emplace_back(due.sensor, recorded + device_.counters().passes - passes_before);
   }
 }
 
@@ -170,15 +212,15 @@ void Simulator::drain(RecordSink& sink) {
   collect(*in_flight, sink);
 }
 
-void Simulator::collect(const InFlight& in_flight, RecordSink& sink) {
+void Simulator::collect(InFlight& in_flight, RecordSink& sink) {
   const Activity activity("collecting a tick");
   {
-    const HostScope scope(*this, "wait");
+    const HostScope scope(*this, &in_flight.times, "wait");
     ring_.wait(*in_flight.slot);
   }
   Packet packet{in_flight.tick, clock_.nanoseconds(in_flight.tick), {}};
   for (const Due& due : in_flight.due) {
-    const HostScope scope(*this, "collect", specs_[due.sensor].name);
+    const HostScope scope(*this, &in_flight.times, "collect", due.sensor);
     const RunSensor& run = sensors_[due.sensor];
     const auto collect = [&] { return run.sensor->collect(*in_flight.slot); };
     packet.records.push_back(
@@ -186,18 +228,53 @@ void Simulator::collect(const InFlight& in_flight, RecordSink& sink) {
     ++statistics_.records[specs_[due.sensor].name];
   }
   {
-    const HostScope scope(*this, "compare");
+    const HostScope scope(*this, &in_flight.times, "compare");
     compare(packet);
   }
-  for (const gpu::PassTime& pass : in_flight.slot->timestamps.read()) {
+  add_passes(in_flight);
+  times_ = std::move(in_flight.times);
+  const HostScope scope(*this, nullptr, "hand over");
+  sink.write(std::move(packet));
+  ++statistics_.packets;
+}
+
+/// Adds the times of the tick's passes to those of the run and, if they are kept, to those of the tick.
+void Simulator::add_passes(InFlight& in_flight) {
+  const std::vector<gpu::PassTime> passes = in_flight.slot->timestamps.read();
+  for (const gpu::PassTime& pass : passes) {
     PassTotal& total = statistics_.passes[pass.name];
     ++total.count;
     total.milliseconds += pass.milliseconds;
     if (keep_samples_) total.samples.push_back(pass.milliseconds);
   }
-  const HostScope scope(*this, "hand over");
-  sink.write(std::move(packet));
-  ++statistics_.packets;
+  if (!keep_times_) return;
+  TickTimes& times = in_flight.times;
+  times.simulated_ms = simulated_ms(in_flight.tick);
+  times.device_is_a_cpu = device_.info().type == "cpu";
+  auto by = in_flight.recorded.begin();
+  for (size_t i = 0; i < passes.size(); ++i) {
+    while (by != in_flight.recorded.end() && by->second <= i) ++by;
+    const uint32_t sensor = by == in_flight.recorded.end() ? TimeRow::shared : by->first;
+    const auto same = std::ranges::find_if(times.rows, [&](const TimeRow& row) {
+      return row.on_device && row.sensor == sensor && row.name == passes[i].name;
+    });
+    if (same == times.rows.end()) {
+      times.rows.push_back({passes[i].name, sensor, true, 1, passes[i].milliseconds});
+    } else {
+      ++same->count;
+      same->milliseconds += passes[i].milliseconds;
+    }
+  }
+}
+
+/// Returns the simulated time from the due tick before `tick` to it; of the first one, to the next.
+double Simulator::simulated_ms(int64_t tick) const {
+  int64_t from = schedule_.previous(tick), to = tick;
+  if (from < 0) {
+    from = tick;
+    to = schedule_.next(tick + 1, scenario_.ticks);
+  }
+  return 1e-6 * static_cast<double>(clock_.nanoseconds(to) - clock_.nanoseconds(from));
 }
 
 void Simulator::compare(const Packet& packet) {

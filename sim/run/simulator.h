@@ -18,6 +18,7 @@
 #include "sim/compare/comparisons.h"
 #include "sim/experiment/experiment.h"
 #include "sim/run/schedule.h"
+#include "sim/run/tick_times.h"
 #include "sim/scenario/clock.h"
 #include "sim/scenario/trajectory.h"
 #include "sim/sensors/registry/registry.h"
@@ -38,9 +39,10 @@ struct RunStatistics {
   int64_t packets = 0;                      ///< complete packets handed to the sink
   std::map<std::string, int64_t> records;   ///< by sensor
   std::map<std::string, PassTotal> passes;  ///< by scope name
-  /// Wall times of the host by activity, only if samples are kept: "record NAME" and "collect NAME" of each
-  /// sensor (the latter while the GPU works on the next tick), "wait" for the GPU ("wait to look ahead" if a
-  /// sensor looks ahead), "compare" (the consistency check), and "hand over" to the sink.
+  /// Wall times of the host by activity, only if samples are kept: "record" of the scene, "record NAME",
+  /// "look ahead NAME" and "collect NAME" of each sensor (the last while the GPU works on the next tick),
+  /// "wait" for the GPU ("wait to look ahead" if a sensor looks ahead), "compare" (the consistency check),
+  /// and "hand over" to the sink.
   std::map<std::string, PassTotal> host;
   std::map<std::string, uint64_t> counters;  ///< counts of the sensors: paths, candidates, overflows
   /// (name, text) pairs: how candidates were found, and which guarantees hold.
@@ -76,14 +78,21 @@ class Simulator {
   bool remembers() const;
   RunStatistics statistics() const;
   void keep_pass_samples(bool keep) { keep_samples_ = keep; }
+  /// Keeps the times of each tick for times(), from the next step() on.
+  void keep_tick_times(bool keep) { keep_times_ = keep; }
+  /// Returns the times of the packet that the sink is being given; without rows if they are not kept.
+  const TickTimes& times() const { return times_; }
 
  private:
   struct InFlight;
   Moment moment_at(int64_t tick) const;
+  void start_sequence(uint32_t sequence, int64_t first_tick);
   void replay(int64_t end);
-  void record(gpu::TickSlot& slot, const Moment& moment, const std::vector<Due>& due);
-  void record_ahead(gpu::TickSlot& slot);
-  void collect(const InFlight& in_flight, RecordSink& sink);
+  void record(InFlight& in_flight, gpu::TickSlot& slot, const Moment& moment);
+  void record_ahead(InFlight& in_flight, gpu::TickSlot& slot);
+  void collect(InFlight& in_flight, RecordSink& sink);
+  void add_passes(InFlight& in_flight);
+  double simulated_ms(int64_t tick) const;
   void compare(const Packet& packet);
   class HostScope;
 
@@ -104,7 +113,9 @@ class Simulator {
   int64_t next_tick_ = 0;
   int64_t due_ticks_ = 0;  ///< due ticks of the sequence before next_tick_
   bool looks_ahead_ = false;
-  bool keep_samples_ = false;
+  bool keep_samples_ = false, keep_times_ = false;
+  TickTimes times_;        ///< of the packet collected last
+  double start_ms_ = 0.0;  ///< of start(), until a tick is recorded; kept for times_ alone
   RunStatistics statistics_;
 };
 

@@ -90,6 +90,44 @@ TEST(Live, StepsShowThePacketsOfThePlainRun) {
   EXPECT_NE(reference(0).joined<uint16_t>("eye/dvs", "x"), reference(1).joined<uint16_t>("eye/dvs", "x"));
 }
 
+std::set<std::string> rows_of(const ShownTick& tick, const io::DatasetInfo& info) {
+  std::set<std::string> rows;
+  for (const sim::TimeRow& row : tick.times->rows) {
+    EXPECT_GE(row.milliseconds, 0.0) << row.name;
+    EXPECT_GE(row.count, 1u) << row.name;
+    rows.insert(fmt::format("{}: {}{}",
+                            row.sensor == sim::TimeRow::shared ? "all" : info.sensors.at(row.sensor).name,
+                            row.name, row.on_device ? ", device" : ""));
+  }
+  return rows;
+}
+
+TEST(Live, EachTickSaysWhereItsTimeWent) {
+  const auto run = live_run(options_of(street));
+  ASSERT_TRUE(wait_for_tick(*run, 0, 0));
+  const std::shared_ptr<const ShownTick> first = run->shown();
+  ASSERT_NE(first->times, nullptr);
+  EXPECT_THAT(
+      rows_of(*first, *run->info()),
+      testing::IsSupersetOf({"all: record", "all: wait", "all: compare", "eye/lidar: record",
+                             "eye/lidar: collect", "eye/lidar: eye/lidar, device", "csi: crossings, device",
+                             "eye/camera: eye/camera shade, device", "eye/dvs: eye/dvs events, device"}));
+  EXPECT_DOUBLE_EQ(first->times->simulated_ms, 20.0) << "to the next one, which is the event camera's";
+  EXPECT_GT(first->times->start_ms, 0.0);
+  EXPECT_LE(first->times->start_ms, first->simulated_ms);
+  EXPECT_GT(first->memory.device_bytes, 100'000u);
+  EXPECT_GT(first->memory.kept_bytes, 1000u);
+  run->step(1);
+  ASSERT_TRUE(wait_for_tick(*run, 0, 2));
+  const std::shared_ptr<const ShownTick> second = run->shown();
+  ASSERT_NE(second->times, nullptr);
+  EXPECT_THAT(rows_of(*second, *run->info()), testing::Not(testing::Contains("eye/camera: record")));
+  EXPECT_DOUBLE_EQ(second->times->simulated_ms, 20.0);
+  run->step(-1);
+  ASSERT_TRUE(wait_for_tick(*run, 0, 0));
+  EXPECT_EQ(run->shown()->times, first->times) << "a tick that is shown again has its times";
+}
+
 TEST(Live, JumpsInAnyOrderGiveTheSameBytes) {
   LiveOptions options = options_of(street);
   options.kept_bytes = 0;  // so that each tick is simulated when it is asked for

@@ -408,12 +408,12 @@ TEST(RecordStore, ForgetsWhatNobodyHasAskedForLongest) {
   RecordStore store(3 * each);
   for (int64_t tick = 0; tick < 3; ++tick) {
     store.begin_turn();
-    store.put(0, record_of(0, tick, 1000), double(tick));
+    store.put(0, {record_of(0, tick, 1000), double(tick)});
   }
   EXPECT_EQ(store.bytes(), 3 * each);
   store.begin_turn();
   EXPECT_NE(store.find(0, 0, 0).record, nullptr);
-  store.put(0, record_of(0, 3, 1000), 3.0);
+  store.put(0, {record_of(0, 3, 1000), 3.0});
   for (int turn = 0; turn < 3; ++turn) store.begin_turn();
   EXPECT_EQ(store.bytes(), 3 * each);
   EXPECT_TRUE(store.has(0, 0, 0));
@@ -428,15 +428,15 @@ TEST(RecordStore, ForgetsWhatNobodyHasAskedForLongest) {
 TEST(RecordStore, KeepsThePresentTurnAndTheOneBeforeHoweverLarge) {
   RecordStore store(10);
   store.begin_turn();
-  store.put(0, record_of(0, 0, 5000), 0.0);
-  store.put(0, record_of(1, 0, 5000), 0.0);
+  store.put(0, {record_of(0, 0, 5000), 0.0});
+  store.put(0, {record_of(1, 0, 5000), 0.0});
   store.begin_turn();
-  store.put(0, record_of(0, 1, 5000), 0.0);
+  store.put(0, {record_of(0, 1, 5000), 0.0});
   EXPECT_TRUE(store.has(0, 0, 0) && store.has(0, 1, 0));
   store.begin_turn();
   EXPECT_FALSE(store.has(0, 0, 0) || store.has(0, 1, 0));
   EXPECT_TRUE(store.has(0, 0, 1));
-  store.put(0, record_of(0, 1, 1), 0.0);  // in its place
+  store.put(0, {record_of(0, 1, 1), 0.0});  // in its place
   EXPECT_EQ(store.bytes(), bytes_of(*record_of(0, 1, 1)));
 }
 

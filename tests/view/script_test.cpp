@@ -69,6 +69,7 @@ TEST(Script, FaultsNameLineAndAction) {
   EXPECT_THAT(fault_of("key hyper+a"), testing::HasSubstr("ctrl, shift or alt"));
   EXPECT_THAT(fault_of("key F13"), testing::HasSubstr("found 'F13'"));
   EXPECT_THAT(fault_of("quit now"), testing::HasSubstr("found 'now'"));
+  EXPECT_THAT(fault_of("scale 9"), testing::HasSubstr("from 0.5 to 4"));
   EXPECT_THAT(fault_of("resize 10 10"), testing::HasSubstr("from 64"));
   EXPECT_THROW(load_script("/nonexistent/script.txt"), UserError);
 }

@@ -46,6 +46,78 @@ TEST_F(ViewProgram, ErrorsAreShownNotThrown) {
   EXPECT_THAT(run.out, HasSubstr("bad.yaml:4: nodes: expected a list"));
 }
 
+TEST_F(ViewProgram, RecordsTheWindow) {
+  const Outcome run = view("room --paused --ticks 4",
+                           "wait ready\nwait picture\ndo record shots\nscreenshot first.png\n"
+                           "do step\nwait tick 1\nwait picture\ndo step\nwait tick 2\nwait picture\n"
+                           "screenshot last.png\ndo record stop\n"
+                           "do record.frames moving.webp\nwait frames 9\ndo record stop\nquit\n");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(std::filesystem::exists(folder() / "moving.webp"));
+  EXPECT_FALSE(std::filesystem::exists(folder() / "moving.webp.part"));
+  EXPECT_FALSE(std::filesystem::exists(folder() / "shots/000003.png")) << "a picture for each of three ticks";
+  // The line of menus holds times, which differ.
+  const auto same_scene = [&](const std::string& a, const std::string& b) {
+    const Array x = picture(a), y = picture(b);
+    ASSERT_EQ(x.shape, y.shape);
+    const size_t from = size_t{3} * 800 * 40, to = size_t{3} * 800 * 400;
+    for (size_t row = from; row < to; row += size_t{3} * 800)
+      ASSERT_TRUE(std::equal(&x.bytes[row], &x.bytes[row + 1200], &y.bytes[row])) << a << ", byte " << row;
+  };
+  same_scene("first.png", "shots/000000.png");
+  same_scene("last.png", "shots/000002.png");
+}
+
+TEST_F(ViewProgram, RecordingsThatFailSaySo) {
+  const Outcome run = view("room --paused --ticks 1",
+                           "wait ready\nwait picture\ndo record none/a.webp\n"
+                           "wait frames 3\ndo record stop\nquit\n");
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.err, HasSubstr("none/a.webp.part"));
+  EXPECT_THAT(view("room --paused --ticks 1", "wait ready\ndo record a.gif\nquit\n").err,
+              HasSubstr("a.gif: expected a name that ends in .webp"));
+  EXPECT_THAT(view("room --paused --ticks 1", "wait ready\ndo record stop\nquit\n").err,
+              HasSubstr("nothing is being recorded"));
+}
+
+TEST_F(ViewProgram, RemembersItsSettingsIfItIsAskedTo) {
+  const std::string room = "room --paused --ticks 1",
+                    kept = room + " --settings " + (folder() / "v.json").string();
+  // The strip between scene and panels is dragged to the left.
+  const Outcome first = view(kept,
+                             "wait ready\nwait picture\nscreenshot a.png\ndrag 461 200 240 200\n"
+                             "do show.lidar on\ndo legend off\nwait frames 3\nscreenshot b.png\nquit\n");
+  ASSERT_EQ(first.code, 0) << first.err;
+  const std::string json = read_file(folder() / "v.json");
+  EXPECT_THAT(json, HasSubstr("\"lidar\": true"));
+  EXPECT_THAT(json, HasSubstr("\"legend\": false"));
+  EXPECT_THAT(json, HasSubstr("\"width\": 800"));
+  EXPECT_THAT(json, HasSubstr("\"side_share\": 0.7"));
+  ASSERT_EQ(view(kept, "wait ready\nwait picture\nwait frames 3\nscreenshot c.png\nquit\n").code, 0);
+  EXPECT_EQ(read_file(folder() / "v.json"), json);
+  EXPECT_LT(mean(picture("c.png"), 300, 420, 400, 440), 1.0 + mean(picture("b.png"), 300, 420, 400, 440));
+
+  std::ofstream(folder() / "v.json") << "{\"version\": 1, \"speed\": \"fast\"}";
+  const Outcome damaged = view(kept, "wait ready\nwait picture\nquit\n");
+  EXPECT_EQ(damaged.code, 0);
+  EXPECT_THAT(damaged.err, HasSubstr("settings are ignored: "));
+  EXPECT_THAT(read_file(folder() / "v.json"), HasSubstr("\"speed\": 1.0"));
+
+  ASSERT_EQ(view(kept, "wait ready\ndo settings.forget\nquit\n").code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder() / "v.json"));
+}
+
+TEST_F(ViewProgram, TheTimesTabAndLargeTextsDraw) {
+  const Outcome run = view("room --paused --ticks 2 --scale 2",
+                           "wait ready\nwait picture\ndo tab Times\nwait frames 3\nmove 700 150\n"
+                           "wait frames 3\nscale 1\nwait frames 3\nscreenshot t.png\nprint error\nquit\n");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("none"));
+  EXPECT_EQ(view("room --scale 9", "quit\n").code, 1);
+  EXPECT_THAT(view("room --paused --ticks 1", "wait ready\ndo tab Tims\nquit\n").err,
+              HasSubstr("tab: expected one of"));
+}
+
 TEST_F(ViewProgram, FaultsOfTheCommandLineAreErrors) {
   EXPECT_EQ(greatx("view room --offscreen").code, 1);
   EXPECT_THAT(greatx("view room --offscreen").err, HasSubstr("--script"));

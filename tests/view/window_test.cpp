@@ -4,6 +4,7 @@
 // The window: what is drawn is what is read back, pixel by pixel, offscreen and on a real display.
 #include "view/window/window.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <imgui.h>
@@ -265,6 +266,36 @@ TEST(Window, ShowsTextures) { shows_textures(true); }
 TEST(Window, TakesInput) { takes_input(true); }
 TEST(Window, Resizes) { resizes(true); }
 TEST(Window, Minimizes) { minimizes(true); }
+
+TEST(Window, FontsAndSpacesFollowTheScale) {
+  WindowOptions options;
+  options.offscreen = options.validation = true;
+  options.scale = 2.0;
+  const auto window = Window::open(options);
+  EXPECT_EQ(window->pixel_scale(), 2.0);
+  float font = 0.0f, space = 0.0f;
+  const auto measure = [&] {
+    frame(*window, [&] {
+      ImGui::Begin("w");
+      ImGui::TextUnformatted("text");
+      font = ImGui::GetFontSize();
+      space = ImGui::GetStyle().ItemSpacing.x;
+      ImGui::End();
+    });
+  };
+  measure();
+  EXPECT_EQ(font, 30.0f);
+  EXPECT_EQ(space, 12.0f);
+  for (const double scale : {1.0, 1.5, 1.0}) {  // as if the window went from display to display
+    InputEvent event;
+    event.kind = InputEvent::Kind::scale;
+    event.x = scale;
+    window->inject(event);
+    for (int i = 0; i < 3; ++i) measure();
+    EXPECT_NEAR(font, 15.0 * scale, 0.6);
+    EXPECT_EQ(space, std::floor(6.0 * scale));
+  }
+}
 
 TEST(Window, ManyFramesDoNotGrow) {
   const auto window = open(true, 160, 120);

@@ -14,6 +14,7 @@
 #include "sim/plan/camera_desc.h"
 #include "view/app/overlay_dots.h"
 #include "view/app/overlay_panel.h"
+#include "view/window/style.h"
 
 namespace greatx::view {
 
@@ -282,7 +283,7 @@ void MainView::draw_overlays(const ShownTick& tick, const Shapes& shapes, const 
   Shapes legend;
   legend.legend = shapes.legend;
   legend.legend.insert(legend.legend.end(), world.legend.begin(), world.legend.end());
-  draw_legend(list, legend, {corner_.x + 10.0f, corner_.y + 10.0f});
+  if (show_legend_) draw_legend(list, legend, {corner_.x + scaled(10.0f), corner_.y + scaled(10.0f)});
   if (painted_ != nullptr) draw_map_legend(list, *painted_, {end.x - 10.0f, end.y - 10.0f});
   list.PopClipRect();
 }

@@ -73,6 +73,8 @@ class MainView {
   /// What the user clicked at, and the tick's facts about it.
   const std::optional<Picked>& picked() const { return picked_; }
   Facts picked_facts(double carrier_hz) const;
+  /// Whether the legend of the overlays is drawn; may be changed.
+  bool& show_legend() { return show_legend_; }
   void select_nothing() { picked_.reset(); }
   /// The identity of the shape under the cursor; 0: none. It stays highlighted while it moves.
   uint64_t hovered_id() const { return hovered_id_; }
@@ -123,6 +125,7 @@ class MainView {
   std::optional<Picked> picked_;
   uint64_t hovered_id_ = 0, pinned_id_ = 0;
   double paint_ms_ = 0.0, overlay_ms_ = 0.0;
+  bool show_legend_ = true;
   Tool tool_;
   bool tool_has_mouse_ = false;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "draw/paths/stroke.h"
+#include "view/window/style.h"
 
 namespace greatx::view {
 
@@ -14,6 +15,7 @@ namespace {
 constexpr double reach_px = 6.0;  ///< of the cursor
 constexpr uint32_t faint = 70;    ///< alpha of what is hidden, of 255
 constexpr float highlighted_px = 2.5f;
+constexpr ImU32 legend_backing = IM_COL32(16, 18, 22, 170);  ///< dark enough for texts over a bright sky
 
 ImU32 packed(io::Color color, uint32_t alpha = 255) { return IM_COL32(color.r, color.g, color.b, alpha); }
 
@@ -88,7 +90,7 @@ class Drawing {
 
   void line(const LineShape& line) {
     const bool wide = is_highlighted(shapes_, line.row, highlighted_);
-    const float width = line.width_px * (wide ? highlighted_px : 1.0f);
+    const float width = scaled(line.width_px) * (wide ? highlighted_px : 1.0f);
     const auto draw = [&](const apps::Stretch& stretch) {
       const ImVec2 a = window(stretch.a), b = window(stretch.b);
       list_.AddLine(a, b, packed(line.color, stretch.hidden ? faint : 255), width);
@@ -115,7 +117,7 @@ class Drawing {
     if (hidden && point.mark == PointShape::Mark::dot) return;
     const ImVec2 at = window({place.x, place.y});
     const bool wide = is_highlighted(shapes_, point.row, highlighted_);
-    draw_mark(list_, point.mark, at, point.size_px * (wide ? 1.6f : 1.0f),
+    draw_mark(list_, point.mark, at, scaled(point.size_px) * (wide ? 1.6f : 1.0f),
               packed(point.color, hidden ? faint : 255));
     nearest_.point(point.row, at);
   }
@@ -143,8 +145,9 @@ class Drawing {
     const dvec3 place = frame_.view.project(label.at - frame_.origin);
     if (place.z <= 0.0) return;
     const ImVec2 at = window({place.x, place.y});
-    list_.AddText({at.x + 7.0f, at.y - 13.0f}, IM_COL32(0, 0, 0, 200), label.text.c_str());
-    list_.AddText({at.x + 6.0f, at.y - 14.0f}, packed(label.color), label.text.c_str());
+    list_.AddText({at.x + scaled(6.0f) + 1.0f, at.y - scaled(14.0f) + 1.0f}, IM_COL32(0, 0, 0, 200),
+                  label.text.c_str());
+    list_.AddText({at.x + scaled(6.0f), at.y - scaled(14.0f)}, packed(label.color), label.text.c_str());
   }
 
   const std::optional<OverlayHit>& hit() const { return nearest_.hit(); }
@@ -218,12 +221,19 @@ std::optional<OverlayHit> draw_shapes(ImDrawList& list, const Shapes& shapes, co
 }
 
 void draw_legend(ImDrawList& list, const Shapes& shapes, const ImVec2& corner) {
-  const float line = ImGui::GetTextLineHeightWithSpacing();
+  if (shapes.legend.empty()) return;
+  const float line = ImGui::GetTextLineHeightWithSpacing(), margin = 0.4f * line;
+  float width = 0.0f;
+  for (const auto& [text, color] : shapes.legend)
+    width = std::max(width, ImGui::CalcTextSize(text.c_str()).x);
+  list.AddRectFilled({corner.x - margin, corner.y - margin},
+                     {corner.x + line + width + margin,
+                      corner.y + line * static_cast<float>(shapes.legend.size()) + 0.5f * margin},
+                     legend_backing, margin);
   for (size_t i = 0; i < shapes.legend.size(); ++i) {
     const auto& [text, color] = shapes.legend[i];
     const ImVec2 at(corner.x, corner.y + line * static_cast<float>(i));
-    list.AddRectFilled(at, {at.x + line * 0.7f, at.y + line * 0.7f}, packed(color));
-    list.AddText({at.x + line + 1.0f, at.y + 1.0f}, IM_COL32(0, 0, 0, 220), text.c_str());
+    list.AddRectFilled({at.x, at.y + 0.1f * line}, {at.x + line * 0.65f, at.y + line * 0.75f}, packed(color));
     list.AddText({at.x + line, at.y}, IM_COL32(235, 235, 235, 255), text.c_str());
   }
 }

@@ -9,12 +9,13 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "view/window/style.h"
 
 namespace greatx::view {
 
 namespace {
 
-constexpr float narrowest_tile_px = 230.0f;
+constexpr float narrowest_tile_px = 230.0f, most_columns = 6.0f;
 
 /// The panels that are open at first: the first of each kind of these.
 const std::set<std::string, std::less<>> usual_kinds{
@@ -40,10 +41,23 @@ void PanelGrid::prepare(RunTiles& tiles, ShownRun& run) {
   for (size_t i = 0; i < tiles.choices.size(); ++i) {
     const PanelChoice& choice = tiles.choices[i];
     const auto before = tiles.open_before.find(choice.title);
-    tiles.tiles[i].open = before != tiles.open_before.end()
-                              ? before->second
+    if (before != tiles.open_before.end()) {
+      tiles.tiles[i].open = before->second;
+      continue;
+    }
+    tiles.tiles[i].open = open_at_first_
+                              ? std::ranges::find(*open_at_first_, choice.title) != open_at_first_->end()
                               : usual_kinds.contains(choice.kind) && opened.insert(choice.kind).second;
   }
+}
+
+std::vector<std::string> PanelGrid::open() const {
+  std::vector<std::string> titles;
+  for (const auto& [name, tiles] : runs_)
+    for (size_t i = 0; i < tiles.choices.size(); ++i)
+      if (tiles.tiles[i].open && std::ranges::find(titles, tiles.choices[i].title) == titles.end())
+        titles.push_back(tiles.choices[i].title);
+  return titles;
 }
 
 void PanelGrid::replaced(const std::string& name) {
@@ -102,8 +116,12 @@ void PanelGrid::draw_choices() {
   ImGui::EndPopup();
 }
 
-void PanelGrid::draw_tile(Tile& tile, const ShownTick& tick, int width) {
+void PanelGrid::draw_tile(Tile& tile, const ShownTick& tick, int shown_width) {
   const PanelSize wanted = tile.panel->wanted();
+  // The texts of a panel have a fixed size in its pixels, so a picture for many pixels an inch is enlarged.
+  const float enlarged = std::max(1.0f, scaled(1.0f));
+  const auto drawn = [&](int shown) { return static_cast<int>(static_cast<float>(shown) / enlarged); };
+  const int width = std::max(40, drawn(shown_width));
   const int height = std::max(60, width * wanted.height / std::max(wanted.width, 1));
   tile.panel->show(tick);
   const Array& picture = tile.panel->draw(width, height);
@@ -117,17 +135,17 @@ void PanelGrid::draw_tile(Tile& tile, const ShownTick& tick, int width) {
   tile.version = tile.panel->version();
   ImGui::TextUnformatted(printable(tile.panel->title()).c_str());
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  ImGui::Image(tile.texture, {static_cast<float>(width), static_cast<float>(height)});
+  ImGui::Image(tile.texture, {enlarged * static_cast<float>(width), enlarged * static_cast<float>(height)});
   if (ImGui::IsItemHovered()) {
     const ImVec2 mouse = ImGui::GetMousePos();
-    const std::string value =
-        tile.panel->value_at(static_cast<int>(mouse.x - corner.x), static_cast<int>(mouse.y - corner.y));
+    const std::string value = tile.panel->value_at(static_cast<int>((mouse.x - corner.x) / enlarged),
+                                                   static_cast<int>((mouse.y - corner.y) / enlarged));
     if (!value.empty()) ImGui::SetTooltip("%s", value.c_str());
   }
   for (const PanelKnob& knob : tile.panel->knobs()) {
     auto value = static_cast<float>(knob.value);
     ImGui::PushID(&tile);
-    ImGui::SetNextItemWidth(0.5f * static_cast<float>(width));
+    ImGui::SetNextItemWidth(0.5f * static_cast<float>(shown_width));
     const std::string name = knob.unit.empty() ? knob.name : knob.name + ", " + knob.unit;
     if (ImGui::SliderFloat(name.c_str(), &value, static_cast<float>(knob.least),
                            static_cast<float>(knob.most), knob.whole ? "%.0f" : "%.3g")) {
@@ -143,7 +161,8 @@ void PanelGrid::draw(std::span<ShownRun* const> runs) {
   draw_choices();
   const float space = ImGui::GetStyle().ItemSpacing.x, room = ImGui::GetContentRegionAvail().x;
   const size_t columns =
-      runs.size() > 1 ? runs.size() : static_cast<size_t>(std::clamp(room / narrowest_tile_px, 1.0f, 4.0f));
+      runs.size() > 1 ? runs.size()
+                      : static_cast<size_t>(std::clamp(room / scaled(narrowest_tile_px), 1.0f, most_columns));
   const int width = std::max(
       40, static_cast<int>((room - space * static_cast<float>(columns - 1)) / static_cast<float>(columns)));
   if (!ImGui::BeginTable("tiles", static_cast<int>(columns))) return;

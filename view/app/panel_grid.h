@@ -6,8 +6,10 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "view/app/shown_run.h"
@@ -36,6 +38,10 @@ class PanelGrid {
   void toggle(const std::string& title);
   /// Closes all tiles.
   void close();
+  /// Says which tiles are open when a run is shown first, instead of the usual ones.
+  void open_at_first(std::vector<std::string> titles) { open_at_first_ = std::move(titles); }
+  /// Returns the titles of the tiles that are open, each once.
+  std::vector<std::string> open() const;
   /// Wall time of drawing the tiles in the last frame, ms.
   double milliseconds() const { return milliseconds_; }
 
@@ -57,11 +63,12 @@ class PanelGrid {
   };
   void prepare(RunTiles& tiles, ShownRun& run);
   void draw_choices();
-  void draw_tile(Tile& tile, const ShownTick& tick, int width);
+  void draw_tile(Tile& tile, const ShownTick& tick, int shown_width);
   void drop(Tile& tile);
 
   Window& window_;
   std::map<std::string, RunTiles> runs_;  ///< by the run's name
+  std::optional<std::vector<std::string>> open_at_first_;
   double milliseconds_ = 0.0;
 };
 

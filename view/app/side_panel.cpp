@@ -14,16 +14,18 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "draw/paths/facts.h"
+#include "view/app/fact_table.h"
 #include "view/app/overlay_panel.h"
 
 namespace greatx::view {
 
 namespace {
 
-constexpr size_t most_times = 200;
 constexpr double default_carrier_hz = 3.5e9;
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+}  // namespace
 
 void draw_facts(const Facts& facts) {
   if (!ImGui::BeginTable("facts", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
@@ -37,8 +39,6 @@ void draw_facts(const Facts& facts) {
   ImGui::EndTable();
 }
 
-}  // namespace
-
 double SidePanel::carrier_hz(ShownRun& run) const {
   if (run.experiment() != nullptr && !run.experiment()->scenario.channels.empty()) {
     const auto& channels = run.experiment()->scenario.channels;
@@ -50,7 +50,7 @@ double SidePanel::carrier_hz(ShownRun& run) const {
 
 void SidePanel::draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view, EditSession& session,
                      WorldOverlays& world) {
-  keep_times(main);
+  times_.keep(main);
   grid_.keep(runs);
   if (!ImGui::BeginTabBar("side tabs")) return;
   const auto tab = [this](const char* name, auto draw_tab) {
@@ -68,7 +68,7 @@ void SidePanel::draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& 
   tab("Overlays", [&] { draw_overlay_settings(main.overlays(), world, main.run().shown().get()); });
   tab("Effects", [&] { draw_effects(main, session); });
   tab("Edit", [&] { draw_edit(main, session); });
-  tab("Times", [&] { draw_times(main, view, world); });
+  tab("Times", [&] { times_.draw(main, view, grid_.milliseconds(), world.milliseconds()); });
   ImGui::EndTabBar();
 }
 
@@ -204,36 +204,6 @@ void SidePanel::draw_edit(ShownRun& run, EditSession& session) {
     for (const auto& material : run.experiment()->scene().materials) materials.push_back(material.name);
   std::ranges::sort(materials);
   edit_.draw(session, materials);
-}
-
-void SidePanel::keep_times(ShownRun& run) {
-  const std::shared_ptr<const ShownTick> shown = run.run().shown();
-  if (shown == nullptr || shown == timed_) return;
-  timed_ = shown;
-  tick_ms_.push_back(static_cast<float>(shown->simulated_ms));
-  if (tick_ms_.size() > most_times) tick_ms_.pop_front();
-}
-
-void SidePanel::draw_times(ShownRun& run, const MainView& view, const WorldOverlays& world) {
-  const RunStatus status = run.run().status();
-  const std::vector<float> times(tick_ms_.begin(), tick_ms_.end());
-  if (!times.empty()) {
-    const float most = *std::ranges::max_element(times);
-    std::vector<float> sorted = times;
-    std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
-    ImGui::Text("ticks: median %.1f ms, most %.1f ms", sorted[sorted.size() / 2], most);
-    ImGui::PlotHistogram("##ticks", times.data(), static_cast<int>(times.size()), 0, nullptr, 0.0f,
-                         1.1f * most, {-1.0f, 120.0f});
-  }
-  draw_facts({{"wanted speed", status.speed == 0.0 ? std::string("as fast as it can")
-                                                   : fmt::format("{:g} x real time", status.speed)},
-              {"reached", fmt::format("{:.2f} x real time", status.reached)},
-              {"picture of the scene", fmt::format("{:.1f} ms", view.picture_ms())},
-              {"overlays", fmt::format("{:.2f} ms", run.overlays() ? run.overlays()->milliseconds() : 0.0)},
-              {"facets, wedges, ways", fmt::format("{:.2f} ms", world.milliseconds())},
-              {"overlays, drawn", fmt::format("{:.2f} ms", view.overlay_ms())},
-              {"map, painted", fmt::format("{:.2f} ms", view.paint_ms())},
-              {"panels", fmt::format("{:.2f} ms", grid_.milliseconds())}});
 }
 
 }  // namespace greatx::view

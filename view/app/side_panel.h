@@ -5,15 +5,16 @@
 // plan of effects, and times.
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "view/app/edit_panel.h"
 #include "view/app/main_view.h"
 #include "view/app/panel_grid.h"
 #include "view/app/shown_run.h"
+#include "view/app/times_panel.h"
 #include "view/app/world_overlays.h"
 
 namespace greatx::view {
@@ -37,14 +38,11 @@ class SidePanel {
   void draw_pinned(ShownRun& run, MainView& view, WorldOverlays& world);
   void draw_filter(ShownRun& run);
   void draw_effects(ShownRun& run, EditSession& session);
-  void draw_times(ShownRun& run, const MainView& view, const WorldOverlays& world);
-  void keep_times(ShownRun& run);
 
   PanelGrid grid_;
   EditPanel edit_;
-  std::string wanted_tab_;     ///< empty: the one that is open
-  std::deque<float> tick_ms_;  ///< of the last ticks that were shown
-  std::shared_ptr<const ShownTick> timed_;
+  TimesPanel times_;
+  std::string wanted_tab_;  ///< empty: the one in front stays
 };
 
 }  // namespace greatx::view

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "view/window/style.h"
+
 namespace greatx::view {
 
 namespace {
@@ -21,7 +23,7 @@ constexpr Speed speeds[] = {
 
 void draw_speed(std::span<Run* const> runs, const RunStatus& status) {
   const auto* const now = std::ranges::find(speeds, status.speed, &Speed::value);
-  ImGui::SetNextItemWidth(150.0f);
+  ImGui::SetNextItemWidth(scaled(150.0f));
   if (!ImGui::BeginCombo("##speed", now == std::end(speeds) ? "other" : now->name)) return;
   for (const Speed& speed : speeds)
     if (ImGui::Selectable(speed.name, speed.value == status.speed))
@@ -33,7 +35,7 @@ void draw_sequence(std::span<Run* const> runs, const RunStatus& status, const io
   if (info.sequences < 2) return;
   int sequence = static_cast<int>(status.sequence);
   ImGui::SameLine();
-  ImGui::SetNextItemWidth(110.0f);
+  ImGui::SetNextItemWidth(scaled(110.0f));
   if (ImGui::InputInt("##sequence", &sequence, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue))
     for (Run* const run : runs)
       run->jump(static_cast<uint32_t>(std::clamp(sequence, 0, static_cast<int>(info.sequences) - 1)), 0);
@@ -52,9 +54,9 @@ std::string time_text(const Run& run, const RunStatus& status) {
 
 }  // namespace
 
-float timeline_height() { return 2.0f * ImGui::GetFrameHeightWithSpacing() + 10.0f; }
+float timeline_height() { return 2.0f * ImGui::GetFrameHeightWithSpacing() + scaled(10.0f); }
 
-void draw_timeline(const ImVec2& at, const ImVec2& size, std::span<Run* const> runs) {
+void draw_timeline(const ImVec2& at, const ImVec2& size, std::span<Run* const> runs, SteadyText& activity) {
   ImGui::SetNextWindowPos(at);
   ImGui::SetNextWindowSize(size);
   ImGui::Begin("time", nullptr,
@@ -81,9 +83,9 @@ void draw_timeline(const ImVec2& at, const ImVec2& size, std::span<Run* const> r
     draw_sequence(runs, status, *info);
     ImGui::SameLine();
     ImGui::TextUnformatted(time_text(*runs.front(), status).c_str());
-    if (!status.activity.empty()) {
+    if (const std::string& doing = activity.at(status.activity, ImGui::GetTime()); !doing.empty()) {
       ImGui::SameLine();
-      ImGui::TextDisabled("%s", status.activity.c_str());
+      ImGui::TextDisabled("%s", doing.c_str());
     }
   }
   ImGui::End();

@@ -19,12 +19,16 @@
 #include "view/app/edit_session.h"
 #include "view/app/gizmo.h"
 #include "view/app/main_view.h"
+#include "view/app/recording.h"
 #include "view/app/script_runner.h"
+#include "view/app/settings_keeper.h"
 #include "view/app/shown_run.h"
 #include "view/app/side_panel.h"
+#include "view/app/splitter.h"
 #include "view/app/timeline.h"
 #include "view/app/world_overlays.h"
 #include "view/overlay/tube_shapes.h"
+#include "view/window/style.h"
 
 namespace greatx::view {
 
@@ -34,28 +38,34 @@ constexpr double scripted_wait_s = 0.008;  ///< as ViewerOptions::longest_wait_s
 /// While a picture is being drawn, input alone begins a frame so long after the last one. The picture begins
 /// the next frame anyway, and a frame before it would slow it down.
 constexpr double awaiting_input_s = 1.0 / 30.0;
-constexpr float side_share = 0.42f;  ///< of the width
+constexpr float usual_side_share = 0.42f;  ///< of the window's width
 
 class Viewer {
  public:
-  explicit Viewer(const ViewerOptions& options)
+  Viewer(const ViewerOptions& options, ViewerSettings settings)
       : options_(options),
         window_(Window::open(options.window)),
         edit_(options),
         main_(*window_),
         world_(options.device),
-        side_(*window_) {
+        side_(*window_),
+        recording_(*window_, options.script_folder, !options.script.empty()),
+        settings_(options.settings_file, options.title, std::move(settings)) {
     if (options.datasets.empty())
       runs_.push_back(ShownRun::live(options));
     else
       for (const std::filesystem::path& dataset : options.datasets)
         runs_.push_back(ShownRun::replay(options, dataset));
     window_->set_title("greatx: " + options.title);
+    settings_.apply(settled_parts());
     add_commands();
     add_edit_commands();
     main_.set_tool(
         [this](const OverlayFrame& frame, bool hovered) { return gizmo_.draw(edit_, frame, hovered); });
   }
+
+  /// Writes the settings.
+  void save() { settings_.save(settled_parts(), shown()); }
 
   void loop() {
     see_news();
@@ -65,6 +75,7 @@ class Viewer {
       frame();
       window_->end_frame();
       check_validation();
+      recording_.frame_drawn();
       if (!options_.script.empty() && !script.advance(script_host())) return;
       if (options_.driver && !options_.driver(script_host())) return;
     }
@@ -72,6 +83,7 @@ class Viewer {
 
  private:
   ShownRun& shown() { return *runs_[main_run_]; }
+  SettledParts settled_parts() { return {*window_, main_, side_.grid(), side_open_, side_share_}; }
 
   /// Whether there is a tick or a picture that no frame has shown yet. What else changes may wait.
   bool has_news() const {
@@ -90,7 +102,7 @@ class Viewer {
     wait.most_s = options_.longest_wait_s;
     if (!options_.script.empty()) wait.most_s = std::min(wait.most_s, scripted_wait_s);
     if (main_.awaits()) wait.input_after_s = awaiting_input_s;
-    if (!world_.idle()) wait.most_s = std::min(wait.most_s, scripted_wait_s);
+    if (!world_.idle() || recording_.active()) wait.most_s = std::min(wait.most_s, scripted_wait_s);
     wait.news = [this] { return has_news(); };
     return wait;
   }
@@ -110,6 +122,7 @@ class Viewer {
   void update() {
     for (size_t i = 0; i < runs_.size(); ++i) {
       const std::shared_ptr<const sim::Experiment> loaded = runs_[i]->update();
+      settings_.apply(*runs_[i]);
       if (loaded != nullptr && i == main_run_) show_scene(loaded);
     }
     std::unique_ptr<ShownRun> fresh = edit_.update(shown());
@@ -140,11 +153,16 @@ class Viewer {
     }
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float top = ImGui::GetFrameHeight(), bottom = timeline_height();
-    const float side = side_open_ ? std::round(side_share * display.x) : 0.0f;
-    draw_main({0.0f, top}, {display.x - side, display.y - top - bottom});
-    if (side_open_) draw_side({display.x - side, top}, {side, display.y - top - bottom});
-    draw_timeline({0.0f, display.y - bottom}, {display.x, bottom}, timeline_runs());
+    const float side = side_open_ ? std::round(side_share_ * display.x) : 0.0f;
+    const float height = display.y - top - bottom, gap = side_open_ ? splitter_width() : 0.0f;
+    draw_main({0.0f, top}, {display.x - side - gap, height});
+    if (side_open_) {
+      draw_splitter({display.x - side - gap, top}, height, usual_side_share, side_share_);
+      draw_side({display.x - side, top}, {side, height});
+    }
+    draw_timeline({0.0f, display.y - bottom}, {display.x, bottom}, timeline_runs(), activity_);
     if (help_open_) draw_help();
+    recording_.draw();
   }
 
   std::vector<Run*> timeline_runs() {
@@ -164,6 +182,7 @@ class Viewer {
     ImGui::Begin("scene", nullptr, fixed_window | ImGuiWindowFlags_NoScrollWithMouse);
     ImGui::PopStyleVar();
     const std::shared_ptr<const ShownTick> tick = drawn_ = shown().run().shown();
+    recording_.before_tick(tick);
     static const Shapes none;
     Overlays* const overlays = shown().overlays();
     // Overlays follow with the picture of their tick: both fit, and the scene is drawn once for each tick.
@@ -209,12 +228,12 @@ class Viewer {
 
   void draw_progress() {
     const RunStatus status = shown().run().status();
-    ImGui::SetCursorPos({20.0f, 20.0f});
+    ImGui::SetCursorPos({scaled(20.0f), scaled(20.0f)});
     if (status.phase == RunStatus::Phase::failed) return;
     ImGui::BeginGroup();
     ImGui::TextUnformatted(status.activity.empty() ? "loading" : printable(status.activity).c_str());
     if (status.progress >= 0.0)
-      ImGui::ProgressBar(static_cast<float>(status.progress), {300.0f, 0.0f});
+      ImGui::ProgressBar(static_cast<float>(status.progress), {scaled(300.0f), 0.0f});
     else
       ImGui::TextDisabled("%s",
                           std::string(1 + static_cast<size_t>(ImGui::GetTime() * 3.0) % 3, '.').c_str());
@@ -228,6 +247,7 @@ class Viewer {
     errors.push_back(command_error_);
     errors.push_back(edit_.error());
     errors.push_back(gizmo_.error());
+    errors.push_back(recording_.error());
     std::string text;
     for (const std::string& error : errors)
       if (!error.empty()) text += (text.empty() ? "" : "\n") + printable_lines(error);
@@ -253,9 +273,9 @@ class Viewer {
   }
 
   void draw_status() {
-    const std::string text =
-        fmt::format("{:.0f} frames/s   picture {:.0f} ms", ImGui::GetIO().Framerate, main_.picture_ms());
-    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - 12.0f);
+    const std::string text = fmt::format("{}   {:.0f} frames/s   picture {:.0f} ms", recording_.status_text(),
+                                         ImGui::GetIO().Framerate, main_.picture_ms());
+    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - scaled(12.0f));
     ImGui::TextDisabled("%s", text.c_str());
   }
 
@@ -340,9 +360,24 @@ class Viewer {
                    {},
                    {}});
     add_switch(commands_, "side", "View", "Panels", "tab", side_open_);
+    commands_.add({"times",
+                   "View",
+                   "Where the time goes",
+                   "F3",
+                   [this](const std::string&) { open_tab("Times"); },
+                   {},
+                   {}});
+    add_switch(commands_, "legend", "Show", "Legend", "l", main_.show_legend());
+    recording_.add_commands(commands_);
+    settings_.add_commands(commands_);
     add_overlay_commands();
     add_world_commands();
     add_switch(commands_, "help", "Help", "Keys and mouse", "F1", help_open_);
+  }
+
+  void open_tab(const std::string& name) {
+    side_open_ = true;
+    side_.open_tab(name);
   }
 
   void add_edit_commands() {
@@ -648,7 +683,11 @@ class Viewer {
   WorldOverlays world_;
   Shapes with_tube_;
   SidePanel side_;
+  Recording recording_;
+  SettingsKeeper settings_;
   Commands commands_;
+  SteadyText activity_;
+  float side_share_ = usual_side_share;
   bool side_open_ = true, help_open_ = false, quit_ = false;
   std::vector<std::shared_ptr<const ShownTick>> seen_ticks_;  ///< [runs]
   uint64_t seen_picture_ = 0;
@@ -657,9 +696,25 @@ class Viewer {
 
 }  // namespace
 
-void run_viewer(const ViewerOptions& options) {
-  Viewer viewer(options);
+void run_viewer(const ViewerOptions& given) {
+  ViewerOptions options = given;
+  ViewerSettings settings;
+  if (!options.settings_file.empty()) {
+    std::string message;
+    settings = load_settings(options.settings_file, message);
+    if (!message.empty()) std::cerr << "warning: " << printable_lines(message) << '\n';
+    if (!options.chosen_size && settings.width > 0) {
+      options.window.width = settings.width;
+      options.window.height = settings.height;
+    }
+  }
+  Viewer viewer(options, std::move(settings));
   viewer.loop();
+  try {
+    viewer.save();
+  } catch (const UserError& error) {
+    std::cerr << "warning: the viewer's settings are not kept: " << printable_lines(error.what()) << '\n';
+  }
 }
 
 }  // namespace greatx::view

@@ -42,6 +42,9 @@ struct ViewerOptions {
   /// Drives the viewer from a program, beside a script or a person: it is called after each frame, and the
   /// viewer ends when it returns false. Empty: nothing does.
   std::function<bool(const ScriptHost&)> driver;
+  /// Where the viewer remembers its settings; empty: nowhere.
+  std::filesystem::path settings_file;
+  bool chosen_size = false;  ///< the window's size was asked for, so the remembered one does not count
 };
 
 /// Opens the viewer and returns when the user closes it or the script ends. Throws UserError if the window

@@ -13,6 +13,7 @@
 #include "core/activity.h"
 #include "core/error.h"
 #include "core/watch.h"
+#include "gpu/memory_use.h"
 #include "sim/dataset/dataset_info.h"
 #include "sim/run/simulator.h"
 #include "view/run/run_loop.h"
@@ -65,6 +66,7 @@ class SimulatedTicks : public TickSource, private RecordSink {
   void simulate(TickAt at, bool goes_on, const std::function<bool()>& unwanted);
   void write(Packet packet) override;
   std::shared_ptr<const ShownTick> assemble(TickAt at);
+  RunMemory memory() const;
   std::string validation_messages() const;
 
   gpu::DeviceOptions device_options_;
@@ -110,6 +112,7 @@ void SimulatedTicks::make_simulator() {
   in_flight_.reset();
   sequence_ = ~0u;
   simulator_ = std::make_unique<sim::Simulator>(*device_, *experiment_);
+  simulator_->keep_tick_times(true);
 }
 
 void SimulatedTicks::drop_simulator(const std::exception& error) {
@@ -194,9 +197,10 @@ void SimulatedTicks::write(Packet packet) {
   const double milliseconds =
       std::exchange(earlier_ms_, 0.0) + std::chrono::duration<double, std::milli>(now - since_).count();
   since_ = now;
+  const auto times = std::make_shared<const sim::TickTimes>(simulator_->times());
   store_.begin_turn();
   for (Record& record : packet.records)
-    store_.put(sequence_, std::make_shared<const Record>(std::move(record)), milliseconds);
+    store_.put(sequence_, {std::make_shared<const Record>(std::move(record)), milliseconds, times});
 }
 
 std::shared_ptr<const ShownTick> SimulatedTicks::assemble(TickAt at) {
@@ -214,10 +218,23 @@ std::shared_ptr<const ShownTick> SimulatedTicks::assemble(TickAt at) {
     if (tick == at.tick) {
       shown->packet.records.push_back(*newest.record);
       shown->simulated_ms = newest.milliseconds;
+      shown->times = newest.times;
     }
     shown->newest.push_back(std::move(newest.record));
   }
+  shown->memory = memory();
   return shown;
+}
+
+RunMemory SimulatedTicks::memory() const {
+  RunMemory memory;
+  memory.kept_bytes = store_.bytes();
+  if (device_ == nullptr) return memory;
+  const gpu::MemoryUse use = gpu::memory_use(*device_);
+  memory.device_bytes = use.allocated_bytes;
+  memory.device_used_bytes = use.used_bytes;
+  memory.device_budget_bytes = use.budget_bytes;
+  return memory;
 }
 
 /// Takes what the validation layer had to say, as one text.

@@ -22,15 +22,16 @@ void RecordStore::begin_turn() {
   }
 }
 
-void RecordStore::put(uint32_t sequence, std::shared_ptr<const Record> record, double milliseconds) {
-  const Key key{sequence, record->sensor, record->tick};
+void RecordStore::put(uint32_t sequence, Kept kept) {
+  const Key key{sequence, kept.record->sensor, kept.record->tick};
   const auto [found, is_new] = entries_.try_emplace(key);
   Entry& entry = found->second;
   if (is_new) entry.place = order_.insert(order_.end(), key);
-  const uint64_t bytes = bytes_of(*record);
+  // The records of a tick share its times. Each counts them, because any of them may be the last to go.
+  const uint64_t bytes = bytes_of(*kept.record) + (kept.times ? sim::bytes_of(*kept.times) : 0);
   bytes_ += bytes - entry.bytes;
   entry.bytes = bytes;
-  entry.kept = {std::move(record), milliseconds};
+  entry.kept = std::move(kept);
   use(entry);
 }
 

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "core/record.h"
+#include "sim/run/tick_times.h"
 
 namespace greatx::view {
 
@@ -20,10 +21,11 @@ inline constexpr uint64_t most_kept_bytes = uint64_t{512} << 20;
 /// Holds records by sequence, sensor and tick. It forgets those that nobody has asked for longest.
 class RecordStore {
  public:
-  /// Holds a record and the time that its tick took.
+  /// Holds a record and the times of its tick.
   struct Kept {
-    std::shared_ptr<const Record> record;  ///< null: none
-    double milliseconds = 0.0;
+    std::shared_ptr<const Record> record;                   ///< null: none
+    double milliseconds = 0.0;                              ///< wall time of the tick
+    std::shared_ptr<const sim::TickTimes> times = nullptr;  ///< null: unknown
   };
 
   explicit RecordStore(uint64_t most_bytes) : most_bytes_(most_bytes) {}
@@ -33,7 +35,8 @@ class RecordStore {
   /// Begins a turn and forgets records until the rest is within the bound. What was put or found in this turn
   /// or in the one before stays, however large it is.
   void begin_turn();
-  void put(uint32_t sequence, std::shared_ptr<const Record> record, double milliseconds);
+  /// `kept.record` is not null.
+  void put(uint32_t sequence, Kept kept);
   Kept find(uint32_t sequence, uint32_t sensor, int64_t tick);
   /// Returns the newest record of the sensor at or before `tick`.
   Kept newest(uint32_t sequence, uint32_t sensor, int64_t tick);

@@ -140,7 +140,7 @@ std::shared_ptr<const Record> RecordedTicks::record(uint32_t sequence, const io:
   open_stacks_of(sequence);
   const auto record = std::make_shared<const Record>(
       Record{sensor, row.tick, row.time_ns, row.sample, reader_->load_record(sequence, row)});
-  store_.put(sequence, record, 0.0);
+  store_.put(sequence, {record});
   return record;
 }
 

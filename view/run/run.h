@@ -13,8 +13,17 @@
 
 #include "core/record.h"
 #include "io/dataset/dataset_format.h"
+#include "sim/run/tick_times.h"
 
 namespace greatx::view {
+
+/// What a live run holds in memory.
+struct RunMemory {
+  uint64_t kept_bytes = 0;    ///< of the records that it keeps, to show them again
+  uint64_t device_bytes = 0;  ///< of the buffers and images of this process on its devices
+  /// Bytes that the process uses on the device, and may use there; 0: the driver does not say.
+  uint64_t device_used_bytes = 0, device_budget_bytes = 0;
+};
 
 /// One tick as the viewer shows it. Nobody changes it once it is published.
 struct ShownTick {
@@ -24,7 +33,9 @@ struct ShownTick {
   /// For each sensor the newest record at or before this tick, which may be older than the tick; null if
   /// there is none yet. [sensors]
   std::vector<std::shared_ptr<const Record>> newest;
-  double simulated_ms = 0.0;  ///< wall time that the tick took to simulate or to load
+  double simulated_ms = 0.0;                    ///< wall time that the tick took to simulate or to load
+  std::shared_ptr<const sim::TickTimes> times;  ///< where the time went; null for a data set
+  RunMemory memory;                             ///< when it was shown; zeros for a data set
 };
 
 /// What a run does at the moment.

@@ -180,6 +180,14 @@ ScriptStep wait(const Line& line) {
   return step;
 }
 
+ScriptStep scale(const Line& line) {
+  InputEvent event;
+  event.kind = Kind::scale;
+  event.x = line.number(1, "a scale", 0.5, 4.0);
+  line.end(1);
+  return input({event});
+}
+
 ScriptStep window(const Line& line, Kind kind) {
   InputEvent event;
   event.kind = kind;
@@ -239,6 +247,7 @@ constexpr Action actions[] = {
     {"drag", drag},
     {"wheel", wheel},
     {"resize", [](const Line& line) { return window(line, Kind::resize); }},
+    {"scale", scale},
     {"minimize", [](const Line& line) { return window(line, Kind::minimize); }},
     {"restore", [](const Line& line) { return window(line, Kind::restore); }},
     {"do", [](const Line& line) { return with_text(line, ScriptStep::Kind::act, "a command of the menus"); }},

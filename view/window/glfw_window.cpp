@@ -75,6 +75,7 @@ class GlfwWindow final : public ImGuiWindow {
   explicit GlfwWindow(const WindowOptions& options)
       : ImGuiWindow(options),
         window_(options),
+        scale_(options.scale),
         instance_(glfw_.extensions(), options.validation),
         surface_(std::in_place, instance_, make_surface(instance_, window_.get())) {
     ImGui_ImplGlfw_InitForOther(window_.get(), true);
@@ -88,6 +89,7 @@ class GlfwWindow final : public ImGuiWindow {
   void set_title(const std::string& title) override { glfwSetWindowTitle(window_.get(), title.c_str()); }
   bool minimized() const override { return glfwGetWindowAttrib(window_.get(), GLFW_ICONIFIED) != 0; }
   double pixel_scale() const override {
+    if (scale_ > 0.0) return scale_;
     float x = 1.0f, y = 1.0f;
     glfwGetWindowContentScale(window_.get(), &x, &y);
     return x > 1.0f ? x : 1.0;
@@ -111,10 +113,23 @@ class GlfwWindow final : public ImGuiWindow {
       glfwPollEvents();
     return glfwWindowShouldClose(window_.get()) == 0;
   }
-  void begin_input() override { ImGui_ImplGlfw_NewFrame(); }
   const gpu::Surface* remake_surface() override {
     surface_.reset();  // a window has one at a time
     return &surface_.emplace(instance_, make_surface(instance_, window_.get()));
+  }
+  void begin_input() override {
+    ImGui_ImplGlfw_NewFrame();
+    // A display may count its mouse in other units than pixels. ImGui here counts in pixels throughout, so
+    // that fonts, the scene's picture and scripts are exact.
+    ImGuiIO& io = ImGui::GetIO();
+    const ImVec2 ratio = io.DisplayFramebufferScale;
+    if (!(ratio.x > 0.0f) || !(ratio.y > 0.0f) || (ratio.x == 1.0f && ratio.y == 1.0f)) return;
+    io.DisplaySize = {io.DisplaySize.x * ratio.x, io.DisplaySize.y * ratio.y};
+    io.DisplayFramebufferScale = {1.0f, 1.0f};
+    if (ImGui::IsMousePosValid(&io.MousePos)) {
+      io.MousePos.x *= ratio.x;
+      io.MousePos.y *= ratio.y;
+    }
   }
   void press_key(const InputEvent& event, bool down) override {
     // The backend takes its modifiers from the keys that are down.
@@ -133,6 +148,9 @@ class GlfwWindow final : public ImGuiWindow {
       case InputEvent::Kind::minimize:
         glfwIconifyWindow(window_.get());
         break;
+      case InputEvent::Kind::scale:
+        scale_ = event.x;
+        break;
       default:
         glfwRestoreWindow(window_.get());
     }
@@ -140,6 +158,7 @@ class GlfwWindow final : public ImGuiWindow {
 
   Glfw glfw_;
   GlfwHandle window_;
+  double scale_;  ///< 0: as the display asks for
   gpu::PresentInstance instance_;
   std::optional<gpu::Surface> surface_;
 };

@@ -125,12 +125,15 @@ void ImGuiWindow::start(const gpu::PresentInstance& instance, const gpu::Surface
   faults_ = faults_of(options.faults);
   device_ = std::make_unique<gpu::PresentDevice>(instance, surface, device_name_);
   presenter_ = std::make_unique<gpu::Presenter>(*device_, surface, faults_);
-  set_style(static_cast<float>(pixel_scale()));
-  load_fonts();
+  follow_scale();
 }
 
-void ImGuiWindow::load_fonts() {
+void ImGuiWindow::follow_scale() {
+  if (scale_ == pixel_scale()) return;
+  scale_ = pixel_scale();
   ImGuiIO& io = ImGui::GetIO();
+  if (io.Fonts->TexID != nullptr) drop_texture(io.Fonts->TexID);
+  set_style(static_cast<float>(scale_));
   unsigned char* texels = nullptr;
   int width = 0, height = 0;
   io.Fonts->GetTexDataAsRGBA32(&texels, &width, &height);
@@ -164,6 +167,7 @@ bool ImGuiWindow::begin_frame(const FrameWait& wait) {
   if (!wait_for_frame(wait)) return false;
   frame_began_ = Clock::now();
   take_injected();
+  follow_scale();
   begin_input();
   ImGuiIO& io = ImGui::GetIO();
   if (scripted_) {
@@ -210,6 +214,7 @@ void ImGuiWindow::apply(const InputEvent& event) {
     case Kind::resize:
     case Kind::minimize:
     case Kind::restore:
+    case Kind::scale:
       change_window(event);
       break;
   }

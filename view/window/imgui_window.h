@@ -49,7 +49,8 @@ class ImGuiWindow : public Window {
 
  private:
   bool wait_for_frame(const FrameWait& wait);
-  void load_fonts();
+  /// Makes fonts and spaces of the size that pixel_scale() asks for, if it has changed.
+  void follow_scale();
   void rebuild();
   void take_injected();
   void apply(const InputEvent& event);
@@ -63,6 +64,7 @@ class ImGuiWindow : public Window {
   std::unique_ptr<gpu::PresentDevice> device_;
   std::unique_ptr<gpu::Presenter> presenter_;
   std::deque<InputEvent> injected_;
+  double scale_ = 0.0;  ///< of fonts and spaces; 0: there are none yet
   bool scripted_ = false;
   ImVec2 scripted_mouse_{0, 0};
   bool scripted_buttons_[3] = {false, false, false};

@@ -23,6 +23,7 @@ class OffscreenWindow final : public ImGuiWindow {
         instance_({}, options.validation),
         width_(options.width),
         height_(options.height),
+        scale_(options.scale > 0.0 ? options.scale : 1.0),
         wall_clock_(options.wall_clock) {
     ImGui::GetIO().BackendPlatformName = "greatx offscreen";
     // ImGui's own keys by GLFW's codes, as its backend for GLFW sets them.
@@ -42,7 +43,7 @@ class OffscreenWindow final : public ImGuiWindow {
 
   void set_title(const std::string&) override {}
   bool minimized() const override { return minimized_; }
-  double pixel_scale() const override { return 1.0; }
+  double pixel_scale() const override { return scale_; }
   int width() const override { return width_; }
   int height() const override { return height_; }
   std::vector<std::string> validation_messages() override { return instance_.validation_log()->take(); }
@@ -60,6 +61,10 @@ class OffscreenWindow final : public ImGuiWindow {
     io.DeltaTime = wall_clock_ ? std::max(passed_s, 1e-6f) : 1.0f / 60.0f;
   }
   void change_window(const InputEvent& event) override {
+    if (event.kind == InputEvent::Kind::scale) {
+      scale_ = event.x;
+      return;
+    }
     minimized_ = event.kind == InputEvent::Kind::minimize;
     if (event.kind != InputEvent::Kind::resize) return;
     width_ = static_cast<int>(event.x);
@@ -68,6 +73,7 @@ class OffscreenWindow final : public ImGuiWindow {
 
   gpu::PresentInstance instance_;
   int width_, height_;
+  double scale_;
   const bool wall_clock_;
   Clock::time_point last_frame_ = Clock::now();
   bool minimized_ = false;

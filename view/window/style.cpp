@@ -10,7 +10,6 @@ namespace greatx::view {
 
 namespace {
 
-constexpr float font_px = 15.0f;
 /// Where distributions keep a font that is easy to read; ImGui's own is the last resort.
 constexpr const char* fonts[] = {
     "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
@@ -18,6 +17,7 @@ constexpr const char* fonts[] = {
 
 void load_font(float scale) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+  atlas.Clear();
   std::error_code error;
   for (const char* const file : fonts)
     if (std::filesystem::is_regular_file(file, error) &&
@@ -31,8 +31,9 @@ void load_font(float scale) {
 }  // namespace
 
 void set_style(float scale) {
-  ImGui::StyleColorsDark();
   ImGuiStyle& style = ImGui::GetStyle();
+  style = ImGuiStyle();  // ScaleAllSizes() below multiplies what is there
+  ImGui::StyleColorsDark();
   style.WindowRounding = style.ChildRounding = 0.0f;
   style.FrameRounding = style.GrabRounding = style.TabRounding = 3.0f;
   style.WindowBorderSize = 1.0f;

@@ -28,6 +28,7 @@ struct WindowOptions {
   int width = 1280, height = 720;  ///< of the content, in screen coordinates
   bool offscreen = false;          ///< no display is needed
   bool wall_clock = false;         ///< offscreen: time goes on as outside, not by a sixtieth of a second
+  double scale = 0.0;              ///< of fonts and spaces; 0: as the display asks for
   bool validation = false;         ///< of the window's own device
   std::string device;              ///< index or part of the name of a device; empty: as gpu::choose_device()
   std::string settings_file;       ///< where ImGui keeps what the user arranged; empty: nowhere
@@ -46,10 +47,12 @@ struct InputEvent {
     text,
     resize,
     minimize,
-    restore
+    restore,
+    scale
   };
   Kind kind = Kind::move;
-  double x = 0.0, y = 0.0;  ///< of move; of wheel: its turns; of resize: the new size
+  double x = 0.0, y = 0.0;  ///< of move; of wheel: its turns; of resize: the new size;
+                            ///< of scale: the new one, as of another display
   int button = 0;           ///< of press and release: 0 left, 1 right, 2 middle
   int key = 0;              ///< of key_down and key_up: GLFW's key code
   bool control = false, shift = false, alt = false;  ///< held with a key
