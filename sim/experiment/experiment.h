@@ -26,8 +26,8 @@ struct Experiment {
 /// Loads the world and makes the plan. Throws UserError like load_world() and make_effect_plan().
 Experiment make_experiment(Scenario scenario);
 
-/// Does the same for a scenario that was changed after `before` was made. It takes the world of `before` if it
-/// is the same one; files are not read again then.
+/// Does the same for a scenario that was changed after `before` was made. It takes the world of `before` if
+/// it is the same one; files are not read again then.
 Experiment make_experiment(Scenario scenario, const Experiment& before);
 
 /// Does the same with a world that is already loaded and fits the scenario. make_effect_plan() describes

@@ -225,7 +225,7 @@ TEST(MaterialSchema, MaterialsOfAnyNameHaveTheFields) {
   EXPECT_EQ(permittivity->together, std::vector<std::string>{"conductivity"});
 }
 
-// ------------------------------------------------------------------------------------------------ the handles
+// ----------------------------------------------------------------------------------------------- the handles
 
 TEST(Handles, AreThePlacesThatAScenarioGives) {
   const auto root = read_yaml(city(), "city");
@@ -291,7 +291,7 @@ TEST(Handles, TurnsAreAboutTheAxesOfYawPitchAndRoll) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- the difference
+// -------------------------------------------------------------------------------------------- the difference
 
 template <typename T>
 Array array_of(std::vector<int64_t> shape, const std::vector<T>& values) {

@@ -52,14 +52,18 @@ const WorldOverlays::Radio* WorldOverlays::radio(size_t channel) {
                                                     FacetOutlines(experiment->scene())});
     });
   }
-  if (is_ready(radio_coming_)) {
-    try {
-      radio_ = radio_coming_.get();
-    } catch (const std::exception& error) {
-      error_ = error.what();
-    }
-  }
+  collect();
   return radio_channel_ == channel ? radio_.get() : nullptr;
+}
+
+/// Takes what has become ready, also if nobody asks for it any more.
+void WorldOverlays::collect() {
+  try {
+    if (is_ready(radio_coming_)) radio_ = radio_coming_.get();
+    if (is_ready(courses_coming_)) courses_ = courses_coming_.get();
+  } catch (const std::exception& error) {
+    error_ = error.what();
+  }
 }
 
 const SampledCourses* WorldOverlays::courses(uint32_t sequence) {
@@ -71,18 +75,13 @@ const SampledCourses* WorldOverlays::courses(uint32_t sequence) {
       return std::make_shared<const SampledCourses>(sample_courses(*experiment, sequence));
     });
   }
-  if (is_ready(courses_coming_)) {
-    try {
-      courses_ = courses_coming_.get();
-    } catch (const std::exception& error) {
-      error_ = error.what();
-    }
-  }
+  collect();
   return courses_sequence_ == sequence ? courses_.get() : nullptr;
 }
 
 const Shapes& WorldOverlays::shapes(const ShownTick& tick, const dvec3& focus, size_t channel) {
   drop_finished();
+  collect();
   const bool wants_radio = settings_.facets || settings_.wedges;
   const MadeOf wanted{tick.sequence,
                       tick.packet.tick,

@@ -74,6 +74,7 @@ class WorldOverlays {
   const Radio* radio(size_t channel);
   void drop_job();
   void drop_finished();
+  void collect();
   const SampledCourses* courses(uint32_t sequence);
   void make(const ShownTick& tick, const dvec3& focus, size_t channel);
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The places of a scenario that a person can drag: positions of nodes and objects, way-points, control points.
+// The places of a scenario that a person can drag: positions of nodes and objects, way-points, control
+// points.
 #pragma once
 
 #include <memory>
