@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <imgui.h>
+#include <ranges>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -152,7 +153,8 @@ void SidePanel::draw_paths(ShownRun& run, MainView& view, WorldOverlays& world) 
   ImGui::Separator();
   const Shapes& shapes = run.overlays()->shapes();  // as the main view shows them
   std::vector<bool> listed(shapes.rows.size(), false);
-  for (const LineShape& line : shapes.lines) {
+  // The strongest path is drawn last, over the others, and is the first in the list.
+  for (const LineShape& line : std::views::reverse(shapes.lines)) {
     if (line.row == ~0u || listed[line.row] || !shapes.rows[line.row].is_path) continue;
     listed[line.row] = true;
     const ShapeRow& row = shapes.rows[line.row];
