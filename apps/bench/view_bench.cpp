@@ -182,37 +182,64 @@ class ViewBench {
     return times.times();
   }
 
+  /// What the turns of a live run with one kind of window have taken.
+  struct Live {
+    bool every_tick = false;
+    std::vector<double> alone, shown, slow_down, alone_cpu, shown_cpu;
+    double pictures = 0.0, frames = 0.0;  ///< for each tick, means
+  };
+
+  std::vector<TickTime> windowed(Live& live) const {
+    FollowDriver driver(last_tick(), live.every_tick);
+    view::ViewerOptions viewer = this->viewer(driver);
+    viewer.paused = true;
+    view::run_viewer(viewer);
+    const double ticks = static_cast<double>(last_tick() + 1) * options_.rounds;
+    live.pictures += static_cast<double>(driver.pictures()) / ticks;
+    live.frames += static_cast<double>(driver.frames()) / ticks;
+    return driver.times();
+  }
+
+  /// Compares the same ticks.
+  void compare(const std::vector<TickTime>& with, const std::vector<TickTime>& without, Live& live) const {
+    // A frame may have missed a tick: the ends are ticks that it has shown.
+    std::vector<int64_t> both;
+    for (const TickTime& time : with)
+      if (time.tick >= options_.warm_up && has(without, time.tick)) both.push_back(time.tick);
+    if (both.size() < 2) throw std::runtime_error("bench: the viewer showed too few ticks");
+    const int64_t first = both.front(), last = both.back();
+    live.alone.push_back(tick_ms(without, first, last));
+    live.shown.push_back(tick_ms(with, first, last));
+    live.slow_down.push_back(100.0 * (live.shown.back() / live.alone.back() - 1.0));
+    live.alone_cpu.push_back(tick_cpu_ms(without, first, last));
+    live.shown_cpu.push_back(tick_cpu_ms(with, first, last));
+  }
+
   void measure_live() {
-    std::vector<double> alone, shown, ratio, alone_cpu, shown_cpu;
-    double pictures = 0.0, frames = 0.0;
-    const auto turn = [&](FollowDriver& driver) { view::run_viewer(viewer(driver)); };
+    Live paced, every;
+    every.every_tick = true;
     for (uint32_t round = 0; round < options_.rounds; ++round) {
-      FollowDriver driver(last_tick());
-      std::vector<TickTime> without;
-      if (round % 2 == 1) turn(driver);
+      std::vector<TickTime> with, with_every, without;
+      if (round % 2 == 1) with = windowed(paced);
+      if (round % 2 == 1) with_every = windowed(every);
       without = headless();
-      if (round % 2 == 0) turn(driver);
-      // A frame may have missed a tick: the ends are ticks that it has shown.
-      std::vector<int64_t> both;
-      for (const TickTime& time : driver.times())
-        if (time.tick >= options_.warm_up && has(without, time.tick)) both.push_back(time.tick);
-      if (both.size() < 2) throw std::runtime_error("bench: the viewer showed too few ticks");
-      alone.push_back(tick_ms(without, both.front(), both.back()));
-      shown.push_back(tick_ms(driver.times(), both.front(), both.back()));
-      ratio.push_back(100.0 * (shown.back() / alone.back() - 1.0));
-      alone_cpu.push_back(tick_cpu_ms(without, both.front(), both.back()));
-      shown_cpu.push_back(tick_cpu_ms(driver.times(), both.front(), both.back()));
-      const double ticks = static_cast<double>(last_tick() + 1);
-      pictures += static_cast<double>(driver.pictures()) / ticks / options_.rounds;
-      frames += static_cast<double>(driver.frames()) / ticks / options_.rounds;
+      if (round % 2 == 0) with = windowed(paced);
+      if (round % 2 == 0) with_every = windowed(every);
+      compare(with, without, paced);
+      compare(with_every, without, every);
     }
-    add("live: a tick without the window, median", median(alone), "ms");
-    add("live: a tick with the window, median", median(shown), "ms");
-    add_most("live: slow-down by the window, median", median(ratio), "%", most_slow_down);
-    add("live: processor time of a tick without the window, median", median(alone_cpu), "ms");
-    add("live: processor time of a tick with the window, median", median(shown_cpu), "ms");
-    add("live: pictures of the scene for each tick", pictures, "");
-    add("live: frames of the window for each tick", frames, "");
+    add("live: a tick without the window, median", median(paced.alone), "ms");
+    add("live: processor time of a tick without the window, median", median(paced.alone_cpu), "ms");
+    add_live("live", paced);
+    add_most("live: slow-down by the window, median", median(paced.slow_down), "%", most_slow_down);
+    add_live("live, every tick shown", every);
+    add("live, every tick shown: slow-down by the window, median", median(every.slow_down), "%");
+  }
+  void add_live(const std::string& name, const Live& live) {
+    add(name + ": a tick with the window, median", median(live.shown), "ms");
+    add(name + ": processor time of a tick with the window, median", median(live.shown_cpu), "ms");
+    add(name + ": pictures of the scene for each tick", live.pictures, "");
+    add(name + ": frames of the window for each tick", live.frames, "");
   }
 
   /// Returns the number of ticks of the data set.

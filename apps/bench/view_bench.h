@@ -20,7 +20,7 @@ struct ViewBenchOptions {
   double seconds = 5.0;           ///< how long the view orbits
   uint32_t drags = 20;            ///< measured from rest to the picture
   uint32_t rounds = 3;            ///< of a live run with and without the window
-  int64_t block = 30;             ///< ticks of a live run that are measured in each turn
+  int64_t block = 60;             ///< ticks of a live run that are measured in each turn
   uint32_t starts = 3;            ///< of the program
   int64_t scrub_ticks = 30;       ///< of the data set that is scrubbed
 };
@@ -34,8 +34,8 @@ struct ViewBenchOptions {
 ///  - While the view orbits with all overlays: new pictures of the scene a second, and frames of the window.
 ///  - From a drag to the frame that shows its picture, from rest and in motion: median, 95th percentile and
 ///    worst.
-///  - A tick of a live run as fast as it can, without a window and with one that follows it, and the
-///    ratio less one. The turns alternate, and both count the same ticks.
+///  - A tick of a live run as fast as it can, without a window, with one that follows it, and with one that
+///    shows every tick, and the ratios less one. The turns alternate, and all count the same ticks.
 ///  - From the start of the program to the first picture of the scene, and to the one at full quality.
 ///  - Ticks a second of a data set with four panels, at the first visit of each tick.
 /// Throws UserError if the scenario has fewer ticks than the warm-up and two.

@@ -149,9 +149,14 @@ bool OrbitDriver::after_frame(const view::ScriptHost& host) {
 
 bool FollowDriver::after_frame(const view::ScriptHost& host) {
   check_run(host);
-  host.run().set_speed(0.0);
   const view::FrameContent content = host.content();
-  if (content.tick == nullptr) return true;
+  if (content.tick == nullptr || content.picture == nullptr) return true;
+  if (!plays_) {
+    plays_ = true;
+    host.act("every-tick", every_tick_ ? "on" : "off");
+    host.run().set_speed(0.0);
+    host.run().play(true);
+  }
   ++frames_;
   const int64_t tick = content.tick->packet.tick;
   if (times_.empty() || times_.back().tick != tick)

@@ -68,11 +68,12 @@ struct TickTime {
   double cpu_ms = 0.0;  ///< that all threads of this process have taken until then
 };
 
-/// Lets a live run play as fast as it can.
+/// Lets a live run play as fast as it can, as soon as the scene's picture is there. The run must wait at its
+/// first tick.
 class FollowDriver : public ViewDriver {
  public:
-  /// Ends after `last`.
-  explicit FollowDriver(int64_t last) : last_(last) {}
+  /// Ends after `last`. `every_tick`: each tick is shown, however much that slows the run down.
+  FollowDriver(int64_t last, bool every_tick) : last_(last), every_tick_(every_tick) {}
   bool after_frame(const view::ScriptHost& host) override;
   const std::vector<TickTime>& times() const { return times_; }  ///< of the ticks that frames have shown
   size_t pictures() const { return pictures_; }                  ///< of the scene, of different ticks
@@ -80,6 +81,8 @@ class FollowDriver : public ViewDriver {
 
  private:
   const int64_t last_;
+  const bool every_tick_;
+  bool plays_ = false;
   std::vector<TickTime> times_;
   int64_t pictured_ = -1;
   size_t pictures_ = 0, frames_ = 0;

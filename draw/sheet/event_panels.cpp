@@ -113,21 +113,22 @@ std::unique_ptr<FramePanel> make_events(const PanelSource& source) {
 
 Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, std::span<const uint8_t> p,
                     int64_t width, int64_t height) {
-  std::vector<int> on(static_cast<size_t>(width * height)), off(on.size());
+  // The numbers of events of each pixel: ON in [0], OFF in [1].
+  std::vector<std::array<uint32_t, 2>> counts(static_cast<size_t>(width * height));
   for (size_t i = 0; i < p.size(); ++i) {
     if (x[i] >= width || y[i] >= height)
       throw_user_error("event {}: at ({}, {}), outside of {} x {} pixels", i, x[i], y[i], width, height);
-    ++(p[i] ? on : off)[static_cast<size_t>(y[i] * width + x[i])];
+    ++counts[static_cast<size_t>(y[i] * width + x[i])][p[i] == 0];
   }
   // One event has 60 % of the full colour, three or more events have all of it.
   const double grey[3] = {128, 128, 128}, red[3] = {235, 45, 35}, blue[3] = {35, 75, 240};
   Array rgb(DType::u8, {height, width, 3});
   const std::span<uint8_t> out = rgb.as<uint8_t>();
   std::ranges::fill(out, uint8_t{128});
-  const auto color_of = [&](int ons, int offs) {
-    const int count = ons + offs;
-    const double strength = std::min(1.0, 0.4 + 0.2 * count);
-    const double share = static_cast<double>(ons) / count;
+  const auto color_of = [&](uint32_t ons, uint32_t offs) {
+    const uint64_t count = uint64_t{ons} + offs;
+    const double strength = std::min(1.0, 0.4 + 0.2 * static_cast<double>(count));
+    const double share = static_cast<double>(ons) / static_cast<double>(count);
     std::array<uint8_t, 3> color;
     for (size_t c = 0; c < 3; ++c)
       color[c] = static_cast<uint8_t>(
@@ -136,10 +137,10 @@ Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, st
   };
   // Most pixels with events have one.
   const std::array<uint8_t, 3> one_on = color_of(1, 0), one_off = color_of(0, 1);
-  for (size_t i = 0; i < on.size(); ++i) {
-    const int count = on[i] + off[i];
-    if (count == 0) continue;
-    const std::array<uint8_t, 3> color = count > 1 ? color_of(on[i], off[i]) : on[i] ? one_on : one_off;
+  for (size_t i = 0; i < counts.size(); ++i) {
+    const auto [on, off] = counts[i];
+    if (on + off == 0) continue;
+    const std::array<uint8_t, 3> color = on + off > 1 ? color_of(on, off) : on == 1 ? one_on : one_off;
     std::copy_n(color.begin(), 3, &out[3 * i]);
   }
   return rgb;

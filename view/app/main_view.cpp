@@ -120,8 +120,8 @@ SceneRequest MainView::wanted(const ShownTick& tick, bool fine) {
   request.tick = tick.packet.tick;
   request.fine = fine;
   const double share = fine ? 1.0 : coarse_share;
-  const auto width = static_cast<uint32_t>(std::max(16.0, std::round(share * size_.x)));
-  const auto height = static_cast<uint32_t>(std::max(16.0, std::round(share * size_.y)));
+  const auto width = static_cast<uint32_t>(std::max(16.0, std::round(share * region_.x)));
+  const auto height = static_cast<uint32_t>(std::max(16.0, std::round(share * region_.y)));
   if (camera_) {
     const sim::Moment& moment = moments_->at(tick.sequence, tick.packet.tick);
     const apps::ScenarioView through = apps::scenario_view(*camera_, *experiment_, moment, width);
@@ -133,12 +133,22 @@ SceneRequest MainView::wanted(const ShownTick& tick, bool fine) {
   return request;
 }
 
+/// Moves with the node that is followed.
+void MainView::carry_along(const ShownTick& tick) {
+  if (!followed_) return;
+  const dvec3 at = moments_->at(tick.sequence, tick.packet.tick).motions.at(*followed_).pose.position;
+  if (std::isfinite(followed_at_.x)) viewpoint_->carry(at - followed_at_);
+  followed_at_ = at;
+}
+
+void MainView::look_ahead(const ShownTick& tick) {
+  if (scene_ == nullptr || !has_asked_) return;
+  carry_along(tick);
+  request(tick, true);
+}
+
 void MainView::navigate(const ShownTick& tick) {
-  if (followed_) {
-    const dvec3 at = moments_->at(tick.sequence, tick.packet.tick).motions.at(*followed_).pose.position;
-    if (std::isfinite(followed_at_.x)) viewpoint_->carry(at - followed_at_);
-    followed_at_ = at;
-  }
+  carry_along(tick);
   if (camera_) return;
   const ImGuiIO& io = ImGui::GetIO();
   const dvec3 keys = ImGui::IsWindowFocused() ? keys_pressed() : dvec3(0.0);
@@ -292,7 +302,7 @@ void MainView::draw(const ShownTick& tick, const Shapes& shapes, uint64_t shapes
                     std::shared_ptr<const MapLayerPaint> map, bool plays) {
   map_ = std::move(map);
   corner_ = ImGui::GetCursorScreenPos();
-  size_ = ImGui::GetContentRegionAvail();
+  size_ = region_ = ImGui::GetContentRegionAvail();
   settled_ = awaits_ = false;
   if (scene_ == nullptr || size_.x < 16.0f || size_.y < 16.0f) return;
   ImGui::InvisibleButton("main view", size_,

@@ -45,6 +45,8 @@ class MainView {
   /// next tick will follow by itself.
   void draw(const ShownTick& tick, const Shapes& shapes, uint64_t shapes_version, const Shapes& world,
             std::shared_ptr<const MapLayerPaint> map, bool plays);
+  /// Asks for the picture of a tick that no frame has drawn yet. The run plays.
+  void look_ahead(const ShownTick& tick);
   /// Whether the shown picture is the one that is wanted, at full quality.
   bool settled() const { return settled_; }
   /// Whether a picture is being drawn for the view that is wanted.
@@ -91,6 +93,7 @@ class MainView {
   void set_tool(Tool tool) { tool_ = std::move(tool); }
 
  private:
+  void carry_along(const ShownTick& tick);
   void navigate(const ShownTick& tick);
   void request(const ShownTick& tick, bool plays);
   SceneRequest wanted(const ShownTick& tick, bool fine);
@@ -114,7 +117,8 @@ class MainView {
   std::shared_ptr<const MapLayerPaint> map_, painted_;  ///< wanted, and in the texture
   TextureId texture_ = nullptr;
   uint32_t texture_width_ = 0, texture_height_ = 0;
-  ImVec2 corner_{0, 0}, size_{0, 0};  ///< of the view in the window
+  ImVec2 corner_{0, 0}, size_{0, 0};  ///< of the picture in the window
+  ImVec2 region_{0, 0};               ///< that a picture may fill
   SceneRequest asked_;
   bool has_asked_ = false;
   double moved_at_s_ = -1e9;  ///< ImGui's time of the last change of the view

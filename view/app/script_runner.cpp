@@ -16,7 +16,8 @@ bool ScriptRunner::run(const ScriptStep& step, const ScriptHost& host) {
     case Kind::wait_picture:
       return host.settled();
     case Kind::wait_tick:
-      return host.tick() == step.number;
+      // A run that plays may have gone past it.
+      return host.tick() == step.number || (host.tick() > step.number && host.run().status().playing);
     case Kind::wait_frames:
       return frames_ >= step.number;
     case Kind::input:

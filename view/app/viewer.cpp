@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <imgui.h>
 #include <iostream>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "sim/plan/camera_desc.h"
 #include "view/app/commands.h"
 #include "view/app/edit_session.h"
+#include "view/app/frame_pace.h"
 #include "view/app/gizmo.h"
 #include "view/app/main_view.h"
 #include "view/app/recording.h"
@@ -35,9 +37,15 @@ namespace greatx::view {
 namespace {
 
 constexpr double scripted_wait_s = 0.008;  ///< as ViewerOptions::longest_wait_s, while there is a script
-/// While a picture is being drawn, input alone begins a frame so long after the last one. The picture begins
-/// the next frame anyway, and a frame before it would slow it down.
-constexpr double awaiting_input_s = 1.0 / 30.0;
+/// While a picture is being drawn, input alone begins a frame so long after the last one: after so many times
+/// what the picture before it took, but not later than this. The picture begins the next frame anyway, and a
+/// frame before it would slow it down.
+constexpr double awaiting_input_factor = 1.6, most_awaiting_input_s = 0.1;
+/// So much longer is ViewerOptions::longest_wait_s while a run plays that nobody touches. Each tick begins a
+/// frame, and the run needs the cores.
+constexpr double playing_wait_factor = 10.0;
+/// Of the wanted speed, below which a run is behind.
+constexpr double least_reached = 0.95;
 constexpr float usual_side_share = 0.42f;  ///< of the window's width
 
 class Viewer {
@@ -71,9 +79,11 @@ class Viewer {
     see_news();
     ScriptRunner script(options_.script);
     while (!quit_ && window_->begin_frame(frame_wait())) {
+      pace_.frame_begins();
       see_news();
       frame();
       window_->end_frame();
+      pace_.frame_ended(main_.picture_ms());
       check_validation();
       recording_.frame_drawn();
       if (!options_.script.empty() && !script.advance(script_host())) return;
@@ -85,11 +95,37 @@ class Viewer {
   ShownRun& shown() { return *runs_[main_run_]; }
   SettledParts settled_parts() { return {*window_, main_, side_.grid(), side_open_, side_share_}; }
 
+  /// Whether the run plays, and nobody holds a key or a button.
+  bool plays_untouched() const {
+    const RunStatus status = runs_[main_run_]->run().status();
+    if (!status.playing || status.phase != RunStatus::Phase::ready) return false;
+    const ImGuiIO& io = ImGui::GetIO();
+    return std::ranges::none_of(io.MouseDown, std::identity()) &&
+           std::ranges::none_of(io.KeysDown, std::identity());
+  }
+
+  /// Whether ticks may be left out, because the run has no time to spare.
+  bool spares_frames() const {
+    const RunStatus status = runs_[main_run_]->run().status();
+    const bool behind = status.speed <= 0.0 || status.reached < least_reached * status.speed;
+    return behind && !every_tick_ && options_.datasets.empty() && options_.script.empty() &&
+           !recording_.active();
+  }
+
   /// Whether there is a tick or a picture that no frame has shown yet. What else changes may wait.
-  bool has_news() const {
-    for (size_t i = 0; i < runs_.size(); ++i)
-      if (runs_[i]->run().shown() != seen_ticks_[i]) return true;
-    return main_.version() != seen_picture_;
+  /// A tick of a run that plays is shown together with its picture, so that it takes one frame and not two.
+  bool has_news() {
+    if (main_.version() != seen_picture_) return true;
+    const bool plays = plays_untouched();
+    for (size_t i = 0; i < runs_.size(); ++i) {
+      const std::shared_ptr<const ShownTick> tick = runs_[i]->run().shown();
+      if (tick == seen_ticks_[i]) continue;
+      if (i != main_run_ || !plays || seen_ticks_[i] == nullptr) return true;
+      if (spares_frames() && !pace_.due()) continue;
+      main_.look_ahead(*tick);
+      if (main_.has_picture_of(*tick)) return true;
+    }
+    return false;
   }
   void see_news() {
     seen_ticks_.resize(runs_.size());
@@ -97,11 +133,13 @@ class Viewer {
     seen_picture_ = main_.version();
   }
 
-  FrameWait frame_wait() const {
+  FrameWait frame_wait() {
     FrameWait wait;
     wait.most_s = options_.longest_wait_s;
+    if (plays_untouched()) wait.most_s *= playing_wait_factor;
     if (!options_.script.empty()) wait.most_s = std::min(wait.most_s, scripted_wait_s);
-    if (main_.awaits()) wait.input_after_s = awaiting_input_s;
+    if (main_.awaits())
+      wait.input_after_s = std::min(most_awaiting_input_s, 1e-3 * awaiting_input_factor * main_.picture_ms());
     if (!world_.idle() || recording_.active()) wait.most_s = std::min(wait.most_s, scripted_wait_s);
     wait.news = [this] { return has_news(); };
     return wait;
@@ -367,6 +405,7 @@ class Viewer {
                    [this](const std::string&) { open_tab("Times"); },
                    {},
                    {}});
+    add_switch(commands_, "every-tick", "Run", "Show every tick of a slow run", "", every_tick_);
     add_switch(commands_, "legend", "Show", "Legend", "l", main_.show_legend());
     recording_.add_commands(commands_);
     settings_.add_commands(commands_);
@@ -687,8 +726,10 @@ class Viewer {
   SettingsKeeper settings_;
   Commands commands_;
   SteadyText activity_;
+  FramePace pace_;
   float side_share_ = usual_side_share;
   bool side_open_ = true, help_open_ = false, quit_ = false;
+  bool every_tick_ = false;                                   ///< is shown, however long it takes
   std::vector<std::shared_ptr<const ShownTick>> seen_ticks_;  ///< [runs]
   uint64_t seen_picture_ = 0;
   std::string command_error_;

@@ -19,7 +19,7 @@ struct ScriptStep {
     wait_ready,    ///< until the run has loaded, or has failed
     wait_scene,    ///< until a picture of the scene is shown, whatever its quality, or loading has failed
     wait_picture,  ///< until the main view shows the tick and the view that are wanted, at full quality
-    wait_tick,     ///< until tick `number` is shown
+    wait_tick,     ///< until tick `number` is shown, or a run that plays is past it
     wait_frames,   ///< `number` frames
     input,         ///< `events`, one for each frame
     act,           ///< the command `text` of the menus, with `argument`
