@@ -169,14 +169,21 @@ class ViewBench {
   }
 
   int64_t last_tick() const { return options_.warm_up + options_.block; }
+  /// Ends with the last tick that is measured, which the window shows for certain.
+  ScenarioOptions block_options() const {
+    ScenarioOptions options = scenario_options_;
+    options.ticks = last_tick() + 1;
+    options.sequences = 1;
+    return options;
+  }
 
   std::vector<TickTime> headless() const {
-    const sim::Experiment experiment = sim::make_experiment(load_scenario(scenario_options_));
+    const sim::Experiment experiment = sim::make_experiment(load_scenario(block_options()));
     gpu::Device device(run_.device_options());
     sim::Simulator simulator(device, experiment);
     simulator.start(0);
     Times times;
-    while (simulator.next_tick() <= last_tick() + 1 && simulator.step(times)) continue;
+    while (simulator.step(times)) continue;
     simulator.drain(times);
     check_validation(device);
     return times.times();
@@ -193,6 +200,7 @@ class ViewBench {
     FollowDriver driver(last_tick(), live.every_tick);
     view::ViewerOptions viewer = this->viewer(driver);
     viewer.paused = true;
+    viewer.scenario = [options = block_options()] { return load_scenario(options); };
     view::run_viewer(viewer);
     const double ticks = static_cast<double>(last_tick() + 1) * options_.rounds;
     live.pictures += static_cast<double>(driver.pictures()) / ticks;
@@ -202,11 +210,17 @@ class ViewBench {
 
   /// Compares the same ticks.
   void compare(const std::vector<TickTime>& with, const std::vector<TickTime>& without, Live& live) const {
-    // A frame may have missed a tick: the ends are ticks that it has shown.
+    // The ends are ticks that the window has shown. Of a scenario so fast that it shows only the last one,
+    // the warm-up counts, too.
     std::vector<int64_t> both;
     for (const TickTime& time : with)
       if (time.tick >= options_.warm_up && has(without, time.tick)) both.push_back(time.tick);
-    if (both.size() < 2) throw std::runtime_error("bench: the viewer showed too few ticks");
+    if (both.size() == 1 && has(without, with.front().tick)) both.insert(both.begin(), with.front().tick);
+    if (both.size() < 2)
+      throw_user_error(
+          "{}: bench --view: the window showed {} of {} ticks after the warm-up; expected 2 at "
+          "least: measure more ticks",
+          scenario_.name, both.size(), options_.block);
     const int64_t first = both.front(), last = both.back();
     live.alone.push_back(tick_ms(without, first, last));
     live.shown.push_back(tick_ms(with, first, last));

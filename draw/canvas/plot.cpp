@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace greatx::io {
 
@@ -61,10 +62,15 @@ std::string tick_text(double value) {
 }
 
 void draw_x_axis(Canvas& canvas, const Rect& plot, const Scale& scale, const std::string& label) {
+  int taken = std::numeric_limits<int>::min();  // by numbers; one that has no room is left out
   for (const double value : scale.ticks(std::max(2, plot.width / 110))) {
     const int x = pixel(plot.x, plot.width, scale.at(value));
     canvas.fill({x, plot.bottom(), 1, 5}, theme::dim);
-    canvas.text(x, plot.bottom() + 9, tick_text(value), theme::text_scale, theme::dim, Align::center);
+    const std::string text = tick_text(value);
+    const int width = Canvas::text_width(text, theme::text_scale);
+    if (x - width / 2 < taken) continue;
+    taken = x + width / 2 + glyph / 2;
+    canvas.text(x, plot.bottom() + 9, text, theme::text_scale, theme::dim, Align::center);
   }
   canvas.text(plot.x + plot.width / 2, plot.bottom() + 9 + theme::line_height, label, theme::text_scale,
               theme::text, Align::center);

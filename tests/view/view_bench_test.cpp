@@ -18,7 +18,7 @@ using apps::test::Outcome;
 
 TEST(ViewBench, HasARowForEachTarget) {
   const std::string arguments =
-      "bench room --ticks 12 --view --size 320x240 --orbit-seconds 0.3 --drags 2 --turns 1 --warm-up 1";
+      "bench room --ticks 40 --view --size 320x240 --orbit-seconds 0.3 --drags 2 --turns 1 --warm-up 1";
   const Outcome run = greatx(arguments + " --json");
   ASSERT_EQ(run.code, 0) << run.err;
   const nlohmann::json result = nlohmann::json::parse(run.out);
