@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/tradeoff/measure.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <sys/resource.h>
+
+#include "core/error.h"
+#include "sim/run/simulator.h"
+
+namespace greatx::sim {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+double process_cpu_ms() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto of = [](const timeval& t) { return 1e3 * double(t.tv_sec) + 1e-3 * double(t.tv_usec); };
+  return of(usage.ru_utime) + of(usage.ru_stime);
+}
+
+/// Keeps the packet of the newest tick.
+class Newest : public RecordSink {
+ public:
+  void write(Packet packet) override { packet_ = std::move(packet); }
+  Packet& packet() { return packet_; }
+
+ private:
+  Packet packet_;
+};
+
+/// One setting with its simulator.
+class Runner {
+ public:
+  Runner(gpu::Device& device, const Experiment& experiment)
+      : begin_(Clock::now()), simulator_(device, experiment), build_ms_(milliseconds_since(begin_)) {}
+
+  void start(int64_t tick, SettingResult& result) {
+    const Clock::time_point begin = Clock::now();
+    simulator_.start(0, tick);
+    result.start_ms.push_back(milliseconds_since(begin));
+  }
+  /// Returns false if the sequence has ended.
+  bool step(SettingResult* timed) {
+    const double cpu = process_cpu_ms();
+    const Clock::time_point begin = Clock::now();
+    const bool ran = simulator_.step(newest_);
+    simulator_.drain(newest_);
+    if (timed != nullptr && ran) {
+      timed->wall_ms.push_back(milliseconds_since(begin));
+      timed->cpu_ms.push_back(process_cpu_ms() - cpu);
+    }
+    return ran;
+  }
+  const Simulator& simulator() const { return simulator_; }
+  Packet& packet() { return newest_.packet(); }
+  double build_ms() const { return build_ms_; }
+
+ private:
+  const Clock::time_point begin_;
+  Simulator simulator_;
+  const double build_ms_;
+  Newest newest_;
+};
+
+size_t index_of(const std::vector<SensorSpec>& specs, const std::string& name) {
+  const auto found = std::ranges::find(specs, name, &SensorSpec::name);
+  return static_cast<size_t>(found - specs.begin());
+}
+const Record* record_of(const Packet& packet, size_t sensor) {
+  const auto found = std::ranges::find(packet.records, static_cast<uint32_t>(sensor), &Record::sensor);
+  return found == packet.records.end() ? nullptr : &*found;
+}
+
+/// Whether all arrays that both have are equal, and none is missing on one side.
+bool same_bytes(const SensorSpec& a, const Record& x, const SensorSpec& b, const Record& y) {
+  if (a.arrays.size() != b.arrays.size()) return false;
+  for (size_t i = 0; i < a.arrays.size(); ++i)
+    if (a.arrays[i].name != b.arrays[i].name || x.arrays[i].shape != y.arrays[i].shape ||
+        x.arrays[i].bytes != y.arrays[i].bytes)
+      return false;
+  return true;
+}
+
+/// Compares one setting with the reference, tick by tick.
+class Judge {
+ public:
+  Judge(const std::vector<SensorSpec>& reference, const std::vector<SensorSpec>& specs)
+      : reference_(reference), specs_(specs) {
+    for (const SensorSpec& spec : reference) sums_.push_back(make_error_sum(spec.kind));
+  }
+  void add(const Packet& reference, const Packet& packet, SettingResult& result) {
+    for (size_t i = 0; i < reference_.size(); ++i) {
+      if (sums_[i] == nullptr) continue;
+      const size_t j = index_of(specs_, reference_[i].name);
+      const Record *const x = record_of(reference, i), *const y = record_of(packet, j);
+      if (x == nullptr || y == nullptr) continue;
+      if (!same_bytes(reference_[i], *x, specs_[j], *y)) result.exact = false;
+      sums_[i]->add(reference_[i], *x, specs_[j], *y);
+    }
+  }
+  std::vector<SensorError> errors() const {
+    std::vector<SensorError> errors;
+    for (size_t i = 0; i < reference_.size(); ++i) {
+      if (sums_[i] == nullptr) continue;
+      for (const ErrorFigure& figure : sums_[i]->figures()) errors.push_back({reference_[i].name, figure});
+    }
+    return errors;
+  }
+
+ private:
+  const std::vector<SensorSpec>&reference_, &specs_;
+  std::vector<std::unique_ptr<ErrorSum>> sums_;
+};
+
+}  // namespace
+
+MeasurePlan plan_blocks(const Scenario& scenario, int64_t blocks, int64_t ticks) {
+  MeasurePlan plan;
+  plan.ticks = std::clamp<int64_t>(scenario.ticks - plan.warm_up, 1, ticks);
+  if (scenario.ticks <= plan.warm_up) plan.warm_up = 0;
+  const int64_t length = plan.warm_up + plan.ticks;
+  blocks = std::clamp<int64_t>(scenario.ticks / length, 1, blocks);
+  plan.starts.clear();
+  for (int64_t b = 0; b < blocks; ++b)
+    plan.starts.push_back(blocks == 1 ? 0 : b * (scenario.ticks - length) / (blocks - 1));
+  return plan;
+}
+
+std::vector<SettingResult> measure_settings(gpu::Device& device, const std::vector<Experiment>& settings,
+                                            size_t reference, const MeasurePlan& given,
+                                            const std::function<void(double)>& progress) {
+  GREATX_CHECK(reference < settings.size(), "reference {} of {}", reference, settings.size());
+  std::vector<std::unique_ptr<Runner>> runners;
+  std::vector<SettingResult> results(settings.size());
+  std::vector<Judge> judges;
+  MeasurePlan plan = given;
+  for (size_t i = 0; i < settings.size(); ++i) {
+    runners.push_back(std::make_unique<Runner>(device, settings[i]));
+    results[i].build_ms = runners[i]->build_ms();
+    results[i].specs = runners[i]->simulator().sensors();
+    if (runners[i]->simulator().remembers()) plan.starts = {0};
+    progress(0.3 * static_cast<double>(i + 1) / static_cast<double>(settings.size()));
+  }
+  for (const SettingResult& result : results) judges.emplace_back(results[reference].specs, result.specs);
+  const int64_t length = plan.warm_up + plan.ticks;
+  for (size_t block = 0; block < plan.starts.size(); ++block) {
+    for (size_t i = 0; i < runners.size(); ++i) runners[i]->start(plan.starts[block], results[i]);
+    for (int64_t tick = 0; tick < length; ++tick) {
+      const bool counts = tick >= plan.warm_up;
+      bool ran = true;
+      // Every second tick goes backwards, so that no setting always follows the same one.
+      for (size_t k = 0; k < runners.size(); ++k) {
+        const size_t i = tick % 2 == 0 ? k : runners.size() - 1 - k;
+        ran &= runners[i]->step(counts ? &results[i] : nullptr);
+        progress(0.3 + 0.7 *
+                           (static_cast<double>(block) +
+                            (static_cast<double>(tick) + static_cast<double>(k + 1) / double(runners.size())) /
+                                static_cast<double>(length)) /
+                           static_cast<double>(plan.starts.size()));
+      }
+      if (!ran) break;
+      for (size_t i = 0; counts && i < runners.size(); ++i)
+        judges[i].add(runners[reference]->packet(), runners[i]->packet(), results[i]);
+    }
+  }
+  for (size_t i = 0; i < runners.size(); ++i) {
+    results[i].errors = judges[i].errors();
+    results[i].last = std::move(runners[i]->packet());
+  }
+  return results;
+}
+
+Spread spread_of(std::vector<double> samples) {
+  Spread spread;
+  spread.count = samples.size();
+  if (samples.empty()) return spread;
+  std::ranges::sort(samples);
+  const auto at = [&](double share) {
+    const double place = share * static_cast<double>(samples.size() - 1);
+    const auto below = static_cast<size_t>(place);
+    const size_t above = std::min(below + 1, samples.size() - 1);
+    return samples[below] + (place - static_cast<double>(below)) * (samples[above] - samples[below]);
+  };
+  spread.median = at(0.5);
+  spread.low = at(0.25);
+  spread.high = at(0.75);
+  return spread;
+}
+
+}  // namespace greatx::sim
