@@ -17,6 +17,7 @@ void add_scene(CLI::App& app);
 void add_explain(CLI::App& app);
 void add_paths(CLI::App& app);
 void add_map(CLI::App& app);
+void add_tradeoff(CLI::App& app);
 void add_view(CLI::App& app);
 
 }  // namespace greatx::apps

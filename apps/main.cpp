@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
   apps::add_explain(app);
   apps::add_paths(app);
   apps::add_map(app);
+  apps::add_tradeoff(app);
   apps::add_bench(app);
   apps::read_numbers_strictly(app);
   try {

@@ -44,8 +44,9 @@ std::vector<FrontPoint> thinned(std::vector<FrontPoint> front, size_t count) {
   const double time = std::max(1e-9, log_of(front.back().ms) - log_of(front.front().ms));
   const double error = std::max(1e-9, log_of(front.front().power) - log_of(front.back().power));
   for (size_t i = 1; i < front.size(); ++i)
-    length.push_back(length.back() + std::hypot((log_of(front[i].ms) - log_of(front[i - 1].ms)) / time,
-                                                (log_of(front[i].power) - log_of(front[i - 1].power)) / error));
+    length.push_back(length.back() +
+                     std::hypot((log_of(front[i].ms) - log_of(front[i - 1].ms)) / time,
+                                (log_of(front[i].power) - log_of(front[i - 1].power)) / error));
   std::vector<FrontPoint> kept;
   size_t next = 0;
   for (size_t k = 0; k < count; ++k) {

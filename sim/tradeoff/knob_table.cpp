@@ -154,7 +154,8 @@ void add_search(Table& table, const ChannelConfig& channel) {
     candidates.settings.push_back({fmt::format("rays 2^{}", power), std::ldexp(1.0, power),
                                    table.everywhere({"rays"}, std::to_string(1 << power))});
   for (Setting& setting : candidates.settings)
-    for (const YamlChange& change : table.everywhere({"candidates"}, "rays")) setting.changes.push_back(change);
+    for (const YamlChange& change : table.everywhere({"candidates"}, "rays"))
+      setting.changes.push_back(change);
   candidates.settings.push_back({"beams", {}, table.everywhere({"candidates"}, "beams")});
   candidates.reference = candidates.settings.size() - 1;
   if (channel.candidates == ChannelConfig::Candidates::beams) candidates.standard = candidates.reference;
@@ -163,8 +164,10 @@ void add_search(Table& table, const ChannelConfig& channel) {
   else if (table.plan().diffraction.on)
     candidates.skipped = "diffraction needs beams";
   else if (table.plan().every_element.on)
-    Table::within(candidates, "every_element off, which needs beams", {effect_change("every_element", false)});
-  table.add_numbers("max_paths", {"max_paths"}, {1, 4, 16, 64, 100000}, channel.limits.max_paths,
+    Table::within(candidates, "every_element off, which needs beams",
+                  {effect_change("every_element", false)});
+  table.add_numbers("max_paths", {"max_paths"}, {1, 4, 16, 64, 100000},
+                    static_cast<double>(channel.limits.max_paths),
                     "geometric paths of a link and tick at most");
 }
 
@@ -181,19 +184,20 @@ void add_scattering(Table& table, const ChannelConfig& channel) {
                         up_to(table.quick() ? 1 : 2), channel.limits.max_reflections_before_scattering,
                         "reflections between a scattering and the end that is searched from at most"));
   if (table.quick()) return;
-  Knob& after = table.add_numbers("max_reflections_after", {"max_reflections_after"}, up_to(1),
-                                  channel.limits.max_reflections_after,
-                                  "reflections after a diffraction at most");
-  if (!table.plan().diffraction.on) Table::within(after, "with diffraction", {effect_change("diffraction", true)});
+  Knob& after =
+      table.add_numbers("max_reflections_after", {"max_reflections_after"}, up_to(1),
+                        channel.limits.max_reflections_after, "reflections after a diffraction at most");
+  if (!table.plan().diffraction.on)
+    Table::within(after, "with diffraction", {effect_change("diffraction", true)});
 }
 
 void add_csi(Table& table) {
   const ChannelConfig& channel = table.scenario().channels.front();
   add_search(table, channel);
   const EffectPlan& plan = table.plan();
-#define GREATX_ROW(name, switchable, passed, documentation) \
+#define GREATX_ROW(name, may_switch, passed, documentation) \
   if (plan.name.switchable) table.add_effect(plan.name, documentation);
-  GREATX_CHANNEL_EFFECTS(GREATX_ROW)
+  GREATX_RADIO_EFFECTS(GREATX_ROW)
 #undef GREATX_ROW
   add_scattering(table, channel);
 }
@@ -217,7 +221,8 @@ std::vector<YamlChange> scaled_pictures(const Table& table, double factor) {
 }
 
 void add_resolution(Table& table) {
-  Knob& knob = table.add("resolution", "pixels of the first picture's width, in the same field of view", "px");
+  Knob& knob =
+      table.add("resolution", "pixels of the first picture's width, in the same field of view", "px");
   for (const double factor : {0.25, 0.5, 1.0, 2.0}) {
     const double width = std::round(factor * table.first<CameraConfig>().width);
     if (factor == 1.0) knob.standard = knob.settings.size();
@@ -237,7 +242,8 @@ std::vector<YamlChange> with_shutter(const Table& table) {
     const std::string how = exposure.automatic
                                 ? fmt::format("auto: true, compensation_ev: {}", exposure.compensation_ev)
                                 : fmt::format("ev100: {}", exposure.ev100);
-    changes.push_back(set(below(table.places()[i], {"exposure"}), fmt::format("{{{}, shutter_s: 0.02}}", how)));
+    changes.push_back(
+        set(below(table.places()[i], {"exposure"}), fmt::format("{{{}, shutter_s: 0.02}}", how)));
   }
   return changes;
 }
@@ -256,7 +262,7 @@ void add_camera(Table& table) {
   add_resolution(table);
   add_antialiasing(table);
   const EffectPlan& plan = table.plan();
-#define GREATX_ROW(name, switchable, passed, documentation) \
+#define GREATX_ROW(name, may_switch, passed, documentation) \
   if (plan.name.switchable) table.add_effect(plan.name, documentation);
   GREATX_CAMERA_EFFECTS(GREATX_ROW)
 #undef GREATX_ROW
@@ -297,7 +303,7 @@ void add_lidar(Table& table) {
   if (lidar.divergence == 0.0)
     Table::within(rings, "with a divergence of 3 mrad", table.everywhere({"beam", "divergence_mrad"}, "3"));
   const EffectPlan& plan = table.plan();
-#define GREATX_ROW(name, switchable, passed, documentation) \
+#define GREATX_ROW(name, may_switch, passed, documentation) \
   if (plan.name.switchable) table.add_effect(plan.name, documentation);
   GREATX_LIDAR_EFFECTS(GREATX_ROW)
 #undef GREATX_ROW
@@ -310,13 +316,16 @@ void add_radar(Table& table) {
   const std::vector<double> finer{0.25, 0.5, 1, 2, 4};
   const auto add = [&](const char* field, std::vector<double> values, double own, const char* about,
                        const char* unit = "") {
-    table.add_numbers(fmt::format("echoes.{}", field), {"echoes", field}, std::move(values), own, about, unit);
+    table.add_numbers(fmt::format("echoes.{}", field), {"echoes", field}, std::move(values), own, about,
+                      unit);
   };
-  add("tubes", around(echoes.tubes, table.quick() ? finer : std::vector<double>{0.25, 0.5, 1, 2, 4, 16}, true),
+  add("tubes",
+      around(echoes.tubes, table.quick() ? finer : std::vector<double>{0.25, 0.5, 1, 2, 4, 16}, true),
       echoes.tubes, "ray tubes over the field of view");
   add("target_tube_m", descending(around(echoes.target_tube_m, finer, false)), echoes.target_tube_m,
       "width of the finer tubes on moving bodies", "m");
-  add("target_budget", {0, 1024, 4096, 16384, 65536}, echoes.target_budget, "finer tubes on moving bodies at most");
+  add("target_budget", {0, 1024, 4096, 16384, 65536}, echoes.target_budget,
+      "finer tubes on moving bodies at most");
   add("mirror_budget", {0, 512, 2048, 8192}, echoes.mirror_budget,
       "finer tubes where moving bodies are seen over mirrors at most");
   add("max_bounces", {1, 2, 3, 4, 5}, echoes.max_bounces, "surfaces that a tube meets at most");
@@ -325,7 +334,7 @@ void add_radar(Table& table) {
       "how similar tubes are that become one echo");
   add("max_echoes", {64, 256, 1024, 4096, 65536}, echoes.max_echoes, "echoes that are kept");
   const EffectPlan& plan = table.plan();
-#define GREATX_ROW(name, switchable, passed, documentation) \
+#define GREATX_ROW(name, may_switch, passed, documentation) \
   if (plan.name.switchable) table.add_effect(plan.name, documentation);
   GREATX_RADAR_EFFECTS(GREATX_ROW)
 #undef GREATX_ROW
@@ -356,7 +365,8 @@ std::vector<Knob> knobs_of(const Experiment& experiment, Modality modality, bool
 std::vector<AbsentKnob> absent_knobs() {
   return {
       {"clearance", "beams guarantee every path that keeps 0.5 mm from edges; this is a constant"},
-      {"shadow maps", "their size follows from the scene; only static_shadows and moving_shadows are switched"},
+      {"shadow maps",
+       "their size follows from the scene; only static_shadows and moving_shadows are switched"},
       {"LiDAR tracer", "the device decides: a tree of greatx's own on a CPU's driver, else its ray queries"},
       {"fp32 against fp64", "no precision can be chosen: fields and paths are in fp64, pictures in fp32"},
       {"encoders", "files are lossless; `greatx bench --rig` measures the time of writing"}};

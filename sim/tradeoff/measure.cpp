@@ -160,11 +160,12 @@ std::vector<SettingResult> measure_settings(gpu::Device& device, const std::vect
       for (size_t k = 0; k < runners.size(); ++k) {
         const size_t i = tick % 2 == 0 ? k : runners.size() - 1 - k;
         ran &= runners[i]->step(counts ? &results[i] : nullptr);
-        progress(0.3 + 0.7 *
-                           (static_cast<double>(block) +
-                            (static_cast<double>(tick) + static_cast<double>(k + 1) / double(runners.size())) /
-                                static_cast<double>(length)) /
-                           static_cast<double>(plan.starts.size()));
+        progress(0.3 +
+                 0.7 *
+                     (static_cast<double>(block) +
+                      (static_cast<double>(tick) + static_cast<double>(k + 1) / double(runners.size())) /
+                          static_cast<double>(length)) /
+                     static_cast<double>(plan.starts.size()));
       }
       if (!ran) break;
       for (size_t i = 0; counts && i < runners.size(); ++i)

@@ -18,7 +18,7 @@
 #include "io/files/file.h"
 #include "io/formats/png.h"
 #include "tests/golden/pictures.h"
-#include "tests/support/flip.h"
+#include "sim/tradeoff/error/flip.h"
 
 namespace greatx::test {
 namespace {
@@ -44,7 +44,7 @@ struct Comparison {
 };
 
 Comparison compare_by_flip(const Array& expected, const Array& actual) {
-  const Flip flipped = flip(expected, actual);
+  const sim::Flip flipped = sim::flip(expected, actual);
   Comparison result{flipped.mean, Array(DType::u8, expected.shape)};
   for (size_t i = 0; i < flipped.error.size(); ++i) {
     const io::Color color = io::viridis(flipped.error[i]);

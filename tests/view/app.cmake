@@ -16,8 +16,7 @@ endif()
 # The real program, by scripts.
 greatx_test(view_program
             SOURCES edit_program_test.cpp overlay_program_test.cpp view_bench_test.cpp view_program_test.cpp
-                    ../support/flip.cpp
-            LINK greatx_io nlohmann_json::nlohmann_json)
+            LINK greatx_io greatx_sim_tradeoff_error nlohmann_json::nlohmann_json)
 target_compile_definitions(test_view_program
   PRIVATE GREATX_PROGRAM="$<TARGET_FILE:greatx>" GREATX_XVFB_RUN="${XVFB_RUN}"
           GREATX_VIEW_GOLDENS="${CMAKE_CURRENT_SOURCE_DIR}/goldens")

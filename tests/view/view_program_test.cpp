@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "io/files/file.h"
-#include "tests/support/flip.h"
+#include "sim/tradeoff/error/flip.h"
 
 namespace greatx::view {
 namespace {
@@ -208,7 +208,7 @@ TEST_F(ViewProgram, LooksAsBefore) {
   const Array before = io::decode_png(std::as_bytes(std::span(bytes)), golden.string());
   ASSERT_EQ(now.shape, before.shape);
   // Another font or driver moves edges by a part of a pixel; an overlay or a panel that lacks is far more.
-  EXPECT_LT(test::flip(before, now).mean, 0.03);
+  EXPECT_LT(sim::flip(before, now).mean, 0.03);
 }
 
 }  // namespace

@@ -43,8 +43,7 @@ class ErrorSum {
 ///   `links` % (of links with a path in one of the two only); `delay_spread` ns (median); `paths` % (by `id`:
 ///   1 - |both| / |either|).
 /// - camera: `flip` 1 (mean of FLIP at 67 pixels per degree; the smaller picture is enlarged bilinearly to
-///   the reference's size); `ssim` 1 (1 - mean structural similarity of luma, 8 x 8 windows of Gaussian
-///   weight); `depth` m (mean of |difference| where both are finite), `depth_p95` m, `depth_other` % (pixels
+///   the reference's size); `ssim` 1 (1 - mean structural similarity, ssim.h); `depth` m (mean of |difference| where both are finite), `depth_p95` m, `depth_other` % (pixels
 ///   finite in one only); `ids` % (pixels of another instance); `flow` px (mean end-point error).
 /// - event_camera: `voxels` 1 (relative L1 of a voxel grid of 15 bins in time, each record for itself, events
 ///   shared bilinearly between bins, polarity as sign); `count` % (|n - n_ref| / n_ref); `time` us (median

@@ -11,7 +11,7 @@
 
 #include "core/record.h"
 
-namespace greatx::test {
+namespace greatx::sim {
 
 struct Flip {
   std::vector<float> error;  ///< [h, w], 0: equal, 1: as different as black and white
@@ -22,4 +22,4 @@ struct Flip {
 /// monitor with a width of 0.7 m and 3840 pixels, seen from a distance of 0.7 m.
 Flip flip(const Array& reference, const Array& test, double pixels_per_degree = 67.0);
 
-}  // namespace greatx::test
+}  // namespace greatx::sim

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/flip.h"
+#include "sim/tradeoff/error/flip.h"
 
 #include <algorithm>
 #include <functional>
 
 #include <gtest/gtest.h>
 
-namespace greatx::test {
+namespace greatx::sim {
 namespace {
 
 Array picture(const std::function<std::array<int, 3>(int x, int y)>& color) {
@@ -62,4 +62,4 @@ TEST(Flip, TheSameIsZeroAndOrderDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace greatx::test
+}  // namespace greatx::sim

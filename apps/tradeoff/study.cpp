@@ -1,0 +1,410 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tradeoff/study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "apps/console/json_text.h"
+#include "apps/console/progress.h"
+#include "apps/tradeoff/report.h"
+#include "core/error.h"
+#include "core/hash.h"
+#include "io/files/file.h"
+#include "io/formats/png.h"
+#include "sim/tradeoff/front.h"
+
+namespace greatx::apps {
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// Thrown by the progress of a measurement to stop it.
+struct Stopped {};
+
+/// JSON has no infinity: null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json json_of(const std::vector<double>& samples) {
+  const sim::Spread spread = sim::spread_of(samples);
+  return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}, {"count", spread.count}};
+}
+
+Json json_of(const sim::SettingResult& result) {
+  Json json{{"tick_ms", json_of(result.wall_ms)},
+            {"cpu_ms", json_of(result.cpu_ms)},
+            {"start_ms", sim::spread_of(result.start_ms).median},
+            {"exact", result.exact},
+            {"errors", Json::array()}};
+  for (const sim::SensorError& error : result.errors)
+    json["errors"].push_back({{"sensor", error.sensor},
+                              {"name", error.figure.name},
+                              {"unit", error.figure.unit},
+                              {"value", number(error.figure.value)},
+                              {"meaning", error.figure.meaning}});
+  return json;
+}
+
+/// Makes file names of names.
+std::string file_name(std::string name) {
+  for (char& c : name)
+    if (c == ' ' || c == '/' || c == '.') c = '_';
+  return name;
+}
+
+std::string duration(double seconds) {
+  const auto whole = static_cast<int64_t>(seconds + 0.5);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+/// Figures that are relative to a power add up as powers.
+bool relative_db(const std::string& name) { return name == "nmse" || name == "map"; }
+
+constexpr const char* how_measured =
+    "Each knob was measured by itself, with the sensors of its modality alone. A tick was run under every "
+    "setting before the next one, so that all settings meet the same ticks and the same state of the "
+    "machine. "
+    "A tick was run alone: it was submitted, waited for, and collected. Times are medians and quartiles over "
+    "the ticks after the warm-up; files are not written. Errors are those of the records against the records "
+    "of the reference setting at the same ticks.";
+constexpr const char* how_searched =
+    "The search took times and errors of the single knobs as if they added up, joined knob by knob, and kept "
+    "every joint setting that no other one beats. Joint settings spread over that predicted front were then "
+    "measured together, in turns, against all knobs at their references at once.";
+
+}  // namespace
+
+Study::Study(const ScenarioOptions& scenario, const RunOptions& run, const StudyOptions& options,
+             std::filesystem::path folder)
+    : scenario_options_(scenario),
+      options_(options),
+      folder_(std::move(folder)),
+      device_(run.device_options()),
+      whole_(sim::make_experiment(load_scenario(scenario))),
+      started_(std::chrono::steady_clock::now()),
+      begin_(started_) {
+  read();
+}
+
+Json Study::fingerprint() const {
+  const std::string& text = whole_.scenario.text;
+  return {{"greatx", GREATX_VERSION},      {"scenario_sha256", sha256_hex(std::as_bytes(std::span(text)))},
+          {"device", device_.info().name}, {"driver", device_.info().driver},
+          {"quick", options_.quick},       {"blocks", options_.blocks},
+          {"ticks", options_.ticks}};
+}
+
+void Study::read() {
+  const Json own = fingerprint();
+  const std::filesystem::path file = folder_ / "tradeoff.json";
+  if (std::filesystem::exists(file)) {
+    report_ = Json::parse(io::read_text_file(file), nullptr, false);
+    if (!report_.is_object() || !report_.contains("fingerprint") || !report_.contains("knobs"))
+      throw_user_error("{}: expected the results of `greatx tradeoff`; take another folder", file.string());
+    if (report_["fingerprint"] != own)
+      throw_user_error(
+          "{}: these are results of another scenario, device, version or choice of ticks; take another "
+          "folder",
+          file.string());
+    return;
+  }
+  report_ = {{"format", 1},
+             {"scenario", whole_.scenario.name},
+             {"device", device_.info().name},
+             {"driver", device_.info().driver},
+             {"cores", std::thread::hardware_concurrency()},
+             {"greatx", GREATX_VERSION},
+             {"quick", options_.quick},
+             {"fingerprint", own},
+             {"how", how_measured},
+             {"minutes", 0.0},
+             {"knobs", Json::array()},
+             {"absent", Json::array()},
+             {"fronts", Json::array()}};
+  for (const sim::AbsentKnob& absent : sim::absent_knobs())
+    report_["absent"].push_back({{"name", absent.name}, {"why", absent.why}});
+}
+
+/// Adds the time since the last call to that of the study.
+void Study::keep() {
+  const auto now = std::chrono::steady_clock::now();
+  report_["minutes"] =
+      report_["minutes"].get<double>() + std::chrono::duration<double>(now - begin_).count() / 60.0;
+  begin_ = now;
+  io::write_file_atomically(folder_ / "tradeoff.json", json_text(report_));
+}
+
+bool Study::has_knob(sim::Modality modality, const std::string& name) const {
+  return std::ranges::any_of(report_["knobs"], [&](const Json& knob) {
+    return knob["modality"] == sim::name_of(modality) && knob["name"] == name;
+  });
+}
+bool Study::has_front(sim::Modality modality) const {
+  return std::ranges::any_of(report_["fronts"],
+                             [&](const Json& front) { return front["modality"] == sim::name_of(modality); });
+}
+
+std::vector<Study::Part> Study::parts() const {
+  std::vector<Part> parts;
+  for (const sim::Modality modality : sim::all_modalities) {
+    if (!options_.only.empty() && std::ranges::find(options_.only, modality) == options_.only.end()) continue;
+    std::optional<sim::Scenario> scenario = sim::alone(whole_.scenario, modality, scenario_options_.assets);
+    if (!scenario) {
+      if (!options_.only.empty())
+        throw_user_error("{}: --only {}: the scenario has no such sensor", whole_.scenario.name,
+                         sim::name_of(modality));
+      continue;
+    }
+    Part part{modality, sim::make_experiment(std::move(*scenario), whole_), {}};
+    part.knobs = sim::knobs_of(part.experiment, modality, options_.quick);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+sim::MeasurePlan Study::plan_of(const Part& part) const {
+  return sim::plan_blocks(part.experiment.scenario, options_.blocks, options_.ticks);
+}
+
+void Study::say(const std::string& text) const {
+  if (options_.quiet) return;
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  const auto done = static_cast<double>(done_), all = static_cast<double>(all_);
+  std::cerr << fmt::format("[{:3.0f} %, {} min left] {}\n", 100.0 * done / all,
+                           duration(seconds * (all - done) / std::max(1.0, done)), text);
+}
+
+std::vector<sim::SettingResult> Study::measure(const std::vector<sim::Experiment>& settings, size_t reference,
+                                               const Part& part) {
+  std::vector<sim::SettingResult> results =
+      sim::measure_settings(device_, settings, reference, plan_of(part), [](double) {
+        if (interrupted()) throw Stopped();
+      });
+  check_validation(device_);
+  return results;
+}
+
+std::string Study::keep_picture(const sim::SettingResult& result, const Part& part,
+                                const std::string& name) const {
+  for (size_t i = 0; i < result.specs.size(); ++i) {
+    if (result.specs[i].kind != sim::kind_of(part.modality)) continue;
+    const auto record = std::ranges::find(result.last.records, static_cast<uint32_t>(i), &Record::sensor);
+    if (record == result.last.records.end()) return {};
+    const Array picture = picture_of(result.specs[i], *record);
+    if (picture.bytes.empty()) return {};
+    const std::string file = "pictures/" + name + ".png";
+    io::write_file_atomically(folder_ / file, io::encode_png(picture));
+    return file;
+  }
+  return {};
+}
+
+void Study::measure_knob(const Part& part, const sim::Knob& knob) {
+  Json json{{"name", knob.name},
+            {"modality", sim::name_of(part.modality)},
+            {"about", knob.about},
+            {"context", knob.context},
+            {"unit", knob.unit},
+            {"reference", knob.settings[knob.reference].label},
+            {"default", knob.standard ? knob.settings[*knob.standard].label : ""},
+            {"skipped", knob.skipped},
+            {"settings", Json::array()}};
+  const auto begin = std::chrono::steady_clock::now();
+  std::string words = knob.skipped;
+  if (knob.skipped.empty()) try {
+      std::vector<sim::Experiment> settings;
+      for (const sim::Setting& setting : knob.settings) {
+        std::vector<YamlChange> changes = knob.context_changes;
+        changes.insert(changes.end(), setting.changes.begin(), setting.changes.end());
+        settings.push_back(sim::make_experiment(
+            sim::changed(part.experiment.scenario, changes, scenario_options_.assets), whole_));
+      }
+      const std::vector<sim::SettingResult> results = measure(settings, knob.reference, part);
+      const bool differs = std::ranges::any_of(results, [](const auto& result) { return !result.exact; });
+      std::vector<std::string> said;
+      for (size_t i = 0; i < results.size(); ++i) {
+        Json setting = json_of(results[i]);
+        setting["label"] = knob.settings[i].label;
+        setting["value"] = knob.settings[i].value ? Json(*knob.settings[i].value) : Json(nullptr);
+        setting["picture"] =
+            differs
+                ? keep_picture(results[i], part,
+                               file_name(fmt::format("{}-{}-{}", sim::name_of(part.modality), knob.name, i)))
+                : "";
+        said.push_back(
+            fmt::format("{}: {:.1f} ms", knob.settings[i].label, setting["tick_ms"]["median"].get<double>()));
+        if (!results[i].exact && !results[i].errors.empty())
+          said.back() += fmt::format(" {:.3g} {}", results[i].errors.front().figure.value,
+                                     results[i].errors.front().figure.unit);
+        json["settings"].push_back(std::move(setting));
+      }
+      words = fmt::format("{}", fmt::join(said, ", "));
+    } catch (const UserError& error) {
+      json["skipped"] = words = fmt::format("cannot be set here: {}", error.what());
+      json["settings"] = Json::array();
+    }
+  report_["knobs"].push_back(std::move(json));
+  keep();
+  ++done_;
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  say(fmt::format("{} {} ({:.1f} s): {}", sim::name_of(part.modality), knob.name, seconds, words));
+}
+
+bool Study::run() {
+  std::filesystem::create_directories(folder_ / "pictures");
+  const std::vector<Part> all = parts();
+  for (const std::string& name : options_.knobs)
+    if (std::ranges::none_of(all, [&](const Part& part) {
+          return std::ranges::find(part.knobs, name, &sim::Knob::name) != part.knobs.end();
+        })) {
+      std::vector<std::string> names;
+      for (const Part& part : all)
+        for (const sim::Knob& knob : part.knobs) names.push_back(knob.name);
+      throw_user_error("--knob: expected one of {}, found '{}'", fmt::join(names, ", "), name);
+    }
+  const auto wanted = [&](const sim::Knob& knob) {
+    return options_.knobs.empty() || std::ranges::find(options_.knobs, knob.name) != options_.knobs.end();
+  };
+  all_ = 0;
+  for (const Part& part : all) {
+    for (const sim::Knob& knob : part.knobs) all_ += wanted(knob) && !has_knob(part.modality, knob.name);
+    all_ += options_.knobs.empty() && !has_front(part.modality);
+  }
+  try {
+    for (const Part& part : all) {
+      for (const sim::Knob& knob : part.knobs)
+        if (wanted(knob) && !has_knob(part.modality, knob.name)) measure_knob(part, knob);
+      if (options_.knobs.empty() && !has_front(part.modality)) measure_front(part);
+    }
+  } catch (const Stopped&) {
+    return false;
+  }
+  keep();
+  return true;
+}
+
+// ------------------------------------------------------------------------------------------------- the front
+
+namespace {
+
+/// A knob that may take part in joint settings, with the places of its settings in the report.
+struct JointKnob {
+  const sim::Knob* knob;
+  sim::FrontKnob front;
+  size_t standard;
+};
+
+/// Returns the figure to judge by: the first one of the first setting that has any; null: none.
+const Json* first_figure(const Json& knob) {
+  for (const Json& setting : knob["settings"])
+    if (!setting["errors"].empty()) return &setting["errors"].front();
+  return nullptr;
+}
+
+double time_of(const Json& setting) { return setting["tick_ms"]["median"].get<double>(); }
+
+/// Takes a knob's times and errors from the report.
+std::optional<JointKnob> joint_knob(const sim::Knob& knob, const Json& measured, const std::string& figure) {
+  if (!knob.context.empty() || !knob.standard || measured["settings"].size() != knob.settings.size())
+    return {};
+  JointKnob joint{&knob, {}, *knob.standard};
+  const double own = time_of(measured["settings"][*knob.standard]);
+  bool matters = false;
+  for (const Json& setting : measured["settings"]) {
+    sim::FrontSetting point{time_of(setting) - own, 0.0};
+    for (const Json& error : setting["errors"])
+      if (error["name"] == figure && !error["value"].is_null())
+        point.power =
+            std::max(point.power, sim::error_power(error["value"].get<double>(), relative_db(figure)));
+    matters |= !setting["exact"].get<bool>();
+    joint.front.settings.push_back(point);
+  }
+  if (!matters) return {};
+  return joint;
+}
+
+}  // namespace
+
+void Study::measure_front(const Part& part) {
+  const std::string modality(sim::name_of(part.modality));
+  std::vector<JointKnob> joint;
+  std::string figure, unit, sensor;
+  double own_ms = 0.0;
+  for (const Json& measured : report_["knobs"]) {
+    if (measured["modality"] != modality || !measured["skipped"].get<std::string>().empty()) continue;
+    const auto knob = std::ranges::find(part.knobs, measured["name"].get<std::string>(), &sim::Knob::name);
+    if (knob == part.knobs.end()) continue;
+    if (const Json* const first = first_figure(measured); first != nullptr && figure.empty()) {
+      figure = (*first)["name"];
+      unit = (*first)["unit"];
+      sensor = (*first)["sensor"];
+    }
+    std::optional<JointKnob> one = joint_knob(*knob, measured, figure);
+    if (!one) continue;
+    if (own_ms == 0.0) own_ms = time_of(measured["settings"][one->standard]);
+    joint.push_back(std::move(*one));
+  }
+  Json json{{"modality", modality}, {"sensor", sensor},    {"figure", figure},
+            {"unit", unit},         {"how", how_searched}, {"points", Json::array()}};
+  if (!joint.empty()) {
+    std::vector<sim::FrontKnob> knobs;
+    sim::FrontPoint standard{{}, own_ms, 0.0}, finest{{}, own_ms, 0.0};
+    for (const JointKnob& knob : joint) {
+      knobs.push_back(knob.front);
+      const auto take = [&](sim::FrontPoint& point, size_t setting) {
+        point.choice.push_back(setting);
+        point.ms += knob.front.settings[setting].extra_ms;
+        point.power += knob.front.settings[setting].power;
+      };
+      take(standard, knob.standard);
+      take(finest, knob.knob->reference);
+    }
+    std::vector<sim::FrontPoint> points = sim::thinned(sim::front_of(own_ms, knobs), options_.joint);
+    points.push_back(standard);
+    points.push_back(finest);
+    std::vector<sim::Experiment> settings;
+    std::vector<sim::FrontPoint> kept;
+    for (const sim::FrontPoint& point : points) try {
+        std::vector<YamlChange> changes;
+        for (size_t k = 0; k < joint.size(); ++k)
+          for (const YamlChange& change : joint[k].knob->settings[point.choice[k]].changes)
+            changes.push_back(change);
+        settings.push_back(sim::make_experiment(
+            sim::changed(part.experiment.scenario, changes, scenario_options_.assets), whole_));
+        kept.push_back(point);
+      } catch (const UserError&) {  // settings that exclude each other
+        if (&point == &points.back()) throw;
+      }
+    const std::vector<sim::SettingResult> results = measure(settings, settings.size() - 1, part);
+    for (size_t i = 0; i < results.size(); ++i) {
+      Json point{{"settings", Json::object()},
+                 {"predicted_ms", kept[i].ms},
+                 {"predicted_error", number(sim::error_of_power(kept[i].power, relative_db(figure)))},
+                 {"tick_ms", json_of(results[i].wall_ms)},
+                 {"error", nullptr},
+                 {"default", i + 2 == results.size()},
+                 {"reference", i + 1 == results.size()}};
+      for (size_t k = 0; k < joint.size(); ++k)
+        if (kept[i].choice[k] != joint[k].standard)
+          point["settings"][joint[k].knob->name] = joint[k].knob->settings[kept[i].choice[k]].label;
+      double worst = -std::numeric_limits<double>::infinity();
+      for (const sim::SensorError& error : results[i].errors)
+        if (error.figure.name == figure) worst = std::max(worst, error.figure.value);
+      point["error"] = number(worst);
+      json["points"].push_back(std::move(point));
+    }
+  }
+  report_["fronts"].push_back(std::move(json));
+  keep();
+  ++done_;
+  say(fmt::format("{}: {} joint settings", modality, report_["fronts"].back()["points"].size()));
+}
+
+}  // namespace greatx::apps

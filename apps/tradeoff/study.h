@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A study of what accuracy costs: every knob of a scenario by itself, then joint settings. It is kept in
+// DIR/tradeoff.json, knob by knob, so that an interrupted study goes on.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/console/session.h"
+#include "sim/tradeoff/knob.h"
+#include "sim/tradeoff/measure.h"
+
+namespace greatx::apps {
+
+struct StudyOptions {
+  bool quick = false;               ///< fewer ticks, no knobs that cost many times the default
+  std::vector<sim::Modality> only;  ///< empty: all
+  std::vector<std::string> knobs;   ///< by name; empty: all
+  int64_t blocks = 2, ticks = 4;    ///< timed: so many blocks of so many ticks
+  size_t joint = 8;                 ///< joint settings that are measured for each modality
+  bool quiet = false;
+};
+
+class Study {
+ public:
+  /// Reads what an earlier call has left in `folder`. Throws UserError if that is of another scenario, device
+  /// or choice of ticks.
+  Study(const ScenarioOptions& scenario, const RunOptions& run, const StudyOptions& options,
+        std::filesystem::path folder);
+  /// Measures what is missing, and keeps each result at once. Returns false if it was interrupted. Throws
+  /// UserError if `options.knobs` has a name that no modality has.
+  bool run();
+  /// Returns the report, whose fields write_report() describes (apps/tradeoff/report.h).
+  const nlohmann::json& report() const { return report_; }
+
+ private:
+  /// One modality of the scenario.
+  struct Part {
+    sim::Modality modality;
+    sim::Experiment experiment;
+    std::vector<sim::Knob> knobs;
+  };
+  std::vector<Part> parts() const;
+  nlohmann::json fingerprint() const;
+  void read();
+  void keep();
+  bool has_knob(sim::Modality modality, const std::string& name) const;
+  bool has_front(sim::Modality modality) const;
+  sim::MeasurePlan plan_of(const Part& part) const;
+  std::vector<sim::SettingResult> measure(const std::vector<sim::Experiment>& settings, size_t reference,
+                                          const Part& part);
+  void measure_knob(const Part& part, const sim::Knob& knob);
+  void measure_front(const Part& part);
+  std::string keep_picture(const sim::SettingResult& result, const Part& part, const std::string& name) const;
+  void say(const std::string& text) const;
+
+  const ScenarioOptions scenario_options_;
+  const StudyOptions options_;
+  const std::filesystem::path folder_;
+  gpu::Device device_;
+  const sim::Experiment whole_;
+  nlohmann::json report_;
+  size_t done_ = 0, all_ = 1;  ///< steps of this call
+  const std::chrono::steady_clock::time_point started_;
+  std::chrono::steady_clock::time_point begin_;  ///< of what the report's time does not count yet
+};
+
+}  // namespace greatx::apps

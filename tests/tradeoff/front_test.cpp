@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/tradeoff/front.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "sim/tradeoff/measure.h"
+
+namespace greatx::sim {
+namespace {
+
+std::vector<FrontKnob> random_knobs(std::mt19937& random, size_t count) {
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  std::vector<FrontKnob> knobs(count);
+  for (FrontKnob& knob : knobs)
+    for (int s = 0; s < 4; ++s)
+      knob.settings.push_back({uniform(random) - 0.5, std::pow(10.0, -4.0 * uniform(random))});
+  return knobs;
+}
+
+/// All joint settings.
+std::vector<FrontPoint> all_points(double own_ms, const std::vector<FrontKnob>& knobs) {
+  std::vector<FrontPoint> points{{{}, own_ms, 0.0}};
+  for (const FrontKnob& knob : knobs) {
+    std::vector<FrontPoint> next;
+    for (const FrontPoint& point : points)
+      for (size_t s = 0; s < knob.settings.size(); ++s) {
+        next.push_back(point);
+        next.back().choice.push_back(s);
+        next.back().ms += knob.settings[s].extra_ms;
+        next.back().power += knob.settings[s].power;
+      }
+    points = std::move(next);
+  }
+  return points;
+}
+
+TEST(Front, IsThatOfAllJointSettings) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 20; ++round) {
+    const std::vector<FrontKnob> knobs = random_knobs(random, 5);
+    const std::vector<FrontPoint> all = all_points(10.0, knobs), front = front_of(10.0, knobs, 100000);
+    ASSERT_FALSE(front.empty());
+    // Nothing beats a point of the front, and each other setting is beaten or equalled by one of it.
+    for (const FrontPoint& point : all) {
+      bool covered = false;
+      for (const FrontPoint& kept : front) {
+        EXPECT_FALSE(point.ms < kept.ms && point.power < kept.power);
+        covered |= kept.ms <= point.ms && kept.power <= point.power;
+      }
+      EXPECT_TRUE(covered);
+    }
+  }
+}
+
+TEST(Front, ThinnedKeepsBothEndsAndOrder) {
+  std::mt19937 random(5);
+  const std::vector<FrontPoint> front = front_of(10.0, random_knobs(random, 6), 100000);
+  ASSERT_GT(front.size(), 9u);
+  const std::vector<FrontPoint> thin = thinned(front, 8);
+  ASSERT_EQ(thin.size(), 8u);
+  EXPECT_EQ(thin.front().choice, front.front().choice);
+  EXPECT_EQ(thin.back().choice, front.back().choice);
+  for (size_t i = 1; i < thin.size(); ++i) {
+    EXPECT_GT(thin[i].ms, thin[i - 1].ms);
+    EXPECT_LT(thin[i].power, thin[i - 1].power);
+  }
+}
+
+TEST(Front, ErrorsAddAsPowers) {
+  EXPECT_NEAR(error_of_power(error_power(-30.0, true) + error_power(-30.0, true), true), -26.99, 0.01);
+  EXPECT_NEAR(error_of_power(error_power(3.0, false) + error_power(4.0, false), false), 5.0, 1e-12);
+  EXPECT_EQ(error_power(-std::numeric_limits<double>::infinity(), true), 0.0);
+}
+
+TEST(Spread, MedianAndQuartiles) {
+  const Spread spread = spread_of({5.0, 1.0, 2.0, 4.0, 3.0});
+  EXPECT_EQ(spread.median, 3.0);
+  EXPECT_EQ(spread.low, 2.0);
+  EXPECT_EQ(spread.high, 4.0);
+  EXPECT_EQ(spread.count, 5u);
+  EXPECT_EQ(spread_of({}).count, 0u);
+}
+
+}  // namespace
+}  // namespace greatx::sim
