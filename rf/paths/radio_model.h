@@ -4,6 +4,7 @@
 // Describes the scene as radio waves of one carrier see it, with the effects that are on.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "rf/atmosphere/weather.h"
@@ -52,6 +53,7 @@ struct RadioModel {
   RadioSurfaces surfaces;
   FacetKinds kinds;
   std::vector<scene::Wedge> wedges;  ///< empty if diffraction is off
+  std::optional<FiniteReflectors> reflectors;  ///< set if that effect is on
   uint64_t short_wedges = 0;         ///< diffracting edges that are left out as too short (WedgeOptions)
 
   FieldModel field_model() const;
