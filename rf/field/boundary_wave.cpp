@@ -17,8 +17,19 @@ constexpr double far_phase = 16.0;
 /// A piece along which the phase changes by less than this is integrated as it is, wherever it lies: the
 /// difference of two turned paths would lose the digits of a short piece.
 constexpr double short_phase = 12.0;
-/// Largest change of the phase in one panel of the quadrature.
+/// Largest change of the phase from the middle of a panel of the quadrature to its ends.
 constexpr double panel_phase = 4.0;
+
+/// The product without the checks for infinite values that operator* makes.
+Complex times(Complex a, Complex b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+/// The square root with a positive real part, for numbers that are not near the negative real axis.
+Complex root(Complex z) {
+  const double real = std::sqrt(0.5 * (std::sqrt(std::norm(z)) + z.real()));
+  return {real, 0.5 * z.imag() / real};
+}
 
 template <int count>
 struct Rule {
@@ -64,8 +75,8 @@ class Line {
     least_ = (z_s_ * d_r_ + z_r_ * d_s_) / (d_s_ + d_r_);
     triple_ = length_ * std::abs(glm::dot(piece.along, glm::cross(ray.direction, offset)));
     h_ = z_r_ - z_s_;
-    shortest_ = std::hypot(h_, d_s_ + d_r_);
-    root_b_ = std::hypot(h_, d_s_ - d_r_);
+    shortest_ = std::sqrt(h_ * h_ + (d_s_ + d_r_) * (d_s_ + d_r_));
+    root_b_ = std::sqrt(h_ * h_ + (d_s_ - d_r_) * (d_s_ - d_r_));
     least_excess_ = excess(least_);
   }
 
@@ -145,7 +156,8 @@ class Line {
     return std::atan2(across, glm::dot(p, q) - glm::dot(p, ray_.direction) * glm::dot(q, ray_.direction));
   }
 
-  /// Halves [a, b] until the phase changes little in each panel and the ends are not near, and adds the panels.
+  /// Halves [a, b] until the phase changes little in each panel and the ends are not near, and adds the
+  /// panels.
   void add_panels(double a, double b, bool near, int depth, Complex& sum) const {
     static const Rule<10> rule = gauss_legendre<10>();
     const double middle = 0.5 * (a + b);
@@ -153,7 +165,7 @@ class Line {
     const double change =
         k_ * std::max(std::abs(excess(a) - center.excess), std::abs(excess(b) - center.excess));
     const double width = b - a;
-    if (depth < 40 && (change > 0.5 * panel_phase || width * width > center.nearest_squared)) {
+    if (depth < 40 && (change > panel_phase || width * width > center.nearest_squared)) {
       add_panels(a, middle, near, depth + 1, sum);
       add_panels(middle, b, near, depth + 1, sum);
       return;
@@ -189,15 +201,20 @@ class Line {
     const Complex turn(std::sqrt(0.5), -std::sqrt(0.5));
     Complex sum = 0.0;
     for (size_t i = 0; i < rule.node.size(); ++i) {
-      const double x = reach * rule.node[i];
-      const Complex at = zeta + turn * (x / root_k), more = at * at, total = shortest_ + more;
-      const Complex squares = (least_excess_ + more) * (total + length_);
-      const Complex roots = std::sqrt((total + shortest_) * (total + root_b_)) * std::sqrt(above_b + more);
-      const double decay = std::exp(-x * x - linear * x), swing = linear * x;
-      sum += rule.weight[i] * decay * Complex(std::cos(swing), -std::sin(swing)) / (squares * roots);
+      const double x = reach * rule.node[i], side = x * std::sqrt(0.5) / root_k;
+      // (zeta + e^{-j pi/4} x)^2
+      const Complex more(zeta * (zeta + 2.0 * side), -2.0 * side * (zeta + side)), total = shortest_ + more;
+      const Complex roots = root(times(total + shortest_, total + root_b_));
+      const Complex below =
+          times(times(least_excess_ + more, total + length_), times(roots, root(above_b + more)));
+      const double swing = linear * x, decay = std::exp(-x * x - swing);
+      // conj(below) / |below|^2 = 1 / below
+      sum += rule.weight[i] * decay / std::norm(below) *
+             times(Complex(std::cos(swing), -std::sin(swing)), std::conj(below));
     }
     const double phase = k_ * (least_excess_ + zeta * zeta);
-    return 4.0 * length_ * triple_ * reach / root_k * turn * Complex(std::cos(phase), -std::sin(phase)) * sum;
+    return times(4.0 * length_ * triple_ * reach / root_k * turn,
+                 times(Complex(std::cos(phase), -std::sin(phase)), sum));
   }
 
   const UnfoldedRay& ray_;

@@ -33,13 +33,21 @@ double taper(double phase) {
   return x * x * (3.0 - 2.0 * x);
 }
 
-/// Returns the distance by which a reflection point has to move inwards so that it lies on the inner side of an
-/// edge that it is on. Outlines may differ by a weld between the facets that meet in them.
+/// Returns the distance by which a reflection point has to move inwards so that it lies on the inner side of
+/// an edge that it is on. Outlines may differ by a weld between the facets that meet in them.
 double way_in(const dvec3& from_start, const dvec3& along, const dvec3& inward, double length_m) {
   constexpr double inside_m = 1e-7, weld_m = 2e-4;
   const double height = glm::dot(from_start, inward), place = glm::dot(from_start, along);
   if (height >= inside_m || height < -weld_m || place < -weld_m || place > length_m + weld_m) return 0.0;
   return inside_m - height;
+}
+
+/// Tells whether a surface ends, or bends away from where the normal of its facet points.
+bool has_outer_edge(const scene::Scene& scene) {
+  return std::ranges::any_of(scene::find_wedges(scene, edge_options()), [&](const scene::Wedge& wedge) {
+    return wedge.facet_n == scene::no_facet ||
+           glm::dot(scene.facets[wedge.facet_0].normal, wedge.normal_0) > 0.0;
+  });
 }
 
 double area_of(const scene::Scene& scene, const scene::Facet& facet) {
@@ -194,7 +202,8 @@ void FiniteReflectors::add_neighbours(const FacetWorld& world, uint32_t facet, c
   }
 }
 
-/// Returns what the neighbours reflect, in units of the field that an endless wall in place of the facet would.
+/// Returns what the neighbours reflect, in units of the field that an endless wall in place of the facet
+/// would.
 Complex FiniteReflectors::neighbours(const FacetWorld& world, uint32_t facet, const Side& own,
                                      double wave_number, bool edges_diffract) const {
   Neighbours found;
@@ -247,15 +256,11 @@ Complex FiniteReflectors::weight(const FacetWorld& world, uint32_t facet, const 
   return weight;
 }
 
-FiniteReflectorBound finite_reflector_bound(const scene::Scene& scene, double wavelength_m,
-                                            double longest_m) {
+FiniteReflectorBound finite_reflector_bound(const scene::Scene& scene, double wavelength_m, double longest_m,
+                                            bool find_edges) {
   FiniteReflectorBound bound;
   if (scene.facets.empty() || !(longest_m > 0.0)) return bound;
-  bound.edges =
-      std::ranges::any_of(scene::find_wedges(scene, edge_options()), [&](const scene::Wedge& wedge) {
-        return wedge.facet_n == scene::no_facet ||
-               glm::dot(scene.facets[wedge.facet_0].normal, wedge.normal_0) > 0.0;
-      });
+  bound.edges = !find_edges || has_outer_edge(scene);
   double least = 1e300;
   for (uint32_t index = 0; index < scene.facets.size(); ++index) {
     const scene::Material& material = scene.materials[scene.facets[index].material];

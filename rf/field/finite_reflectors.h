@@ -8,9 +8,9 @@
 //   path ─► runs ─► at each reflection: mirrored ends S and R ─► weight(facet, S, R, k) ─► field
 //
 // The weight is Kirchhoff's diffraction integral over the facet in units of the field that an endless wall
-// would reflect: W = 1 - sum of the boundary waves of its edges (rf/field/boundary_wave.h). It tends to 1 for a
-// facet of many zones, to 1/2 with the reflection point on an edge and to 1/4 on a right angle, and to
-// j A cos(theta) D/(lambda d_1 d_2) for a facet of area A much smaller than the first zone.
+// would reflect: W = 1 - sum of the boundary waves of its edges (rf/field/boundary_wave.h). It tends to 1 for
+// a facet of many zones, to 1/2 with the reflection point on an edge and to 1/4 on a right angle, and to j A
+// cos(theta) D/(lambda d_1 d_2) for a facet of area A much smaller than the first zone.
 //
 // Which edges count. Those that scene::find_wedges finds, free edges included. Where a surface goes on in its
 // plane (another facet, another material, a seam of less than 2 degrees), at the foot of a wall, and in inner
@@ -24,11 +24,11 @@
 // a reflection point of its own is left to its own path. Several facets with reflection points share the
 // others equally.
 //
-// Relation with diffraction. A path diffracted at an edge of the facet by UTD carries the same boundary wave of
-// an endless edge. If the diffraction of that edge is counted as a path (edges_diffract), the weight takes only
-// the rest: minus the waves of the edge's line beyond its ends, which UTD lacks, and nothing of neighbours
-// across that edge. The sum of all paths is then that of weighted reflections, as far as UTD's coefficient and
-// Kirchhoff's agree.
+// Relation with diffraction. A path diffracted at an edge of the facet by UTD carries the same boundary wave
+// of an endless edge. If the diffraction of that edge is counted as a path (edges_diffract), the weight takes
+// only the rest: minus the waves of the edge's line beyond its ends, which UTD lacks, and nothing of
+// neighbours across that edge. The sum of all paths is then that of weighted reflections, as far as UTD's
+// coefficient and Kirchhoff's agree.
 //
 // Approximations, with their bounds:
 // - Kirchhoff's obliquity (cos theta_S + cos theta_R)/2 stands for the vector integral, and the reflection
@@ -121,9 +121,11 @@ struct FiniteReflectorBound {
   uint32_t below_a_zone = 0;  ///< those with less area than the first Fresnel zone
 };
 
-/// Bounds the change at normal incidence, halfway on a path of `longest_m`, where zones are largest: a facet of
-/// area A reflects at most A 4/(lambda longest_m) of what an endless wall would. Facets of surfaces that go on
-/// lose less. At oblique incidence A cos(theta) counts instead of A.
-FiniteReflectorBound finite_reflector_bound(const scene::Scene& scene, double wavelength_m, double longest_m);
+/// Bounds the change at normal incidence, halfway on a path of `longest_m`, where zones are largest: a facet
+/// of area A reflects at least about A 4/(lambda longest_m) of what an endless wall would, unless that is
+/// more. Facets of surfaces that go on lose less. At oblique incidence A cos(theta) counts instead of A.
+/// Without `find_edges`, which takes time, every scene with facets counts as one with edges.
+FiniteReflectorBound finite_reflector_bound(const scene::Scene& scene, double wavelength_m, double longest_m,
+                                            bool find_edges = true);
 
 }  // namespace greatx::rf

@@ -60,7 +60,7 @@ struct GeometricPath {
   double length_m = 0.0;       ///< unfolded length, from the images and not as a sum of segments
   double foliage_m = 0.0;      ///< length inside foliage
   double patch_area_m2 = 0.0;  ///< area of the scattering patch; 0 if the path is not scattered
-  /// Bit i: paths of their own count the diffraction at the edges of the facet that interaction i reflects at.
+  /// Bit i: the diffraction at the edges of the facet of interaction i, a reflection, is in other paths.
   uint32_t edges_diffract = 0;
   FacetSequence facets() const { return reflecting_facets(interactions); }
 };

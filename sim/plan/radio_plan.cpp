@@ -303,7 +303,10 @@ void plan_finite_reflectors(EffectPlan& plan, const Radio& radio, const Scenario
                             const scene::Scene& scene, double longest_m) {
   rf::FiniteReflectorBound bound;
   const double lowest_hz = radio.asks.lowest_hz;
-  if (plan.reflection.on) bound = rf::finite_reflector_bound(scene, speed_of_light / lowest_hz, longest_m);
+  const auto wish = scenario.effects.find(plan.finite_reflectors.name);
+  const bool switched = wish != scenario.effects.end() && wish->second != Switch::automatic;
+  if (plan.reflection.on)
+    bound = rf::finite_reflector_bound(scene, speed_of_light / lowest_hz, longest_m, !switched);
   // On an edge a weight is 1/2.
   const double most_db = bound.edges ? std::max(bound.most_db, 20.0 * std::log10(2.0)) : 0.0;
   const bool needed = most_db > scenario.tolerance_db;

@@ -47,8 +47,9 @@ ReflectionSight reflection(double theta, double azimuth, double before_m, double
   return {dvec3(0.0), dvec3(out.x, out.y, -out.z), out, before_m, after_m};
 }
 
-/// Kirchhoff's integral over a rectangle in units of the field of an endless wall, by quadrature over the area
-/// with `cells` cells per wavelength: (1/4 pi) int e^{-jk(r+s)}/(r s) ((jk + 1/r) cos_r + (jk + 1/s) cos_s) dA.
+/// Kirchhoff's integral over a rectangle in units of the field of an endless wall, by quadrature over the
+/// area with `cells` cells per wavelength: (1/4 pi) int e^{-jk(r+s)}/(r s) ((jk + 1/r) cos_r + (jk + 1/s)
+/// cos_s) dA.
 Complex kirchhoff(const Rectangle& plate, const ReflectionSight& sight, double cells) {
   const dvec3 source = -sight.before_m * sight.out, receiver = sight.after_m * sight.out;
   const double whole = sight.before_m + sight.after_m;
@@ -263,8 +264,8 @@ Complex vector_physical_optics(const Rectangle& plate, const ReflectionSight& si
 }
 
 TEST(FiniteReflectors, VectorPhysicalOpticsOfAConductor) {
-  // The currents of a conducting plate, both polarizations. Bound: the angle over which the ends see the plate,
-  // squared and with tan^2(theta), times the part of the plate that matters.
+  // The currents of a conducting plate, both polarizations. Bound: the angle over which the ends see the
+  // plate, squared and with tan^2(theta), times the part of the plate that matters.
   for (const double side : {0.1, 1.0, 5.0, 20.0})
     for (const double degrees : {0.0, 30.0, 60.0})
       for (const bool across : {true, false}) {
@@ -283,8 +284,8 @@ TEST(FiniteReflectors, VectorPhysicalOpticsOfAConductor) {
       }
 }
 
-/// A prism of n sides about the z axis, with conducting walls and without lids, turned by half a side so that a
-/// side faces +x.
+/// A prism of n sides about the z axis, with conducting walls and without lids, turned by half a side so that
+/// a side faces +x.
 void add_prism(HandScene& hand, int sides, double radius, double half_height) {
   for (int i = 0; i < sides; ++i) {
     const double a = 2.0 * pi * (i - 0.5) / sides, b = 2.0 * pi * (i + 0.5) / sides;
@@ -309,9 +310,9 @@ double cylinder_series(double ka, double phi) {
 }
 
 TEST(FiniteReflectors, APolygonOfNarrowFacetsReflectsLikeTheCylinder) {
-  // A source and a receiver at right angles before a tall pole: 2 pi a = 5 to 30 wavelengths. Where a facet has
-  // a reflection point, its weight with the neighbours' share is the reflection by the cylinder: exact series,
-  // and geometrical optics with its divergence, sqrt(a cos(theta)/2).
+  // A source and a receiver at right angles before a tall pole: 2 pi a = 5 to 30 wavelengths. Where a facet
+  // has a reflection point, its weight with the neighbours' share is the reflection by the cylinder: exact
+  // series, and geometrical optics with its divergence, sqrt(a cos(theta)/2).
   const double height = 4000.0, distance = 400.0;
   for (const double radius : {0.8, 2.0, 5.0})
     for (const int sides : {12, 24, 48}) {
