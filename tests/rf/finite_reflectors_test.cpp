@@ -296,6 +296,34 @@ void add_prism(HandScene& hand, int sides, double radius, double half_height) {
   }
 }
 
+TEST(FiniteReflectors, SwappedEndsGiveTheSameWeightOnRoundSurfaces) {
+  RandomStream random(9, 1, 0);
+  for (int i = 0; i < 50; ++i) {
+    const int sides = 6 + static_cast<int>(random.below(40));
+    const double radius = std::exp(random.uniform(-2.0, 3.0)), apothem = radius * std::cos(pi / sides);
+    HandScene hand;
+    hand.material("metal", 1.0, 1e9);
+    add_prism(hand, sides, radius, 30.0);
+    const FiniteReflectors reflectors(hand.scene, FacetKinds(sides, FacetKind::opaque), false);
+    const FacetWorld world(hand.scene);
+    const double azimuth = random.uniform(-1.2, 1.2), height = random.uniform(-0.5, 0.5);
+    const dvec3 out = glm::normalize(dvec3(std::cos(azimuth), std::sin(azimuth), height));
+    const ReflectionSight sight{{apothem, 0, random.uniform(-29.0, 29.0)},
+                                {-out.x, out.y, out.z},
+                                out,
+                                random.uniform(30.0, 900.0),
+                                random.uniform(30.0, 900.0)};
+    const ReflectionSight back{sight.point, -sight.out, -sight.in, sight.after_m, sight.before_m};
+    const Complex there = reflectors.weight(world, 0, sight, wave_number, false);
+    EXPECT_LT(std::abs(there - reflectors.weight(world, 0, back, wave_number, false)), 1e-12) << i;
+    // On the inner side of the walls nothing bends away, and the neighbours are seen from inside, too.
+    ReflectionSight inside = sight;
+    inside.in.x = -sight.in.x, inside.out.x = -sight.out.x;
+    inside.before_m = inside.after_m = 0.3 * radius;
+    EXPECT_TRUE(std::isfinite(std::abs(reflectors.weight(world, 0, inside, wave_number, false))));
+  }
+}
+
 /// |f| of the far field f e^{-jk rho}/sqrt(rho) that a conducting circular cylinder sends at the angle `phi`
 /// from where a plane wave comes (R. F. Harrington, "Time-Harmonic Electromagnetic Fields", 5-9, E along the
 /// axis).
