@@ -232,6 +232,7 @@ std::vector<Path> PathSolver::finish(std::span<const GeometricPath> paths,
     first += count;
     if (!clear || full.interactions.size() > limits_.max_depth) continue;
     if (full.interactions.size() - path.interactions.size() > limits_.max_transmissions) continue;
+    if (model_->edge_gaps.passes_one(world, path, transmitter.body, receiver.body)) continue;
     full.edges_diffract = edges_diffract(full);
     lit.push_back(std::move(full));
   }

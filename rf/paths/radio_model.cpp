@@ -84,7 +84,8 @@ RadioModel::RadioModel(const scene::Scene& radio_scene, double carrier_hz, const
       effects(which),
       facets(radio_scene),
       surfaces(radio_scene, carrier_hz),
-      kinds(facet_kinds(radio_scene, which)) {
+      kinds(facet_kinds(radio_scene, which)),
+      edge_gaps(radio_scene, kinds) {
   if (effects.field.foliage) check_foliage(radio_scene, carrier_hz);
   if (effects.field.finite_reflectors) reflectors.emplace(radio_scene, kinds, effects.free_edges);
   if (!effects.diffraction) return;
