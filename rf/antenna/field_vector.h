@@ -15,6 +15,11 @@ struct FieldVector {
     re += amplitude.real() * axis;
     im += amplitude.imag() * axis;
   }
+  void scale(Complex by) {
+    const dvec3 real = by.real() * re - by.imag() * im;
+    im = by.real() * im + by.imag() * re;
+    re = real;
+  }
 };
 
 }  // namespace greatx::rf

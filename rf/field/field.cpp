@@ -107,13 +107,15 @@ class Travelling {
     for (FieldVector& field : columns_) field = model_.attenuation.after(field, direction, length_m);
   }
 
-  void reflect(const PosedFacet& facet, const dvec3& in, const dvec3& out) {
+  void reflect(const PosedFacet& facet, const dvec3& in, const dvec3& out, Complex weight) {
     const double towards = glm::dot(in, facet.normal), cosine = std::min(1.0, std::abs(towards));
     const FresnelCoefficients fresnel = model_.surfaces->reflect(facet.material, towards < 0.0, cosine);
     const double kept = specular_share(facet.material, cosine);
     const dvec3 s = across(in, facet.normal);
     map(s, glm::cross(in, s), s, glm::cross(out, s),
         {kept * fresnel.r_te, Complex(0.0), Complex(0.0), kept * fresnel.r_tm});
+    if (weight == 1.0) return;
+    for (FieldVector& column : columns_) column.scale(weight);
   }
 
   void transmit(const PosedFacet& facet, const dvec3& direction) {
@@ -184,30 +186,47 @@ const scene::Wedge& wedge_of(const FieldModel& model, const Interaction& interac
   return model.wedges[interaction.element];
 }
 
+/// Returns the weight of the reflection at interaction `i`, between the runs `in` and `out`. The reflection's
+/// part of the path, between bends and ends, is `part_m` long and has `before_m` before the reflection.
+Complex reflection_weight(const GeometricPath& path, const FieldModel& model, size_t i, const dvec3& in,
+                          const dvec3& out, double before_m, double part_m) {
+  if (model.reflectors == nullptr) return 1.0;
+  const ReflectionSight sight{path.vertices[i + 1], in, out, before_m, part_m - before_m};
+  return model.reflectors->weight(*model.world, path.interactions[i].element, sight,
+                                  2.0 * pi / model.surfaces->wavelength_m(), path.edges_diffract >> i & 1u);
+}
+
 /// Sets `transfer` to the images of the two unit fields at the transmitter, including the spreading.
 void set_transfer(const GeometricPath& path, const FieldModel& model, const Runs& runs,
                   Complex (&transfer)[4]) {
   const FacetWorld& world = *model.world;
   Travelling field(model, runs.directions.front());
   size_t run = 0;
+  double before_m = 0.0;  // since the transmitter or the bend
   for (size_t i = 0; i <= path.interactions.size(); ++i) {
     const dvec3& in = runs.directions[run];
-    field.through_air(in, glm::length(path.vertices[i + 1] - path.vertices[i]));
+    const double segment_m = glm::length(path.vertices[i + 1] - path.vertices[i]);
+    const double part_m = run < runs.bend ? runs.before_m : runs.after_m;
+    before_m += segment_m;
+    field.through_air(in, segment_m);
     if (i == path.interactions.size()) break;
     const Interaction& interaction = path.interactions[i];
     const dvec3& out = interaction.type == InteractionType::transmission ? in : runs.directions[++run];
     switch (interaction.type) {
       case InteractionType::reflection:
-        field.reflect(world.facet(interaction.element), in, out);
+        field.reflect(world.facet(interaction.element), in, out,
+                      reflection_weight(path, model, i, in, out, before_m, part_m));
         break;
       case InteractionType::transmission:
         field.transmit(world.facet(interaction.element), in);
         break;
       case InteractionType::scattering:
         field.scatter(world.facet(interaction.element), interaction, path.patch_area_m2, in, out);
+        before_m = 0.0;
         break;
       case InteractionType::diffraction:
         field.diffract(posed(wedge_of(model, interaction), world), in, out, runs.before_m, runs.after_m);
+        before_m = 0.0;
         break;
       case InteractionType::none:
         GREATX_CHECK(false, "interaction {} is none", i);
@@ -257,6 +276,7 @@ Path path_field(const GeometricPath& geometry, const FieldModel& model, const dv
   path.length_m = geometry.length_m;
   path.foliage_m = geometry.foliage_m;
   path.patch_area_m2 = geometry.patch_area_m2;
+  path.edges_diffract = geometry.edges_diffract;
   path.delay_s = geometry.length_m / speed_of_light;
   path.doppler_hz = closing_rate(geometry, model, runs, transmitter_velocity, receiver_velocity) /
                     model.surfaces->wavelength_m();

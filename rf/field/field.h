@@ -10,6 +10,7 @@
 
 #include "rf/atmosphere/path_attenuation.h"
 #include "rf/facets/facet_world.h"
+#include "rf/field/finite_reflectors.h"
 #include "rf/geometry/path.h"
 #include "rf/surface/roughness.h"
 #include "rf/surface/surfaces.h"
@@ -23,6 +24,8 @@ struct FieldEffects {
   bool roughness = false;   ///< multiplies the specular part by the factor of the material's rms height
   bool scattering = false;  ///< multiplies the specular part by sqrt(1 - S^2); the rest is scattered
   bool gas = false, rain = false, fog = false, foliage = false;
+  /// Weighs each reflection by what its surface covers of the Fresnel zones (FieldModel::reflectors).
+  bool finite_reflectors = false;
   uint64_t seed = 1;  ///< seed of the phases of scattering patches
   RoughnessModel roughness_model = RoughnessModel::ament;
 };
@@ -36,6 +39,7 @@ struct FieldModel {
   PathAttenuation attenuation;           ///< of the air at the surfaces' carrier, for the effects that are on
   /// The foliage of GeometricPath::foliage_m. It must have a value if effects.foliage is on.
   std::optional<scene::Foliage> foliage;
+  const FiniteReflectors* reflectors = nullptr;  ///< set if and only if effects.finite_reflectors is on
 };
 
 /// Computes the field along one path with any number of reflections and transmissions and at most one
@@ -50,7 +54,9 @@ struct FieldModel {
 /// - Reflection. s = k x n / |k x n|, and p = k x s before and after. E' = rho sqrt(1 - S^2) (r_TE (s . E) s
 ///   + r_TM (p_in . E) p_out), with rho of the roughness and S of the scattering only if that effect is on.
 ///   If both are on, both factors apply, and the power that neither returns is absorbed. At normal incidence
-///   any s gives the same field.
+///   any s gives the same field. With finite reflectors, FiniteReflectors::weight multiplies E'. Its ends are
+///   those of the path, or the diffraction or scattering between: a patch sends a wave of its own, and of the
+///   wave behind an edge this holds across the edge.
 /// - Transmission. E' = t_TE (s . E) s + t_TM (p . E) p of the whole wall as a sheet
 ///   (RadioSurfaces::transmit), with the direction unchanged. Neither rho nor S applies: both are defined for
 ///   the reflected power, of which a patch scatters the share S^2. A surface height h delays a transmitted

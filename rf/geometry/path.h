@@ -60,6 +60,8 @@ struct GeometricPath {
   double length_m = 0.0;       ///< unfolded length, from the images and not as a sum of segments
   double foliage_m = 0.0;      ///< length inside foliage
   double patch_area_m2 = 0.0;  ///< area of the scattering patch; 0 if the path is not scattered
+  /// Bit i: the diffraction at the edges of the facet of interaction i, a reflection, is in other paths.
+  uint32_t edges_diffract = 0;
   FacetSequence facets() const { return reflecting_facets(interactions); }
 };
 
@@ -70,6 +72,7 @@ struct Path {
   double length_m = 0.0;
   double foliage_m = 0.0;
   double patch_area_m2 = 0.0;  ///< as in GeometricPath
+  uint32_t edges_diffract = 0;  ///< as in GeometricPath
   double delay_s = 0.0;        ///< length / c
   /// nu = (1/lambda)(v_tx . k_0 - v_rx . k_n + sum v_i . (k_i - k_{i-1})); approaching ends give nu > 0.
   double doppler_hz = 0.0;

@@ -173,6 +173,24 @@ uint32_t PathSolver::walls_allowed(const GeometricPath& path) const {
   return std::min({left, limits_.max_transmissions, shared::crossings_max});
 }
 
+/// Returns GeometricPath::edges_diffract. The diffraction at an edge of a reflecting facet takes the place of
+/// the reflection in the sequence. It is found if the reflections between it and the target are not too many,
+/// and if the path has no other bend.
+uint32_t PathSolver::edges_diffract(const GeometricPath& path) const {
+  if (!field_.reflectors || !model_->effects.diffraction || !model_->effects.diffraction_lit_region) return 0;
+  if (bend_of(path)) return 0;
+  const auto reflections = static_cast<uint32_t>(path.facets().size());
+  const bool from_transmitter = !tree_ || tree_->end() == Source::transmitter;
+  uint32_t bits = 0, reflection = 0;
+  for (size_t i = 0; i < path.interactions.size(); ++i) {
+    if (path.interactions[i].type != InteractionType::reflection) continue;
+    const uint32_t after = from_transmitter ? reflections - 1 - reflection : reflection;
+    if (after <= limits_.max_reflections_after) bits |= 1u << i;
+    ++reflection;
+  }
+  return bits;
+}
+
 void PathSolver::add_segments(std::span<const GeometricPath> paths, const EndState& transmitter,
                               const EndState& receiver, std::vector<Segment>& segments) const {
   const auto body_or_none = [](uint32_t body) { return body == 0 ? shared::rf_none : body; };
@@ -214,6 +232,8 @@ std::vector<Path> PathSolver::finish(std::span<const GeometricPath> paths,
     first += count;
     if (!clear || full.interactions.size() > limits_.max_depth) continue;
     if (full.interactions.size() - path.interactions.size() > limits_.max_transmissions) continue;
+    if (model_->edge_gaps.passes_one(world, path, transmitter.body, receiver.body)) continue;
+    full.edges_diffract = edges_diffract(full);
     lit.push_back(std::move(full));
   }
   GREATX_CHECK(first == crossings.size(), "{} segments, {} answers", first, crossings.size());

@@ -71,6 +71,7 @@ class PathSolver {
 
  private:
   uint32_t walls_allowed(const GeometricPath& path) const;
+  uint32_t edges_diffract(const GeometricPath& path) const;
 
   const RadioModel* model_;
   PathLimits limits_;

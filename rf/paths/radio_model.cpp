@@ -84,8 +84,10 @@ RadioModel::RadioModel(const scene::Scene& radio_scene, double carrier_hz, const
       effects(which),
       facets(radio_scene),
       surfaces(radio_scene, carrier_hz),
-      kinds(facet_kinds(radio_scene, which)) {
+      kinds(facet_kinds(radio_scene, which)),
+      edge_gaps(radio_scene, kinds) {
   if (effects.field.foliage) check_foliage(radio_scene, carrier_hz);
+  if (effects.field.finite_reflectors) reflectors.emplace(radio_scene, kinds, effects.free_edges);
   if (!effects.diffraction) return;
   const scene::WedgeOptions options{.free_edges = effects.free_edges};
   wedges = wedges_of(radio_scene, kinds, options, short_wedges);
@@ -109,6 +111,7 @@ FieldModel RadioModel::field_model() const {
   if (weather.gas || weather.rain || weather.fog)
     model.attenuation = path_attenuation(effects.weather, hz, weather);
   if (field.foliage) model.foliage = foliage_of(*scene, kinds);
+  if (reflectors) model.reflectors = &*reflectors;
   return model;
 }
 

@@ -4,12 +4,14 @@
 // Describes the scene as radio waves of one carrier see it, with the effects that are on.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "rf/atmosphere/weather.h"
 #include "rf/facets/facet_kind.h"
 #include "rf/facets/facet_world.h"
 #include "rf/field/field.h"
+#include "rf/paths/edge_gaps.h"
 #include "rf/surface/surfaces.h"
 #include "scene/description/wedges.h"
 
@@ -51,8 +53,10 @@ struct RadioModel {
   FacetWorld facets;
   RadioSurfaces surfaces;
   FacetKinds kinds;
-  std::vector<scene::Wedge> wedges;  ///< empty if diffraction is off
-  uint64_t short_wedges = 0;         ///< diffracting edges that are left out as too short (WedgeOptions)
+  EdgeGaps edge_gaps;
+  std::vector<scene::Wedge> wedges;            ///< empty if diffraction is off
+  std::optional<FiniteReflectors> reflectors;  ///< set if that effect is on
+  uint64_t short_wedges = 0;  ///< diffracting edges that are left out as too short (WedgeOptions)
 
   FieldModel field_model() const;
 };

@@ -19,9 +19,9 @@ std::vector<std::pair<std::string, std::string>> channel_notes(const Experiment&
       of.transmitter.rests,
       std::all_of(of.receivers.begin(), of.receivers.end(), [](const ChannelEnd& end) { return end.rests; }),
       of.transmitter.body};
-  // The notes do not depend on edges, and finding edges takes a while.
+  // The notes do not depend on edges, and finding edges takes a while, for either effect.
   rf::RadioEffects effects = radio_effects(experiment);
-  effects.diffraction = false;
+  effects.diffraction = effects.field.finite_reflectors = false;
   const rf::RadioModel model(experiment.scene(), config.carrier_hz, effects);
   auto notes = ChannelSearch(nullptr, model, experiment.plan, config, ends).notes();
   notes.emplace_back(

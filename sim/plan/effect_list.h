@@ -80,6 +80,7 @@
   X(free_edges, true, radio, "edges that belong to only one facet diffract, too") \
   X(scattering, true, radio, "diffuse scattering by materials with a scattering coefficient") \
   X(roughness, true, field, "roughness of materials weakens reflections") \
+  X(finite_reflectors, true, field, "reflections count what their surfaces cover of the Fresnel zones") \
   X(gas, true, field, "attenuation by oxygen and water vapour") \
   X(rain, true, field, "attenuation by rain") \
   X(fog, true, field, "attenuation by fog") \

@@ -13,6 +13,7 @@
 #include "rf/atmosphere/fog.h"
 #include "rf/atmosphere/gas.h"
 #include "rf/atmosphere/rain.h"
+#include "rf/field/finite_reflectors.h"
 #include "rf/paths/radio_model.h"
 #include "rf/surface/roughness.h"
 #include "sim/plan/antennas.h"
@@ -296,6 +297,37 @@ void plan_attenuation(EffectPlan& plan, const Radio& radio, const Scenario& scen
                                          rough_db, asks.max_depth, tolerance));
 }
 
+/// Decides the weights of reflections, for the lowest carrier and the longest path, where Fresnel zones are
+/// largest.
+void plan_finite_reflectors(EffectPlan& plan, const Radio& radio, const Scenario& scenario,
+                            const scene::Scene& scene, double longest_m) {
+  rf::FiniteReflectorBound bound;
+  const double lowest_hz = radio.asks.lowest_hz;
+  const auto wish = scenario.effects.find(plan.finite_reflectors.name);
+  const bool switched = wish != scenario.effects.end() && wish->second != Switch::automatic;
+  if (plan.reflection.on)
+    bound = rf::finite_reflector_bound(scene, speed_of_light / lowest_hz, longest_m, !switched);
+  // On an edge a weight is 1/2.
+  const double most_db = bound.edges ? std::max(bound.most_db, 20.0 * std::log10(2.0)) : 0.0;
+  const bool needed = most_db > scenario.tolerance_db;
+  radio.planner.decide(
+      plan.finite_reflectors, needed,
+      radio.why(!plan.reflection.on ? "no reflection"
+                : !bound.edges      ? "no reflecting surface ends or bends outwards"
+                : needed            ? "more than the tolerance"
+                                    : "within the tolerance"),
+      !bound.edges
+          ? ""
+          : fmt::format("at most {:.3g} dB, in the middle of a facet of {:.2g} m^2 of '{}', {:.0f} m "
+                        "and {:.4g} GHz; 6.02 dB on an edge; {} of {} facets are smaller than a "
+                        "Fresnel zone can be; tolerance {:.3g} dB",
+                        most_db, bound.area_m2,
+                        scene.instances.empty() ? scene.name
+                                                : scene.instances[scene.facets[bound.facet].instance].name,
+                        longest_m, lowest_hz * 1e-9, bound.below_a_zone, bound.facets,
+                        scenario.tolerance_db));
+}
+
 /// Decides the Doppler effect. Speeds are not known before the run, so the bound is given per m/s.
 void plan_doppler(EffectPlan& plan, const Radio& radio) {
   const bool doppler = radio.on() && radio.asks.time_samples > 1;
@@ -328,8 +360,9 @@ void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenar
   plan_reflection(plan, radio);
   plan_transmission(plan, radio);
   plan_on_request(plan, radio);
-  plan_attenuation(plan, radio, scenario,
-                   longest_path_m(scenario, scene, asks.max_depth, plan.moving_reflectors.on, points));
+  const double longest_m = longest_path_m(scenario, scene, asks.max_depth, plan.moving_reflectors.on, points);
+  plan_attenuation(plan, radio, scenario, longest_m);
+  plan_finite_reflectors(plan, radio, scenario, scene, longest_m);
   plan_doppler(plan, radio);
   plan_arrays(plan, planner, scenario);
 }

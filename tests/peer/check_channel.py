@@ -112,7 +112,8 @@ def check_transfer(channel, p, i, points, normals, worst, where):
     """Checks the transfer matrix of a path of reflections and transmissions if the data set says enough. It
     does not for rough or scattering walls, whose losses it lacks, nor for a wall that reflects no path of the
     data set. Gas, fog and leaves attenuate all polarizations alike. With one of them a factor is fitted,
-    which must not exceed 1."""
+    which must not exceed 1. The weights of finite reflectors multiply all polarizations by one complex
+    number, which is fitted, too."""
     types = types_of(p, i)
     effects = channel.effects
     if not np.isin(types, (model.REFLECTION, model.TRANSMISSION)).all() or effects["rain"]:
@@ -128,7 +129,9 @@ def check_transfer(channel, p, i, points, normals, worst, where):
     ours = model.transfer(points, types, walls, own, C / channel.meta["carrier_hz"])
     stored = p["transfer"][i].astype(complex)
     scale = 1.0
-    if effects["gas"] or effects["fog"] or effects["foliage"]:
+    if (types == model.REFLECTION).any() and effects.get("finite_reflectors"):
+        scale = np.vdot(ours, stored) / np.vdot(ours, ours).real
+    elif effects["gas"] or effects["fog"] or effects["foliage"]:
         scale = abs(np.vdot(ours, stored)) / np.vdot(ours, ours).real
         worst.add("strength beside that in vacuum, above 1", max(0.0, scale - 1), 1e-6, where)
     through = int((types == model.TRANSMISSION).sum())

@@ -22,7 +22,7 @@ nodes:
 {receivers}channels:
   - {{name: csi, tx: tx/antenna, rx: [{names}], rate_hz: 10, carrier_hz: {carrier}, bandwidth_hz: 100e6,
      subcarriers: 256, max_depth: {depth}, max_transmissions: {walls}, max_paths: 16384}}
-effects: {{gas: off, diffraction: {diffraction}{more}}}
+effects: {{gas: off, finite_reflectors: off, diffraction: {diffraction}{more}}}
 """
 RECEIVER = """  - name: rx{i}
     trajectory: {{type: static, position_m: [{p}]}}

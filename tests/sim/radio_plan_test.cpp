@@ -68,9 +68,10 @@ TEST(RadioPlan, WithoutAChannelThereIsNone) {
   std::string yaml = planned_scenario();
   yaml.resize(yaml.find("channels:"));
   const EffectPlan none = plan(yaml, planned_street());
-  for (const Effect* effect : {&none.channel, &none.line_of_sight, &none.reflection, &none.transmission,
-                               &none.diffraction, &none.scattering, &none.roughness, &none.gas, &none.rain,
-                               &none.fog, &none.foliage, &none.dispersion, &none.doppler})
+  for (const Effect* effect :
+       {&none.channel, &none.line_of_sight, &none.reflection, &none.transmission, &none.diffraction,
+        &none.scattering, &none.roughness, &none.gas, &none.rain, &none.fog, &none.foliage, &none.dispersion,
+        &none.doppler, &none.finite_reflectors})
     expect(*effect, false, "no channel");
 }
 
@@ -169,6 +170,48 @@ TEST(RadioPlan, RoughnessComesWithHeightsThatMatterOverAllReflections) {
   once.replace(once.find("max_depth: 2"), 12, "max_depth: 1");
   EXPECT_FALSE(plan(once, rough(3e-4)).roughness.on);
   EXPECT_TRUE(plan(planned_scenario(), rough(3e-4)).roughness.on);
+}
+
+TEST(RadioPlan, FiniteReflectorsComeWithEdges) {
+  const auto decided = [](const std::string& more, const scene::Scene& scene) {
+    return plan(planned_scenario("", more), scene).finite_reflectors;
+  };
+  expect(decided("", planned_street()), true, "more than the tolerance", "at most 6.02 dB");
+  expect(decided("tolerance_db: 7\n", planned_street()), false, "within the tolerance", "at most 6.02 dB");
+  expect(decided(switches("finite_reflectors: off"), planned_street()), false, "switched off (");
+  expect(decided(switches("reflection: off"), planned_street()), false, "no reflection");
+  // A sign of 0.1 m^2 covers 4 A/(lambda L) of what an endless wall reflects on the longest path, L.
+  TinyScene tiny;
+  const uint32_t metal = tiny.material_as(radio_material("metal"));
+  tiny.object("sign", 0, metal).quad({-30, 9, 2}, {-29.5, 9, 2}, {-29.5, 9, 2.2}, {-30, 9, 2.2});
+  const Effect sign = decided("", tiny.build());
+  expect(sign, true, "more than the tolerance", "of 'sign'");
+  EXPECT_THAT(sign.bound, HasSubstr("1 of 1 facets are smaller than a Fresnel zone can be"));
+  // From inside, a closed room ends nowhere.
+  TinyScene room;
+  const uint32_t wall = room.material_as(radio_material("concrete"));
+  const dvec3 a(-20, -5, 0), x(40, 0, 0), y(0, 10, 0), z(0, 0, 10);
+  TinyScene& walls = room.object("room", 0, wall);
+  walls.quad(a, a + y, a + y + z, a + z).quad(a + x, a + x + z, a + x + y + z, a + x + y);
+  walls.quad(a, a + z, a + x + z, a + x).quad(a + y, a + x + y, a + x + y + z, a + y + z);
+  walls.quad(a, a + x, a + x + y, a + y).quad(a + z, a + y + z, a + x + y + z, a + x + z);
+  expect(decided("", room.build()), false, "no reflecting surface ends or bends outwards");
+}
+
+TEST(RadioPlan, FiniteReflectorsWeighTheReflectionsOfRuns) {
+  // The fence is 1 m high: its reflections change, and nothing else does. Switched off, the run has the bytes
+  // that an endless wall gives.
+  const scene::Scene scene = planned_street();
+  const RadioRun on = run(planned_scenario(), scene);
+  const RadioRun off = run(planned_scenario("", switches("finite_reflectors: off")), scene);
+  const auto lit = off.values<int32_t>(0, "path_count")[0];
+  ASSERT_EQ(on.values<int32_t>(0, "path_count")[0], lit);
+  const auto before = off.values<std::complex<float>>(0, "amplitude"),
+             after = on.values<std::complex<float>>(0, "amplitude");
+  size_t changed = 0;
+  for (size_t i = 0; i < before.size(); ++i) changed += before[i] != after[i];
+  EXPECT_EQ(before[0], after[0]) << "the line of sight";
+  EXPECT_GT(changed, 0u);
 }
 
 TEST(RadioPlan, FoliageComesWithCrowns) {

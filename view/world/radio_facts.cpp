@@ -45,6 +45,52 @@ std::optional<double> loss_of(const PathStop& stop, const rf::RadioModel& model,
   return {};
 }
 
+/// Tells whether paths of their own may hold the diffraction at the facet of a reflection (as PathSolver).
+/// Empty if that depends on the side from which the channel was searched.
+std::optional<bool> edges_diffract(const PathStory& story, const rf::RadioModel& model) {
+  if (!model.effects.diffraction || !model.effects.diffraction_lit_region) return false;
+  const auto is = [](rf::InteractionType type) {
+    return [type](const PathStop& s) { return s.type == type; };
+  };
+  if (!std::ranges::all_of(story.stops, [&](const PathStop& stop) {
+        return stop.type == rf::InteractionType::reflection || stop.type == rf::InteractionType::transmission;
+      }))
+    return false;
+  if (std::ranges::count_if(story.stops, is(rf::InteractionType::reflection)) == 1) return true;
+  return {};
+}
+
+/// The loss because the facet of a reflection covers a part of the Fresnel zones alone, dB; may be negative.
+std::optional<double> size_loss_db(const PathStory& story, size_t at, const RadioFacts& facts,
+                                   const rf::FacetWorld& world) {
+  const rf::RadioModel& model = facts.model();
+  if (!model.reflectors) return 0.0;
+  const std::optional<bool> diffract = edges_diffract(story, model);
+  if (!diffract) return {};
+  const auto bends = [&](size_t stop) {
+    return story.stops[stop].type == rf::InteractionType::diffraction ||
+           story.stops[stop].type == rf::InteractionType::scattering;
+  };
+  const auto point = [&](size_t i) {  // 0: start, i: stop i - 1
+    return i == 0 ? story.start : i <= story.stops.size() ? story.stops[i - 1].at : story.end;
+  };
+  rf::ReflectionSight sight;
+  for (size_t i = at + 1; i > 0; --i) {
+    sight.before_m += glm::distance(point(i - 1), point(i));
+    if (i > 1 && bends(i - 2)) break;
+  }
+  for (size_t i = at + 1; i <= story.stops.size(); ++i) {
+    sight.after_m += glm::distance(point(i), point(i + 1));
+    if (i < story.stops.size() && bends(i)) break;
+  }
+  const dvec3 normal = world.facet(*story.stops[at].facet).normal;
+  sight.point = facts.scene().to_local(point(at + 1));
+  sight.out = glm::normalize(point(at + 2) - point(at + 1));
+  sight.in = sight.out - 2.0 * glm::dot(sight.out, normal) * normal;
+  return -decibels(std::norm(model.reflectors->weight(world, *story.stops[at].facet, sight,
+                                                      2.0 * pi / model.surfaces.wavelength_m(), *diffract)));
+}
+
 void explain_surface(PathStop& stop, const dvec3& direction, const RadioFacts& facts,
                      std::span<const Pose> bodies) {
   const scene::Facet& facet = facts.scene().facets[*stop.facet];
@@ -109,8 +155,12 @@ const char* name_of(rf::FacetKind kind) {
 void explain(PathStory& story, const RadioFacts& facts, std::span<const Pose> bodies) {
   const scene::Scene& scene = facts.scene();
   const std::vector<scene::Wedge>& wedges = facts.model().wedges;
+  rf::FacetWorld world = facts.model().facets;
+  for (uint32_t body = 1; body < std::min(bodies.size(), scene.bodies.size()); ++body)
+    world.move(body, {.pose = bodies[body]});
   dvec3 before = story.start;
-  for (PathStop& stop : story.stops) {
+  for (size_t at = 0; at < story.stops.size(); ++at) {
+    PathStop& stop = story.stops[at];
     const dvec3 way = stop.at - before;
     const double length = glm::length(way);
     before = stop.at;
@@ -121,6 +171,11 @@ void explain(PathStory& story, const RadioFacts& facts, std::span<const Pose> bo
     } else if (stop.facet && *stop.facet < scene.facets.size() &&
                scene.facets[*stop.facet].body < bodies.size()) {
       explain_surface(stop, way / length, facts, bodies);
+      if (stop.type != rf::InteractionType::reflection || !stop.loss_db) continue;
+      const std::optional<double> by_size = size_loss_db(story, at, facts, world);
+      if (by_size && facts.model().reflectors)
+        stop.more += fmt::format(", {:.1f} dB of its loss by its size", *by_size);
+      stop.loss_db = by_size ? std::optional(*stop.loss_db + *by_size) : std::nullopt;
     }
   }
 }

@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/field/finite_reflectors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/units.h"
+#include "scene/description/wedges.h"
+
+namespace greatx::rf {
+namespace {
+
+/// Facets are taken as pieces of one surface up to this many around a reflection; more are left out.
+constexpr size_t most_neighbours = 256;
+
+/// Seams of less than 0.2 degrees are no edges. Those up to 2 degrees are edges here but do not diffract.
+scene::WedgeOptions edge_options() {
+  scene::WedgeOptions options;
+  options.free_edges = true;
+  options.flat_angle_rad = 0.0035;
+  options.min_length_m = 2e-4;
+  return options;
+}
+
+bool hard(FacetKind kind) { return kind == FacetKind::opaque || kind == FacetKind::wall; }
+
+/// Returns 1 below full_phase, 0 above no_phase, and a smooth step between.
+double taper(double phase) {
+  const double range = FiniteReflectors::no_phase - FiniteReflectors::full_phase;
+  const double x = std::clamp((FiniteReflectors::no_phase - phase) / range, 0.0, 1.0);
+  return x * x * (3.0 - 2.0 * x);
+}
+
+/// Returns the distance by which a reflection point has to move inwards so that it lies on the inner side of
+/// an edge that it is on. Outlines may differ by a weld between the facets that meet in them.
+double way_in(const dvec3& from_start, const dvec3& along, const dvec3& inward, double length_m) {
+  constexpr double inside_m = 1e-7, weld_m = 2e-4;
+  const double height = glm::dot(from_start, inward), place = glm::dot(from_start, along);
+  if (height >= inside_m || height < -weld_m || place < -weld_m || place > length_m + weld_m) return 0.0;
+  return inside_m - height;
+}
+
+/// Tells whether a surface ends, or bends away from where the normal of its facet points.
+bool has_outer_edge(const scene::Scene& scene) {
+  return std::ranges::any_of(scene::find_wedges(scene, edge_options()), [&](const scene::Wedge& wedge) {
+    return wedge.facet_n == scene::no_facet ||
+           glm::dot(scene.facets[wedge.facet_0].normal, wedge.normal_0) > 0.0;
+  });
+}
+
+double area_of(const scene::Scene& scene, const scene::Facet& facet) {
+  double area = 0.0;
+  for (uint32_t t = facet.first_triangle; t < facet.first_triangle + facet.triangle_count; ++t) {
+    const dvec3* corners = scene.facet_triangles[t].corners;
+    area += 0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  }
+  return area;
+}
+
+}  // namespace
+
+/// The ends of a reflection as one facet mirrors them.
+struct FiniteReflectors::Side {
+  dvec3 near_end{0.0}, far_end{0.0};  ///< as the facet sees them, on one side of it
+  dvec3 point{0.0};                   ///< where the ray meets the facet's plane
+  UnfoldedRay ray;                    ///< from the mirrored near end to the far end
+  bool lit = false;                   ///< both ends are on the same side
+  double front = 1.0;                 ///< +1: on the side of the facet's normal
+};
+
+/// Holds the facets around a reflection that are pieces of the same surface.
+struct FiniteReflectors::Neighbours {
+  struct Piece {
+    uint32_t facet;
+    double share;  ///< 0 to 1, by taper()
+    Side side;
+  };
+  std::vector<Piece> pieces;  ///< those that are lit; without the facet of the reflection itself
+  std::vector<uint32_t> known;
+  uint32_t reflecting = 1;  ///< facets with a reflection point of their own
+  bool edges_diffract = false;
+  double length_m = 0.0;  ///< D of the reflection
+
+  static Side side_of(const PosedFacet& facet, const dvec3& near_end, const dvec3& far_end) {
+    const double from = facet.distance(near_end), to = facet.distance(far_end);
+    Side side;
+    side.near_end = near_end;
+    side.far_end = far_end;
+    side.lit = from * to > 0.0 && std::min(std::abs(from), std::abs(to)) > facet.tolerance_m;
+    side.front = from > 0.0 ? 1.0 : -1.0;
+    if (!side.lit) return side;
+    const dvec3 image = near_end - 2.0 * from * facet.normal, ray = far_end - image;
+    const double length = glm::length(ray), share = from / (from + to);
+    side.point = image + share * ray;
+    side.ray = {ray / length, share * length, (1.0 - share) * length};
+    return side;
+  }
+};
+
+FiniteReflectors::FiniteReflectors(const scene::Scene& scene, const FacetKinds& kinds,
+                                   bool free_edges_diffract) {
+  GREATX_CHECK(kinds.size() == scene.facets.size(), "{} kinds of {} facets", kinds.size(),
+               scene.facets.size());
+  const double diffracting_bend = scene::WedgeOptions{}.flat_angle_rad;
+  const double diffracting_length = scene::WedgeOptions{}.min_length_m;
+  std::vector<std::pair<uint32_t, Edge>> all;
+  for (const scene::Wedge& wedge : scene::find_wedges(scene, edge_options())) {
+    Edge edge;
+    edge.start = wedge.a;
+    edge.length_m = glm::distance(wedge.a, wedge.b);
+    edge.along = (wedge.b - wedge.a) / edge.length_m;
+    const bool free = wedge.facet_n == scene::no_facet;
+    edge.free = free;
+    const double bend = (wedge.n - 1.0) * pi;
+    edge.diffracts =
+        edge.length_m >= diffracting_length && (free ? free_edges_diffract : bend > diffracting_bend);
+    const dvec3 normal_0 = scene.facets[wedge.facet_0].normal;
+    edge.inward = wedge.tangent_0;
+    edge.exterior = glm::dot(normal_0, wedge.normal_0) > 0.0 ? 1.0 : -1.0;
+    if (!free) {
+      const double c = std::cos(wedge.n * pi), s = std::sin(wedge.n * pi);
+      const dvec3 into_exterior = s * wedge.tangent_0 - c * wedge.normal_0;
+      Edge other = edge;
+      other.inward = c * wedge.tangent_0 + s * wedge.normal_0;
+      other.exterior = glm::dot(scene.facets[wedge.facet_n].normal, into_exterior) > 0.0 ? 1.0 : -1.0;
+      edge.neighbour_exterior = other.exterior;
+      other.neighbour_exterior = edge.exterior;
+      if (bend < smooth_bend_rad && hard(kinds[wedge.facet_0]) && hard(kinds[wedge.facet_n]))
+        edge.neighbour = wedge.facet_n, other.neighbour = wedge.facet_0;
+      if (hard(kinds[wedge.facet_n])) all.emplace_back(wedge.facet_n, other);
+    }
+    if (hard(kinds[wedge.facet_0])) all.emplace_back(wedge.facet_0, edge);
+  }
+  std::stable_sort(all.begin(), all.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+  offsets_.assign(scene.facets.size() + 1, 0);
+  edges_.reserve(all.size());
+  for (const auto& [facet, edge] : all) {
+    ++offsets_[facet + 1];
+    edges_.push_back(edge);
+  }
+  for (size_t i = 1; i < offsets_.size(); ++i) offsets_[i] += offsets_[i - 1];
+}
+
+FiniteReflectors::Edge FiniteReflectors::posed(const Edge& edge, const FacetWorld& world, uint32_t facet) {
+  const uint32_t body = world.facet(facet).body;
+  if (body == 0) return edge;
+  const Pose& pose = world.motion(body).pose;
+  Edge moved = edge;
+  moved.start = pose.apply(edge.start);
+  moved.along = pose.rotate(edge.along);
+  moved.inward = pose.rotate(edge.inward);
+  return moved;
+}
+
+/// Returns the sum of the boundary waves of a facet's edges. A ray that meets the facet's plane outside of an
+/// edge takes its wave with the other sign.
+Complex FiniteReflectors::boundary(const FacetWorld& world, uint32_t facet, const Side& side,
+                                   double wave_number, bool edges_diffract) const {
+  Complex sum = 0.0;
+  for (const Edge& stored : edges_of(facet)) {
+    if (stored.inner_corner_from(side.front)) continue;
+    const Edge edge = posed(stored, world, facet);
+    EdgePiece piece{edge.start - side.point, edge.along, 0.0, edge.length_m};
+    const double sign = glm::dot(piece.start, edge.inward) <= 0.0 ? 1.0 : -1.0;
+    const bool taken = edges_diffract && edge.diffracts && (edge.free || side.front == edge.exterior);
+    const double place = taken ? keller_place(side.ray, piece) : -1.0;
+    if (place >= 0.0 && place <= edge.length_m) {
+      // The diffracted path has the wave of the endless edge.
+      piece.from = -INFINITY, piece.to = 0.0;
+      sum -= sign * boundary_wave(side.ray, piece, wave_number);
+      piece.from = edge.length_m, piece.to = INFINITY;
+      sum -= sign * boundary_wave(side.ray, piece, wave_number);
+    } else {
+      sum += sign * boundary_wave(side.ray, piece, wave_number);
+    }
+  }
+  return sum;
+}
+
+/// Appends the facets beyond the smooth edges of a facet, and those beyond them.
+void FiniteReflectors::add_neighbours(const FacetWorld& world, uint32_t facet, const Side& side,
+                                      double reached, double wave_number, Neighbours& found) const {
+  for (const Edge& stored : edges_of(facet)) {
+    if (stored.neighbour == none || (found.edges_diffract && stored.diffracts)) continue;
+    if (found.known.size() >= most_neighbours) return;
+    if (std::ranges::find(found.known, stored.neighbour) != found.known.end()) continue;
+    const Edge edge = posed(stored, world, facet);
+    const EdgePiece piece{edge.start - side.point, edge.along, 0.0, edge.length_m};
+    const double place = std::clamp(keller_place(side.ray, piece), 0.0, edge.length_m);
+    const double longer = excess_m(side.ray, piece, place) + side.ray.length_m() - found.length_m;
+    const double share = reached * taper(wave_number * std::abs(longer));
+    if (share == 0.0) continue;
+    found.known.push_back(edge.neighbour);
+    const PosedFacet& next = world.facet(edge.neighbour);
+    const Side beyond = Neighbours::side_of(next, side.near_end, side.far_end);
+    // On the outer side of this facet the neighbour is seen from its outer side, too.
+    const bool outer = side.front == edge.exterior;
+    if (!beyond.lit || beyond.front != (outer ? edge.neighbour_exterior : -edge.neighbour_exterior)) continue;
+    found.pieces.push_back({edge.neighbour, share, beyond});
+  }
+}
+
+/// Returns what the neighbours reflect, in units of the field that an endless wall in place of the facet
+/// would.
+Complex FiniteReflectors::neighbours(const FacetWorld& world, uint32_t facet, const Side& own,
+                                     double wave_number, bool edges_diffract) const {
+  Neighbours found;
+  found.edges_diffract = edges_diffract;
+  found.length_m = own.ray.length_m();
+  found.known.push_back(facet);
+  add_neighbours(world, facet, own, 1.0, wave_number, found);
+  Complex sum = 0.0;
+  const PosedFacet& here = world.facet(facet);
+  const double heights = here.distance(own.near_end) * here.distance(own.far_end);
+  for (size_t i = 0; i < found.pieces.size(); ++i) {
+    const Neighbours::Piece piece = found.pieces[i];
+    add_neighbours(world, piece.facet, piece.side, piece.share, wave_number, found);
+    const PosedFacet& next = world.facet(piece.facet);
+    if (world.contains(piece.facet, next.plane_coordinates(piece.side.point))) {
+      ++found.reflecting;
+      continue;
+    }
+    // D_G^2 = |S R|^2 + 4 h_S h_R for the heights h above the plane of any facet.
+    const double length = piece.side.ray.length_m();
+    const double longer = 4.0 * (next.distance(own.near_end) * next.distance(own.far_end) - heights) /
+                          (length + found.length_m);
+    const double phase = wave_number * longer;
+    sum -= piece.share * (found.length_m / length) * Complex(std::cos(phase), -std::sin(phase)) *
+           boundary(world, piece.facet, piece.side, wave_number, edges_diffract);
+  }
+  return sum / static_cast<double>(found.reflecting);
+}
+
+Complex FiniteReflectors::weight(const FacetWorld& world, uint32_t facet, const ReflectionSight& sight,
+                                 double wave_number, bool edges_diffract) const {
+  const std::span<const Edge> edges = edges_of(facet);
+  if (edges.empty()) return 1.0;
+  dvec3 shift(0.0);
+  bool smooth = false;
+  for (const Edge& stored : edges) {
+    const Edge edge = posed(stored, world, facet);
+    shift += way_in(sight.point - edge.start, edge.along, edge.inward, edge.length_m) * edge.inward;
+    smooth = smooth || (edge.neighbour != none && !(edges_diffract && edge.diffracts));
+  }
+  Side own;
+  own.point = sight.point + shift;
+  own.near_end = sight.point - sight.before_m * sight.in;
+  own.far_end = sight.point + sight.after_m * sight.out;
+  own.ray = {sight.out, sight.before_m, sight.after_m};
+  own.lit = true;
+  own.front = glm::dot(sight.in, world.facet(facet).normal) < 0.0 ? 1.0 : -1.0;
+  Complex weight = 1.0 - boundary(world, facet, own, wave_number, edges_diffract);
+  if (smooth) weight += neighbours(world, facet, own, wave_number, edges_diffract);
+  return weight;
+}
+
+FiniteReflectorBound finite_reflector_bound(const scene::Scene& scene, double wavelength_m, double longest_m,
+                                            bool find_edges) {
+  FiniteReflectorBound bound;
+  if (scene.facets.empty() || !(longest_m > 0.0)) return bound;
+  bound.edges = !find_edges || has_outer_edge(scene);
+  double least = 1e300;
+  for (uint32_t index = 0; index < scene.facets.size(); ++index) {
+    const scene::Material& material = scene.materials[scene.facets[index].material];
+    if (material.radio && material.radio->foliage) continue;
+    const double area = area_of(scene, scene.facets[index]);
+    if (area <= 0.0) continue;
+    ++bound.facets;
+    // The first zone has the area pi lambda d_1 d_2/D.
+    if (area < 0.25 * pi * wavelength_m * longest_m) ++bound.below_a_zone;
+    if (area < least) least = area, bound.facet = index;
+  }
+  if (!bound.edges || bound.facets == 0) return bound;
+  bound.area_m2 = least;
+  bound.most_db = std::max(0.0, -20.0 * std::log10(4.0 * least / (wavelength_m * longest_m)));
+  return bound;
+}
+
+}  // namespace greatx::rf
