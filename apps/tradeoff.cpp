@@ -35,8 +35,12 @@ sim::Modality modality(const std::string& name) {
 
 void run_tradeoff(TradeoffOptions options) {
   for (const std::string& name : options.only) options.study.only.push_back(modality(name));
-  if (options.study.quick) options.study.blocks = 1;
-  if (options.study.quick) options.study.ticks = 2;
+  if (options.study.quick) {
+    options.study.blocks = 1;
+    options.study.ticks = 2;
+    options.study.joint = 3;
+    options.study.most_factor = 8.0;
+  }
   install_interrupt_handler();
   Study study(options.scenario, options.run, options.study, options.output);
   const bool complete = study.run();

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
 
 #include "apps/console/json_text.h"
 #include "apps/console/progress.h"
@@ -75,8 +76,10 @@ constexpr const char* how_measured =
     "the ticks after the warm-up; files are not written. Errors are those of the records against the records "
     "of the reference setting at the same ticks.";
 constexpr const char* how_searched =
-    "The search took times and errors of the single knobs as if they added up, joined knob by knob, and kept "
-    "every joint setting that no other one beats. Joint settings spread over that predicted front were then "
+    "The search predicts joint settings from the single knobs: slower settings add their time, faster ones "
+    "multiply it by their factor, and errors add as squares. It joins knob by knob and keeps every joint "
+    "setting that no other one beats. Knobs whose reference is many times as slow as the default stay at the "
+    "default. Joint settings spread over that predicted front were then "
     "measured together, in turns, against all knobs at their references at once.";
 
 }  // namespace
@@ -183,8 +186,12 @@ void Study::say(const std::string& text) const {
 
 std::vector<sim::SettingResult> Study::measure(const std::vector<sim::Experiment>& settings, size_t reference,
                                                const Part& part) {
-  std::vector<sim::SettingResult> results =
-      sim::measure_settings(device_, settings, reference, plan_of(part), [](double) {
+  // Settings that lose paths on purpose would warn of each one.
+  const spdlog::level::level_enum level = spdlog::get_level();
+  if (level == spdlog::level::info) spdlog::set_level(spdlog::level::err);
+  const std::shared_ptr<void> restored(nullptr, [level](void*) { spdlog::set_level(level); });
+  std::vector<sim::SettingResult> results = sim::measure_settings(
+      device_, settings, reference, sim::kind_of(part.modality), plan_of(part), [](double) {
         if (interrupted()) throw Stopped();
       });
   check_validation(device_);
@@ -206,6 +213,27 @@ std::string Study::keep_picture(const sim::SettingResult& result, const Part& pa
   return {};
 }
 
+/// Measures a knob. Where the finest settings are refused (an echo buffer beyond the device's limits), it goes on
+/// without them: `kept` is the number of settings that are left, and `why` the message.
+std::vector<sim::SettingResult> Study::measure_most(const Part& part, const sim::Knob& knob, size_t& kept,
+                                                    std::string& why) {
+  for (;;) try {
+      std::vector<sim::Experiment> settings;
+      for (size_t i = 0; i < kept; ++i) {
+        std::vector<YamlChange> changes = knob.context_changes;
+        const std::vector<YamlChange>& own = knob.settings[i].changes;
+        changes.insert(changes.end(), own.begin(), own.end());
+        settings.push_back(sim::make_experiment(
+            sim::changed(part.experiment.scenario, changes, scenario_options_.assets), whole_));
+      }
+      return measure(settings, std::min(knob.reference, kept - 1), part);
+    } catch (const UserError& error) {
+      if (kept <= 2 || knob.reference + 1 != knob.settings.size()) throw;
+      why = error.what();
+      --kept;
+    }
+}
+
 void Study::measure_knob(const Part& part, const sim::Knob& knob) {
   Json json{{"name", knob.name},
             {"modality", sim::name_of(part.modality)},
@@ -219,14 +247,13 @@ void Study::measure_knob(const Part& part, const sim::Knob& knob) {
   const auto begin = std::chrono::steady_clock::now();
   std::string words = knob.skipped;
   if (knob.skipped.empty()) try {
-      std::vector<sim::Experiment> settings;
-      for (const sim::Setting& setting : knob.settings) {
-        std::vector<YamlChange> changes = knob.context_changes;
-        changes.insert(changes.end(), setting.changes.begin(), setting.changes.end());
-        settings.push_back(sim::make_experiment(
-            sim::changed(part.experiment.scenario, changes, scenario_options_.assets), whole_));
+      size_t kept = knob.settings.size();
+      std::string dropped;
+      const std::vector<sim::SettingResult> results = measure_most(part, knob, kept, dropped);
+      if (kept < knob.settings.size()) {
+        json["reference"] = knob.settings[kept - 1].label;
+        json["about"] = fmt::format("{} (without finer settings: {})", knob.about, dropped);
       }
-      const std::vector<sim::SettingResult> results = measure(settings, knob.reference, part);
       const bool differs = std::ranges::any_of(results, [](const auto& result) { return !result.exact; });
       std::vector<std::string> said;
       for (size_t i = 0; i < results.size(); ++i) {
@@ -311,14 +338,16 @@ const Json* first_figure(const Json& knob) {
 double time_of(const Json& setting) { return setting["tick_ms"]["median"].get<double>(); }
 
 /// Takes a knob's times and errors from the report.
-std::optional<JointKnob> joint_knob(const sim::Knob& knob, const Json& measured, const std::string& figure) {
+std::optional<JointKnob> joint_knob(const sim::Knob& knob, const Json& measured, const std::string& figure,
+                                    double most_factor) {
   if (!knob.context.empty() || !knob.standard || measured["settings"].size() != knob.settings.size())
     return {};
   JointKnob joint{&knob, {}, *knob.standard};
   const double own = time_of(measured["settings"][*knob.standard]);
+  if (time_of(measured["settings"][knob.reference]) > most_factor * own) return {};
   bool matters = false;
   for (const Json& setting : measured["settings"]) {
-    sim::FrontSetting point{time_of(setting) - own, 0.0};
+    sim::FrontSetting point{time_of(setting), 0.0};
     for (const Json& error : setting["errors"])
       if (error["name"] == figure && !error["value"].is_null())
         point.power =
@@ -346,7 +375,7 @@ void Study::measure_front(const Part& part) {
       unit = (*first)["unit"];
       sensor = (*first)["sensor"];
     }
-    std::optional<JointKnob> one = joint_knob(*knob, measured, figure);
+    std::optional<JointKnob> one = joint_knob(*knob, measured, figure, options_.most_factor);
     if (!one) continue;
     if (own_ms == 0.0) own_ms = time_of(measured["settings"][one->standard]);
     joint.push_back(std::move(*one));
@@ -355,13 +384,11 @@ void Study::measure_front(const Part& part) {
             {"unit", unit},         {"how", how_searched}, {"points", Json::array()}};
   if (!joint.empty()) {
     std::vector<sim::FrontKnob> knobs;
-    sim::FrontPoint standard{{}, own_ms, 0.0}, finest{{}, own_ms, 0.0};
+    sim::FrontPoint standard, finest;
     for (const JointKnob& knob : joint) {
       knobs.push_back(knob.front);
       const auto take = [&](sim::FrontPoint& point, size_t setting) {
-        point.choice.push_back(setting);
-        point.ms += knob.front.settings[setting].extra_ms;
-        point.power += knob.front.settings[setting].power;
+        point = sim::joined(std::move(point), own_ms, knob.front.settings[setting], setting);
       };
       take(standard, knob.standard);
       take(finest, knob.knob->reference);

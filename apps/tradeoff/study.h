@@ -24,6 +24,8 @@ struct StudyOptions {
   std::vector<std::string> knobs;   ///< by name; empty: all
   int64_t blocks = 2, ticks = 4;    ///< timed: so many blocks of so many ticks
   size_t joint = 8;                 ///< joint settings that are measured for each modality
+  /// Knobs whose reference costs more than so many times the default take no part in joint settings.
+  double most_factor = 50.0;
   bool quiet = false;
 };
 
@@ -55,6 +57,8 @@ class Study {
   sim::MeasurePlan plan_of(const Part& part) const;
   std::vector<sim::SettingResult> measure(const std::vector<sim::Experiment>& settings, size_t reference,
                                           const Part& part);
+  std::vector<sim::SettingResult> measure_most(const Part& part, const sim::Knob& knob, size_t& kept,
+                                               std::string& why);
   void measure_knob(const Part& part, const sim::Knob& knob);
   void measure_front(const Part& part);
   std::string keep_picture(const sim::SettingResult& result, const Part& part, const std::string& name) const;

@@ -60,18 +60,25 @@ std::vector<FrontPoint> thinned(std::vector<FrontPoint> front, size_t count) {
   return kept;
 }
 
+FrontPoint joined(FrontPoint point, double own_ms, const FrontSetting& setting, size_t choice) {
+  point.choice.push_back(choice);
+  if (setting.ms >= own_ms)
+    point.added_ms += setting.ms - own_ms;
+  else
+    point.factor *= std::max(setting.ms, 0.0) / own_ms;
+  point.ms = (own_ms + point.added_ms) * point.factor;
+  point.power += setting.power;
+  return point;
+}
+
 std::vector<FrontPoint> front_of(double own_ms, const std::vector<FrontKnob>& knobs, size_t most) {
-  std::vector<FrontPoint> front{{{}, own_ms, 0.0}};
+  std::vector<FrontPoint> front(1);
+  front.front().ms = own_ms;
   for (const FrontKnob& knob : knobs) {
     std::vector<FrontPoint> joint;
     for (const FrontPoint& point : front)
-      for (size_t s = 0; s < knob.settings.size(); ++s) {
-        FrontPoint next = point;
-        next.choice.push_back(s);
-        next.ms += knob.settings[s].extra_ms;
-        next.power += knob.settings[s].power;
-        joint.push_back(std::move(next));
-      }
+      for (size_t s = 0; s < knob.settings.size(); ++s)
+        joint.push_back(joined(point, own_ms, knob.settings[s], s));
     front = thinned(unbeaten(std::move(joint)), most);
   }
   return front;

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Predicts which joint settings of several knobs are worth measuring. It takes times and errors of single
-// knobs as if they added up: the time of a joint setting is that of the scenario plus the differences of the
-// single settings, and its error is the root of the sum of squares (powers add up for errors in dB). Both are
-// predictions, so whoever reports or uses them measures the joint settings. They are wrong where one knob
-// changes what another one costs (max_depth and scattering), or where errors are of one sign.
+// Predicts which joint settings of several knobs are worth measuring. The time of a joint setting is taken to
+// be that of the scenario plus what slower settings add to it, times the factors of faster ones. Its error is
+// the root of the sum of squares (powers add up for errors in dB). Both are predictions, so whoever reports or
+// uses them measures the joint settings. They are wrong where one slow knob multiplies what another one costs
+// (diffraction and scattering), or where errors are of one sign.
 #pragma once
 
 #include <string>
@@ -19,23 +19,26 @@ double error_power(double error, bool relative_db);
 double error_of_power(double power, bool relative_db);
 
 struct FrontSetting {
-  double extra_ms = 0.0;  ///< time of a tick less that of the scenario's own setting
-  double power = 0.0;     ///< error_power() against the knob's reference
+  double ms = 0.0;     ///< time of a tick with this setting alone
+  double power = 0.0;  ///< error_power() against the knob's reference
 };
 struct FrontKnob {
   std::vector<FrontSetting> settings;
 };
 
 struct FrontPoint {
-  std::vector<size_t> choice;  ///< of each knob, the index of its setting
-  double ms = 0.0;             ///< predicted
-  double power = 0.0;          ///< predicted
+  std::vector<size_t> choice;           ///< of each knob, the index of its setting
+  double added_ms = 0.0, factor = 1.0;  ///< of the prediction of time
+  double ms = 0.0;                      ///< predicted
+  double power = 0.0;                   ///< predicted
 };
+
+/// Returns the point with one more knob at a setting.
+FrontPoint joined(FrontPoint point, double own_ms, const FrontSetting& setting, size_t choice);
 
 /// Returns the joint settings that no other one beats in time and error, by ascending time. There are at most
 /// `most` of them after each knob; of more, those are kept whose errors are spread most evenly on a
-/// logarithmic scale, with both ends. The search goes knob by knob: a joint setting that is beaten by another
-/// one stays beaten whatever is added to both, so none is lost but by `most`.
+/// logarithmic scale, with both ends. The search goes knob by knob.
 std::vector<FrontPoint> front_of(double own_ms, const std::vector<FrontKnob>& knobs, size_t most = 400);
 
 /// Returns at most `count` points spread over the front, with both ends.

@@ -100,6 +100,12 @@ class Table {
     if (!effect.on && effect.bound.empty() && !asked_for(effect.name))
       knob.skipped = "nothing to act on: " + effect.reason;
   }
+  /// Leaves a knob out of a quick study.
+  void skip_if_quick(const std::string& name, const std::string& what) {
+    for (Knob& knob : knobs_)
+      if (quick_ && knob.name == name && knob.skipped.empty())
+        knob.skipped = "left out of a quick study: it costs " + what;
+  }
   /// Sets something beside all settings of a knob.
   static void within(Knob& knob, std::string words, std::vector<YamlChange> changes) {
     knob.context = std::move(words);
@@ -199,6 +205,7 @@ void add_csi(Table& table) {
   if (plan.name.switchable) table.add_effect(plan.name, documentation);
   GREATX_RADIO_EFFECTS(GREATX_ROW)
 #undef GREATX_ROW
+  table.skip_if_quick("every_element", "a search for each element");
   add_scattering(table, channel);
 }
 
@@ -266,16 +273,20 @@ void add_camera(Table& table) {
   if (plan.name.switchable) table.add_effect(plan.name, documentation);
   GREATX_CAMERA_EFFECTS(GREATX_ROW)
 #undef GREATX_ROW
-  Knob& blur = table.add_numbers("motion_blur_samples", {"motion_blur_samples"}, {3, 7, 15, 31, 63},
-                                 camera.motion_blur_samples, "pictures that a blurred one is the mean of");
+  Knob& blur =
+      table.add_numbers("motion_blur_samples", {"motion_blur_samples"},
+                        table.quick() ? std::vector<double>{3, 7, 15} : std::vector<double>{3, 7, 15, 31, 63},
+                        camera.motion_blur_samples, "pictures that a blurred one is the mean of");
   const std::vector<YamlChange> shutter = with_shutter(table);
   if (!shutter.empty()) Table::within(blur, "with a shutter of 20 ms", shutter);
 }
 
 void add_events(Table& table) {
-  const std::string finest = "64";
-  Knob& even = table.add_numbers("steps", {"steps"}, {1, 2, 4, 8, 16, 32, 64}, 0,
-                                 "evenly spaced pictures from one record to the next");
+  const uint32_t most = table.quick() ? 8 : 16;  // of adaptive steps
+  Knob& even = table.add_numbers(
+      "steps", {"steps"},
+      table.quick() ? std::vector<double>{1, 2, 4, 8} : std::vector<double>{1, 2, 4, 8, 16, 32, 64}, 0,
+      "evenly spaced pictures from one record to the next");
   const auto& events = table.first<EventCameraConfig>();
   for (size_t i = 0; i < even.settings.size(); ++i)
     if (events.steps == EventCameraConfig::Steps::fixed && even.settings[i].value == double(events.substeps))
@@ -284,10 +295,11 @@ void add_events(Table& table) {
                        const char* about, const char* unit) {
     Knob& knob = table.add(name, about, unit);
     for (const double value : values)
-      knob.settings.push_back(
-          {fmt::format("{:g}", value), value,
-           table.everywhere({"steps"}, fmt::format("{{by: {}, {}: {:g}, most: 64}}", by, field, value))});
-    knob.settings.push_back({"64 even", {}, table.everywhere({"steps"}, finest)});
+      knob.settings.push_back({fmt::format("{:g}", value), value,
+                               table.everywhere({"steps"}, fmt::format("{{by: {}, {}: {:g}, most: {}}}", by,
+                                                                       field, value, most))});
+    knob.settings.push_back(
+        {fmt::format("{} even", most), {}, table.everywhere({"steps"}, std::to_string(most))});
     knob.reference = knob.settings.size() - 1;
   };
   add("steps by flow", "flow", "max_px", {8, 4, 2, 1, 0.5}, "adaptive steps: motion between pictures at most",
@@ -338,6 +350,7 @@ void add_radar(Table& table) {
   if (plan.name.switchable) table.add_effect(plan.name, documentation);
   GREATX_RADAR_EFFECTS(GREATX_ROW)
 #undef GREATX_ROW
+  table.skip_if_quick("radar_clutter", "twenty times the default");
 }
 
 /// Takes the noise away from a radar for all knobs but those of the noise itself.

@@ -92,9 +92,10 @@ bool same_bytes(const SensorSpec& a, const Record& x, const SensorSpec& b, const
 /// Compares one setting with the reference, tick by tick.
 class Judge {
  public:
-  Judge(const std::vector<SensorSpec>& reference, const std::vector<SensorSpec>& specs)
+  Judge(const std::vector<SensorSpec>& reference, const std::vector<SensorSpec>& specs, std::string_view kind)
       : reference_(reference), specs_(specs) {
-    for (const SensorSpec& spec : reference) sums_.push_back(make_error_sum(spec.kind));
+    for (const SensorSpec& spec : reference)
+      sums_.push_back(spec.kind == kind ? make_error_sum(spec.kind) : nullptr);
   }
   void add(const Packet& reference, const Packet& packet, SettingResult& result) {
     for (size_t i = 0; i < reference_.size(); ++i) {
@@ -135,7 +136,7 @@ MeasurePlan plan_blocks(const Scenario& scenario, int64_t blocks, int64_t ticks)
 }
 
 std::vector<SettingResult> measure_settings(gpu::Device& device, const std::vector<Experiment>& settings,
-                                            size_t reference, const MeasurePlan& given,
+                                            size_t reference, std::string_view kind, const MeasurePlan& given,
                                             const std::function<void(double)>& progress) {
   GREATX_CHECK(reference < settings.size(), "reference {} of {}", reference, settings.size());
   std::vector<std::unique_ptr<Runner>> runners;
@@ -149,7 +150,8 @@ std::vector<SettingResult> measure_settings(gpu::Device& device, const std::vect
     if (runners[i]->simulator().remembers()) plan.starts = {0};
     progress(0.3 * static_cast<double>(i + 1) / static_cast<double>(settings.size()));
   }
-  for (const SettingResult& result : results) judges.emplace_back(results[reference].specs, result.specs);
+  for (const SettingResult& result : results)
+    judges.emplace_back(results[reference].specs, result.specs, kind);
   const int64_t length = plan.warm_up + plan.ticks;
   for (size_t block = 0; block < plan.starts.size(); ++block) {
     for (size_t i = 0; i < runners.size(); ++i) runners[i]->start(plan.starts[block], results[i]);

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/record.h"
@@ -37,16 +38,17 @@ struct SettingResult {
   std::vector<double> wall_ms, cpu_ms;  ///< of each timed tick; cpu: of all threads of the process
   std::vector<double> start_ms;         ///< of starting each block: searches of paths
   double build_ms = 0.0;                ///< upload of the scene, pipelines
-  bool exact = true;                    ///< all arrays of all records have the reference's bytes
+  bool exact = true;                    ///< all arrays of the compared records have the reference's bytes
   std::vector<SensorError> errors;      ///< against the reference
   std::vector<SensorSpec> specs;
   Packet last;  ///< the records of the last tick
 };
 
-/// `settings` is not empty; `reference` is one of them. Their sensors have the same names. `progress` is
+/// `settings` is not empty; `reference` is one of them. Their sensors have the same names. Records of sensors of
+/// `kind` are compared. `progress` is
 /// called with the share that is done, and may throw to stop. Throws what the simulator throws.
 std::vector<SettingResult> measure_settings(gpu::Device& device, const std::vector<Experiment>& settings,
-                                            size_t reference, const MeasurePlan& plan,
+                                            size_t reference, std::string_view kind, const MeasurePlan& plan,
                                             const std::function<void(double)>& progress);
 
 /// Of the times of ticks: median and quartiles.

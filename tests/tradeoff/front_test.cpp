@@ -18,22 +18,18 @@ std::vector<FrontKnob> random_knobs(std::mt19937& random, size_t count) {
   std::vector<FrontKnob> knobs(count);
   for (FrontKnob& knob : knobs)
     for (int s = 0; s < 4; ++s)
-      knob.settings.push_back({uniform(random) - 0.5, std::pow(10.0, -4.0 * uniform(random))});
+      knob.settings.push_back({8.0 + 2.0 * uniform(random), std::pow(10.0, -4.0 * uniform(random))});
   return knobs;
 }
 
 /// All joint settings.
 std::vector<FrontPoint> all_points(double own_ms, const std::vector<FrontKnob>& knobs) {
-  std::vector<FrontPoint> points{{{}, own_ms, 0.0}};
+  std::vector<FrontPoint> points(1);
   for (const FrontKnob& knob : knobs) {
     std::vector<FrontPoint> next;
     for (const FrontPoint& point : points)
-      for (size_t s = 0; s < knob.settings.size(); ++s) {
-        next.push_back(point);
-        next.back().choice.push_back(s);
-        next.back().ms += knob.settings[s].extra_ms;
-        next.back().power += knob.settings[s].power;
-      }
+      for (size_t s = 0; s < knob.settings.size(); ++s)
+        next.push_back(joined(point, own_ms, knob.settings[s], s));
     points = std::move(next);
   }
   return points;
@@ -69,6 +65,13 @@ TEST(Front, ThinnedKeepsBothEndsAndOrder) {
     EXPECT_GT(thin[i].ms, thin[i - 1].ms);
     EXPECT_LT(thin[i].power, thin[i - 1].power);
   }
+}
+
+TEST(Front, SlowerSettingsAddAndFasterOnesMultiply) {
+  FrontPoint point;
+  for (const double ms : {30.0, 20.0, 5.0, 8.0}) point = joined(point, 10.0, {ms, 0.01}, 0);
+  EXPECT_NEAR(point.ms, (10.0 + 20.0 + 10.0) * 0.5 * 0.8, 1e-12);
+  EXPECT_NEAR(point.power, 0.04, 1e-15);
 }
 
 TEST(Front, ErrorsAddAsPowers) {

@@ -98,7 +98,7 @@ TEST(Measure, DeeperPathsAreNearerToTheDeepest) {
   const Knob& depth = knob_of(knobs, "max_depth");
   const std::vector<Experiment> settings = experiments_of(experiment, depth);
   const std::vector<SettingResult> results = measure_settings(
-      test::device(), settings, depth.reference, plan_blocks(whole.scenario, 2, 2), [](double) {});
+      test::device(), settings, depth.reference, "csi", plan_blocks(whole.scenario, 2, 2), [](double) {});
   ASSERT_EQ(results.size(), depth.settings.size());
   EXPECT_TRUE(results[depth.reference].exact);
   EXPECT_EQ(error_of(results[depth.reference], "nmse"), -std::numeric_limits<double>::infinity());
@@ -117,8 +117,9 @@ TEST(Measure, TheSameSettingTwiceIsExact) {
   for (const Modality modality : all_modalities) {
     if (!alone(whole.scenario, modality, {})) continue;
     const Experiment experiment = alone_of(whole, modality);
-    const std::vector<SettingResult> results = measure_settings(
-        test::device(), {experiment, experiment}, 0, plan_blocks(whole.scenario, 1, 2), [](double) {});
+    const std::vector<SettingResult> results =
+        measure_settings(test::device(), {experiment, experiment}, 0, kind_of(modality),
+                         plan_blocks(whole.scenario, 1, 2), [](double) {});
     EXPECT_TRUE(results[1].exact) << name_of(modality);
     for (const SensorError& error : results[1].errors)
       EXPECT_LE(error.figure.value, 0.0) << error.figure.name;
@@ -132,10 +133,10 @@ TEST(Measure, ProgressGrowsAndMayStop) {
     EXPECT_GE(share, last);
     last = share;
   };
-  measure_settings(test::device(), {experiment}, 0, plan_blocks(whole.scenario, 2, 2), grows);
+  measure_settings(test::device(), {experiment}, 0, "csi", plan_blocks(whole.scenario, 2, 2), grows);
   EXPECT_NEAR(last, 1.0, 1e-9);
   struct Stop {};
-  EXPECT_THROW(measure_settings(test::device(), {experiment}, 0, plan_blocks(whole.scenario, 1, 2),
+  EXPECT_THROW(measure_settings(test::device(), {experiment}, 0, "csi", plan_blocks(whole.scenario, 1, 2),
                                 [](double) { throw Stop(); }),
                Stop);
 }

@@ -50,7 +50,7 @@ class ErrorSum {
 ///   over events that have a partner: the k-th event of a pixel and polarity); `unmatched` % (events of
 ///   either without a partner, of all).
 /// - lidar: `range` m (mean of |difference| over returns that both have, by ring, azimuth and number of the
-///   return); `range_p95` m; `missed` % (returns of one only, of the reference's).
+///   return); `range_p95` m; `intensity` 1 (mean of |difference|); `missed` % (returns of one only, of the reference's).
 /// - radar: `map` dB (sum |P - P_ref| / sum P_ref over the range-Doppler map, 10 log10); `missed` % (of the
 ///   reference's detections, within a bin of range and of velocity); `false` % (detections without a partner,
 ///   of the reference's number); `power` dB (median of |difference| of the partners' received powers).

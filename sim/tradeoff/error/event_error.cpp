@@ -47,9 +47,9 @@ struct Extent {
 
 /// Adds events to a voxel grid [grid_bins, pixels]: each one to the two bins beside its time, with its sign.
 void add_to_grid(const Events& events, const Extent& extent, std::vector<float>& grid) {
-  const double scale = extent.last > extent.first
-                           ? static_cast<double>(grid_bins - 1) / static_cast<double>(extent.last - extent.first)
-                           : 0.0;
+  const double scale = extent.last > extent.first ? static_cast<double>(grid_bins - 1) /
+                                                        static_cast<double>(extent.last - extent.first)
+                                                  : 0.0;
   for (size_t i = 0; i < events.count(); ++i) {
     const double at = static_cast<double>(events.t[i] - extent.first) * scale;
     const auto low = static_cast<size_t>(at);

@@ -71,6 +71,8 @@ class LidarError : public ErrorSum {
       const double error = std::abs(static_cast<double>(b.range[j]) - static_cast<double>(a.range[*partner]));
       range_m_.add(error);
       range_sum_m_ += error;
+      intensity_sum_ += std::abs(static_cast<double>(b.points[4 * j + 3]) -
+                                 static_cast<double>(a.points[4 * *partner + 3]));
     }
     ranges_ += both;
     reference_returns_ += a.range.size();
@@ -84,6 +86,9 @@ class LidarError : public ErrorSum {
       figures.push_back(
           {"range_p95", "m", range_m_.quantile(0.95), "95th percentile of the error of ranges"});
     }
+    if (ranges_ > 0)
+      figures.push_back(
+          {"intensity", "1", intensity_sum_ / static_cast<double>(ranges_), "mean error of intensities"});
     if (reference_returns_ > 0)
       figures.push_back({"missed", "%", 100.0 * double(one_sided_) / double(reference_returns_),
                          "returns that only one of the two has, of the reference's"});
@@ -104,7 +109,7 @@ class LidarError : public ErrorSum {
   }
 
   uint64_t records_ = 0, ranges_ = 0, one_sided_ = 0, reference_returns_ = 0;
-  double range_sum_m_ = 0.0;
+  double range_sum_m_ = 0.0, intensity_sum_ = 0.0;
   Samples range_m_;
 };
 
