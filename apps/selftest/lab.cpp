@@ -19,13 +19,13 @@ rf::RadioEffects effects_of(bool walls) {
 }
 
 std::vector<rf::Crossing> trace(gpu::TickRing& ring, scene::GpuScene& gpu, rf::CrossingPass& pass,
-                                std::span<const rf::Segment> segments) {
+                                const rf::FacetWorld& world, std::span<const rf::Segment> segments) {
   gpu::TickSlot& slot = ring.begin();
   gpu.record_update(slot, std::vector<Pose>(gpu.scene().bodies.size()));
   const rf::CrossingPass::Pending pending = pass.record(slot, segments);
   ring.submit(slot);
   ring.wait(slot);
-  return pass.collect(pending, segments);
+  return pass.collect(pending, segments, world);
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ std::vector<rf::Crossing> Lab::crossings(const scene::Scene& scene, std::span<co
   scene::GpuScene gpu(*device_, scene, {});
   rf::CrossingPass pass(gpu, rf::facet_kinds(scene, effects_of(walls)));
   gpu::TickRing ring(*device_, 1, 1u << 16, 1u << 16);
-  return trace(ring, gpu, pass, segments);
+  return trace(ring, gpu, pass, rf::FacetWorld(scene), segments);
 }
 
 render::LidarScan Lab::sweep(const scene::Scene& scene, const render::LidarDesc& desc,
@@ -106,7 +106,7 @@ std::vector<std::vector<rf::Path>> Links::solve(const dvec3& transmitter, std::s
     solver.add_segments(geometry.back().paths, from, to, segments);
     first.push_back(segments.size());
   }
-  const std::vector<rf::Crossing> crossings = trace(ring_, gpu_, pass_, segments);
+  const std::vector<rf::Crossing> crossings = trace(ring_, gpu_, pass_, model_.facets, segments);
   std::vector<std::vector<rf::Path>> links;
   for (size_t r = 0; r < receivers.size(); ++r) {
     to.position = receivers[r];
