@@ -39,7 +39,8 @@ nodes:
     trajectory: {type: static, position_m: [-4.7, 2.9, 2.8]}
     sensors: [{name: antenna, type: antenna}]
   - name: ue
-    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-3, -2, 1.5]}, {t_s: 12, position_m: [3, 2, 1.5]}]}
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-3, -2, 1.5]},
+      {t_s: 12, position_m: [3, 2, 1.5]}]}
     sensors:
       - {name: antenna, type: antenna}
       - {name: lidar, type: lidar, rate_hz: 10, channels: 4, elevation_min_deg: -20,

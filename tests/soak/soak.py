@@ -7,9 +7,9 @@
 
 A terminal goes round a square of 40 m, once in 4 s, on level ground under a mast, for the whole run. Then
 - memory: the resident set, sampled all the way, grows by the rows of the index and of the consistency table
-  and by nothing else. Both are kept until their sequence ends: 40 bytes a record, some 150 a comparison. The
-  medians of the fifth and of the last tenth differ by less than --growth bytes for each tick between them, plus
-  2 MiB for the allocator.
+  and by nothing else. Both are kept until their sequence ends: 40 bytes a record, some 150 a comparison.
+  The medians of the fifth and of the last tenth differ by less than --growth bytes for each tick between
+  them, plus 2 MiB for the allocator.
 - drift: c times the delay of the line of sight is the distance of the antennas at every tick, in closed form,
   and the ground's reflection has the length of its image: 1e-9 m and the rounding of the terminal's place.
   The clock's times are k / rate to 1e-12 of themselves.
@@ -47,9 +47,10 @@ nodes:
     trajectory: {{type: waypoints, csv: walk.csv, interpolation: linear}}
     sensors:
       - {{name: antenna, type: antenna}}
-      - {{name: camera, type: camera, rate_hz: 1/10, width: 16, height: 12, fov_deg: 90, outputs: [rgb, depth]}}
-      - {{name: lidar, type: lidar, rate_hz: 1/10, channels: 2, elevation_min_deg: -30, elevation_max_deg: -10,
-          azimuth_steps: 16}}
+      - {{name: camera, type: camera, rate_hz: 1/10, width: 16, height: 12, fov_deg: 90,
+          outputs: [rgb, depth]}}
+      - {{name: lidar, type: lidar, rate_hz: 1/10, channels: 2, elevation_min_deg: -30,
+          elevation_max_deg: -10, azimuth_steps: 16}}
 channels:
   - {{name: csi, tx: mast/antenna, rx: [walker/antenna], rate_hz: {rate}, carrier_hz: 3.5e9,
       bandwidth_hz: 20e6, subcarriers: 4, max_depth: 1, outputs: [cfr, paths]}}
@@ -58,9 +59,11 @@ channels:
 GROUND = """{{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}],
 "nodes": [{{"mesh": 0, "name": "ground"}}],
 "materials": [{{"name": "itu_concrete"}}],
-"meshes": [{{"name": "ground", "primitives": [{{"attributes": {{"POSITION": 0}}, "indices": 1, "material": 0}}]}}],
+"meshes": [{{"name": "ground", "primitives":
+  [{{"attributes": {{"POSITION": 0}}, "indices": 1, "material": 0}}]}}],
 "accessors": [
- {{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-64, 0, -64], "max": [64, 0, 64]}},
+ {{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3",
+  "min": [-64, 0, -64], "max": [64, 0, 64]}},
  {{"bufferView": 1, "componentType": 5125, "count": 6, "type": "SCALAR"}}],
 "bufferViews": [{{"buffer": 0, "byteOffset": 0, "byteLength": 48}},
  {{"buffer": 0, "byteOffset": 48, "byteLength": 24}}],
