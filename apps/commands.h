@@ -19,5 +19,6 @@ void add_paths(CLI::App& app);
 void add_map(CLI::App& app);
 void add_tradeoff(CLI::App& app);
 void add_view(CLI::App& app);
+void add_selftest(CLI::App& app);
 
 }  // namespace greatx::apps

@@ -84,6 +84,10 @@ void run_generate(const GenerateOptions& options) {
     complete = run_sequences(simulator, writer, experiment.scenario, options.quiet, begin, first_packet_s);
   } catch (const Interrupted&) {
     writer.flush();  // the interrupted tick is lost; the packets before it are complete
+  } catch (const gpu::VulkanError& error) {
+    if (error.result() == VK_ERROR_DEVICE_LOST)
+      spdlog::error("{}: whole packets stay; the same command with --resume goes on", options.output);
+    throw;
   }
   device.wait_idle();
   check_validation(device);

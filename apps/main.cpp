@@ -16,6 +16,7 @@
 #include "apps/console/terminal.h"
 #include "core/activity.h"
 #include "core/error.h"
+#include "gpu/vulkan.h"
 #include "io/files/file.h"
 
 namespace {
@@ -57,6 +58,7 @@ int main(int argc, char** argv) {
   apps::add_map(app);
   apps::add_tradeoff(app);
   apps::add_bench(app);
+  apps::add_selftest(app);
   apps::read_numbers_strictly(app);
   try {
     app.parse(argc, argv);
@@ -81,6 +83,9 @@ int main(int argc, char** argv) {
     return apps::exit_user;
   } catch (const std::bad_alloc&) {
     std::cerr << "greatx: error: " << out_of_memory() << '\n';
+    return apps::exit_internal;
+  } catch (const gpu::VulkanError& error) {
+    std::cerr << "greatx: device error: " << error.what() << '\n';
     return apps::exit_internal;
   } catch (const std::exception& error) {
     std::cerr << "greatx: internal error: " << error.what() << '\n';

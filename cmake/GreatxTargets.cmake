@@ -28,6 +28,13 @@ if(NOT GREATX_SANITIZE)
                          "$<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=3>")
   target_link_options(greatx_options INTERFACE -Wl,-z,relro -Wl,-z,now -Wl,-z,noexecstack)
 endif()
+if(GREATX_FUZZERS)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "GREATX_FUZZERS: libFuzzer belongs to clang, found ${CMAKE_CXX_COMPILER_ID}")
+  endif()
+  # Warnings are errors with GCC; clang has others.
+  target_compile_options(greatx_options INTERFACE -fsanitize=fuzzer-no-link -Wno-error)
+endif()
 if(GREATX_SANITIZE)
   target_compile_options(greatx_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                                                   -fno-omit-frame-pointer)

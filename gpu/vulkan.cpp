@@ -42,7 +42,10 @@ const char* name_of(VkResult result) {
 }
 
 VulkanError::VulkanError(VkResult result, const char* call)
-    : std::runtime_error(fmt::format("{} ({}): {}", name_of(result), static_cast<int>(result), call)),
+    : std::runtime_error(fmt::format("{} ({}): {}{}", name_of(result), static_cast<int>(result), call,
+                                     result == VK_ERROR_DEVICE_LOST
+                                         ? "; the device was lost: its driver has reset it, or it was removed"
+                                         : "")),
       result_(result) {}
 
 }  // namespace greatx::gpu

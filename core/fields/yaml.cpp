@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
 #include <utility>
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include "core/budget.h"
@@ -100,9 +102,54 @@ class Converter {
   std::map<Identity, std::shared_ptr<const FieldValue>> values_;
 };
 
-std::vector<YAML::Node> parsed(const std::string& text, const std::string& name) {
+/// Takes the events of a parser and refuses a second document. YAML::LoadAll would take all: yaml-cpp 0.7
+/// finds empty documents without end where a flow collection is closed that was never opened (",a}").
+class OneDocument : public YAML::EventHandler {
+ public:
+  explicit OneDocument(const std::string& name) : name_(name) {}
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (++documents_ > 2) refuse(mark);
+  }
+  void OnDocumentEnd() override {}
+  // The first value of the second document has a line, which its start may not have.
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { look(mark); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { look(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string&) override {
+    look(mark);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    look(mark);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    look(mark);
+  }
+  void OnMapEnd() override {}
+
+ private:
+  void look(const YAML::Mark& mark) const {
+    if (documents_ > 1) refuse(mark);
+  }
+  [[noreturn]] void refuse(const YAML::Mark& mark) const {
+    throw_user_error_at({name_, mark.is_null() ? 0 : mark.line + 1},
+                        "expected one YAML document, found 2 or more");
+  }
+
+  const std::string& name_;
+  int documents_ = 0;
+};
+
+/// Returns the only document, or an undefined node if there is none.
+YAML::Node parsed(const std::string& text, const std::string& name) {
   try {
-    return YAML::LoadAll(text);
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    OneDocument one(name);
+    bool any = false;
+    while (parser.HandleNextDocument(one)) any = true;
+    return any ? YAML::Load(text) : YAML::Node(YAML::NodeType::Undefined);
   } catch (const YAML::Exception& error) {
     throw_user_error_at({name, error.mark.is_null() ? 0 : error.mark.line + 1},
                         "expected well-formed YAML, found a fault: {}", error.msg);
@@ -117,13 +164,10 @@ std::shared_ptr<const FieldValue> read_yaml(const std::string& text, const std::
     throw_user_error_at({name, 1 + static_cast<int>(std::count(text.begin(), end, '\n'))},
                         "expected UTF-8, found the byte 0x{:02x}", static_cast<unsigned char>(text[*bad]));
   }
-  const std::vector<YAML::Node> documents = parsed(text, name);
-  if (documents.size() > 1)
-    throw_user_error_at({name, line_of(documents[1])}, "expected one YAML document, found {}",
-                        documents.size());
-  if (documents.empty()) return std::make_shared<FieldValue>();
-  require_within(name, Counter(name).count(documents[0]), budget::yaml_values);
-  return Converter(name).convert(documents[0]);
+  const YAML::Node document = parsed(text, name);
+  if (!document.IsDefined()) return std::make_shared<FieldValue>();
+  require_within(name, Counter(name).count(document), budget::yaml_values);
+  return Converter(name).convert(document);
 }
 
 }  // namespace greatx

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "gpu/pipeline.h"
 #include "gpu/tick_ring.h"
@@ -16,8 +17,9 @@ namespace greatx::render {
 
 class ProbePass {
  public:
-  /// Throws ContractError if `scene` was uploaded without acceleration structures.
-  explicit ProbePass(const scene::GpuScene& scene);
+  /// `tracer`: the constants of GpuScene::specialize_tracer; empty: the driver's ray queries. Throws
+  /// ContractError if `scene` was uploaded without acceleration structures.
+  explicit ProbePass(const scene::GpuScene& scene, const std::vector<uint32_t>& tracer = {});
   /// Records the rays (local coordinates). Hits of `excluded_body` are passed through. Returns the place of
   /// shared::ProbeHit [rays] once the slot's submission is done.
   gpu::Slice record(gpu::TickSlot& slot, std::span<const shared::ProbeRay> rays,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace greatx::rf {
 
@@ -110,7 +111,10 @@ CrossingPass::Rows::Rows(std::span<const Segment> batch) {
 }
 
 CrossingPass::CrossingPass(scene::GpuScene& scene, const FacetKinds& kinds, uint64_t part_bytes)
-    : scene_(&scene), static_foliage_(scene.scene(), kinds), part_bytes_(part_bytes) {
+    : scene_(&scene),
+      static_foliage_(scene.scene(), kinds),
+      exact_(scene.scene(), kinds),
+      part_bytes_(part_bytes) {
   const std::vector<scene::Facet>& facets = scene.scene().facets;
   GREATX_CHECK(kinds.size() == facets.size(), "kinds of {} facets, the scene has {}", kinds.size(),
                facets.size());
@@ -207,7 +211,8 @@ void CrossingPass::dispatch(gpu::Cmd& cmd, const Part& part, const Part& leaders
   cmd.dispatch_linear(part.count, shared::crossings_group);
 }
 
-std::vector<Crossing> CrossingPass::collect(const Pending& pending, std::span<const Segment> segments) const {
+std::vector<Crossing> CrossingPass::collect(const Pending& pending, std::span<const Segment> segments,
+                                            const FacetWorld& world, uint64_t* settled) const {
   GREATX_CHECK(segments.size() == pending.row_of.size(), "{} segments were recorded, {} are collected",
                pending.row_of.size(), segments.size());
   std::vector<Crossing> crossings(segments.size());
@@ -227,13 +232,34 @@ std::vector<Crossing> CrossingPass::collect(const Pending& pending, std::span<co
     crossing.blocked = status == shared::crossings_blocked;
     if (crossing.blocked) continue;
     crossing.foliage_open = (status & shared::crossings_foliage_open) != 0;
+    crossing.undecided = (status & shared::crossings_undecided) != 0;
     if (foliage_boxes_ > 0)
       crossing.foliage_m =
           glm::distance(segments[i].a, segments[i].b) * (*row++ / double{shared::crossings_foliage_one});
+    if (crossing.undecided) continue;
     crossing.walls.assign(row, row + (status & ~shared::crossings_foliage_open));
     std::sort(crossing.walls.begin(), crossing.walls.end());
   }
+  const uint64_t count = settle(segments, world, crossings);
+  if (settled != nullptr) *settled = count;
   return crossings;
+}
+
+/// Decides the segments that the GPU has left open. Segments that hang on one of them were traced; they are
+/// blocked if it is.
+uint64_t CrossingPass::settle(std::span<const Segment> segments, const FacetWorld& world,
+                              std::vector<Crossing>& crossings) const {
+  std::vector<size_t> open;
+  for (size_t i = 0; i < crossings.size(); ++i)
+    if (crossings[i].undecided) open.push_back(i);
+  if (open.empty()) return 0;
+  parallel_for(open.size(), 0,
+               [&](size_t i) { exact_.settle(world, segments[open[i]], crossings[open[i]]); });
+  for (size_t i = 0; i < crossings.size(); ++i) {
+    const uint32_t leader = segments[i].only_if;
+    if (leader != shared::rf_none && crossings[leader].blocked) crossings[i].blocked = true;
+  }
+  return open.size();
 }
 
 }  // namespace greatx::rf

@@ -13,41 +13,12 @@
 #include "gpu/tick_ring.h"
 #include "rf/facets/facet_kind.h"
 #include "rf/facets/foliage_volumes.h"
+#include "rf/paths/exact_crossings.h"
+#include "rf/paths/segment.h"
 #include "scene/device/gpu_scene.h"
 #include "shaders/shared/rf.h"
 
 namespace greatx::rf {
-
-/// Describes a segment of a path, and the facets and bodies at its ends, which therefore do not block it.
-struct Segment {
-  dvec3 a{0.0}, b{0.0};                ///< local coordinates, metres
-  uint32_t facet_a = shared::rf_none;  ///< a facet that the path touches at `a`; rf_none: none
-  uint32_t facet_b = shared::rf_none;
-  /// Body that carries the node at `a` and must not hide it; rf_none: none.
-  uint32_t body_a = shared::rf_none;
-  uint32_t body_b = shared::rf_none;
-  uint32_t other_a = shared::rf_none;  ///< the second face of the wedge at `a`; rf_none: none
-  uint32_t other_b = shared::rf_none;
-  uint32_t walls = 0;  ///< FacetKind::wall that the segment may pass, at most shared::crossings_max
-  /// An earlier segment of the batch with the same ends that may pass at least as many walls. Its answer,
-  /// with all its walls, is also the answer of this segment. rf_none: none.
-  uint32_t same_as = shared::rf_none;
-  /// The leader, a segment of the batch that must be clear. If the leader is blocked, this segment counts as
-  /// blocked and is not traced. A leader has no leader itself. rf_none: none.
-  uint32_t only_if = shared::rf_none;
-};
-
-/// Describes the surfaces that a segment meets.
-struct Crossing {
-  /// An opaque facet, or more walls than allowed, blocks the segment. The other members then mean nothing.
-  bool blocked = false;
-  std::vector<uint32_t> walls;  ///< facets passed, each once, ascending by index
-  /// Length inside foliage, also where an end is inside, metres. Overlapping volumes add up.
-  double foliage_m = 0.0;
-  /// The foliage on the segment's line is not a closed volume with its faces outwards: foliage_m is then an
-  /// estimate.
-  bool foliage_open = false;
-};
 
 /// Traces segments by these rules:
 /// - The facets and bodies that the segment names never count, wherever it crosses them.
@@ -60,6 +31,9 @@ struct Crossing {
 ///   their common edge. The wall with the lowest index is listed.
 /// - A segment from a point to itself meets nothing.
 /// - Texels of alpha masks are solid.
+/// - The driver traces in fp32. Where a segment passes an edge within roundings (some tenths of a millimetre
+///   at 300 m), the host decides by the same rules in fp64 (rf/paths/exact_crossings.h). There, an end of the
+///   segment on a facet does not see through another facet that stands at an angle to it.
 ///
 /// Foliage is a closed volume with its faces outwards. It has its own rules, since nothing jumps where a
 /// segment meets a surface of foliage next to an end. Planes through the ends and named facets do not matter,
@@ -92,18 +66,23 @@ class CrossingPass {
   /// there are more than 2^32 - 2 segments.
   [[nodiscard]] Pending record(gpu::TickSlot& slot, std::span<const Segment> segments);
   /// Returns the answers in the order of the segments, after the slot's submission is done. `segments` must
-  /// be those that were recorded.
-  std::vector<Crossing> collect(const Pending& pending, std::span<const Segment> segments) const;
+  /// be those that were recorded. `world` has the bodies in the poses of that tick. `settled` receives the
+  /// number of segments that the host has decided.
+  std::vector<Crossing> collect(const Pending& pending, std::span<const Segment> segments,
+                                const FacetWorld& world, uint64_t* settled = nullptr) const;
 
  private:
   struct Rows;
   std::vector<Part> parts_of(const Rows& rows, std::span<const Segment> segments, uint32_t row_words) const;
   void upload(const Rows& rows, std::span<const Segment> segments, const std::vector<Part>& parts,
               const Part& part) const;
+  uint64_t settle(std::span<const Segment> segments, const FacetWorld& world,
+                  std::vector<Crossing>& crossings) const;
   void dispatch(gpu::Cmd& cmd, const Part& part, const Part& leaders, uint32_t row_words);
 
   scene::GpuScene* scene_;
   FoliageVolumes static_foliage_;
+  ExactCrossings exact_;
   gpu::ComputePipeline pipeline_;
   gpu::Buffer planes_, foliage_;
   uint32_t foliage_boxes_ = 0;

@@ -10,6 +10,12 @@
 // Walls are listed, and opaque facets block. The length of a segment inside foliage adds up on the way, as
 // long as both ends are certainly outside. Otherwise the whole line is needed, and it is followed for those
 // segments only.
+//
+// fp32 cannot tell on which side of an edge a segment passes that keeps within a rounding error of it. Such a
+// segment is left open, and the host decides it in fp64 (rf/paths/exact_crossings.h). It is open if the
+// segment itself meets a surface near an edge of the surface's triangle, or if one of three segments around
+// it meets a surface that it does not meet itself. A straight edge that passes within half of their radius
+// lies between two of the three.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/rf.h"
 #include "lib/linear.glsl"
@@ -52,6 +58,29 @@ GpuFacetPlane posed_plane(uint facet, uint body) {
 bool lies_on(vec3 end, GpuFacetPlane plane) {
   return abs(dot(plane.normal, end - plane.point)) <=
          visibility_tolerance(max(largest(end), largest(plane.point)));
+}
+
+/// Returns whether the ray meets a triangle at `at` so near to one of its edges that roundings decide. The
+/// distance is that between two lines, the ray and the edge.
+bool near_edge(uint triangle, uint body, Ray ray, float at, float band) {
+  Corners corners = triangle_corners(triangle, body);
+  vec3 starts[3] = vec3[3](corners.a, corners.b, corners.c);
+  vec3 edges[3] = vec3[3](corners.b - corners.a, corners.c - corners.b, corners.a - corners.c);
+  vec3 point = ray.origin + at * ray.direction;
+  for (int i = 0; i < 3; ++i) {
+    vec3 across = cross(edges[i], ray.direction);
+    float apart = dot(across, point - starts[i]);
+    if (apart * apart <= band * band * dot(across, across)) return true;
+  }
+  return false;
+}
+
+/// Returns whether an end that lies on `plane` belongs to a facet at an angle to it. Behind the edge of the
+/// two the end is dark, and only fp64 can tell.
+bool in_a_seam(vec3 end, uint facet, uint other, GpuFacetPlane plane) {
+  if (facet == rf_none || other != rf_none || !lies_on(end, plane)) return false;
+  vec3 sine = cross(posed_plane(facet, planes[facet].body).normal, plane.normal);
+  return dot(sine, sine) >= crossings_seam_sine * crossings_seam_sine;
 }
 
 /// Holds the walls met so far, each once.
@@ -108,9 +137,11 @@ bool add_wall(inout Walls walls, uint most, uint facet, GpuFacetPlane plane, flo
 }
 
 /// Returns whether the surface met at `at` along a ray, 0 to 1, ends the segment. Walls and foliage that do
-/// not end it are added.
-bool stops(GpuSegment segment, vec3 direction, GpuPrimitive primitive, uint triangle, float at,
-           inout Walls walls, inout Depth depth) {
+/// not end it are added. `open` is set if fp32 cannot tell. A ray beside the segment (`beside`) ends nothing:
+/// what it meets and the segment has not met leaves the segment open.
+bool stops(GpuSegment segment, Ray ray, bool beside, GpuPrimitive primitive, uint triangle, float at,
+           inout Walls walls, inout Depth depth, inout bool open) {
+  vec3 direction = ray.direction;
   if (primitive.owner == segment.body_a || primitive.owner == segment.body_b) return false;
   uint facet = scene_facet(triangle);
   if (facet == rf_none) return true;
@@ -123,36 +154,66 @@ bool stops(GpuSegment segment, vec3 direction, GpuPrimitive primitive, uint tria
     return false;
   }
   if (plane.kind == facet_kind_absent) return false;
-  if (lies_on(segment.a, plane) || lies_on(segment.b, plane)) return false;
-  if (!has_walls || plane.kind != facet_kind_wall) return true;
+  if (lies_on(segment.a, plane) || lies_on(segment.b, plane)) {
+    open = open || in_a_seam(segment.a, segment.facet_a, segment.other_a, plane) ||
+           in_a_seam(segment.b, segment.facet_b, segment.other_b, plane);
+    return false;
+  }
+  bool wall = has_walls && plane.kind == facet_kind_wall;
+  if (beside) {
+    bool known = false;
+    for (uint i = 0u; wall && i < walls.count; ++i) known = known || walls.facets[i] == facet;
+    open = open || !known;
+    return !known;  // nothing more to learn from this ray
+  }
+  float reach = max(largest(segment.a), largest(segment.b));
+  if (near_edge(triangle, primitive.body, ray, at, crossings_edge_band(reach))) {
+    open = true;
+    return false;
+  }
+  if (!wall) return true;
   return !add_wall(walls, segment.walls & ~crossings_end_in_foliage, facet, plane, at * length(direction),
                    largest(segment.a));
 }
 
-bool blocked_along(GpuSegment segment, Ray ray, inout Walls walls, out Depth depth) {
+bool blocked_along(GpuSegment segment, Ray ray, bool beside, inout Walls walls, out Depth depth,
+                   inout bool open) {
   depth = Depth(0, 0);
   rayQueryEXT query;
   rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT,
                         GREATX_TRACE_MASK, ray.origin, 0.0, ray.direction, 1.0);
   while (rayQueryProceedEXT(query)) {
     GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
-    float at = has_walls || has_foliage ? rayQueryGetIntersectionTEXT(query, false) : 0.0;
-    if (stops(segment, ray.direction, primitive, candidate_triangle(query, primitive), at, walls, depth))
+    float at = rayQueryGetIntersectionTEXT(query, false);
+    if (stops(segment, ray, beside, primitive, candidate_triangle(query, primitive), at, walls, depth, open))
       rayQueryConfirmIntersectionEXT(query);
   }
   return rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;
 }
 
-/// Returns whether the segment is blocked. `depth` is the depth of the last look that is closed. The first
-/// look counts least: it meets the very tops of crowns more often than by chance, and the other looks pass
-/// beside the tops.
-bool blocked(GpuSegment segment, vec3 direction, out Walls walls, out Depth depth) {
+/// Returns the segment itself (0), or one of three parallel segments around it, a third of a turn apart. The
+/// directions follow no axis, since edges do.
+Ray look_around(vec3 origin, vec3 direction, uint which, float radius) {
+  if (which == 0u) return Ray(origin, direction);
+  vec3 side = cross(direction, vec3(0.36, -0.48, 0.8));
+  if (dot(side, side) < 0.01 * dot(direction, direction)) side = cross(direction, vec3(-0.64, 0.6, 0.48));
+  side = normalize(side);
+  float turn = 2.0943951 * float(which);
+  return Ray(origin + radius * (cos(turn) * side + sin(turn) * cross(normalize(direction), side)), direction);
+}
+
+/// Returns whether the segment is certainly blocked. `open`: the host decides. `depth` is that of the segment
+/// itself.
+bool blocked(GpuSegment segment, vec3 direction, out Walls walls, out Depth depth, out bool open) {
   walls.count = 0u;
-  depth = Depth(0, 1);
-  for (uint which = 0u; which < looks; ++which) {  // lib/trace.glsl: watertight whatever the driver
+  open = false;
+  float radius = crossings_look_radius(max(largest(segment.a), largest(segment.b)));
+  for (uint which = 0u; which < 4u && !open; ++which) {  // one query in a loop: drivers compile it once
     Depth found;
-    if (blocked_along(segment, look(segment.a, direction, which), walls, found)) return true;
-    if (has_foliage && (is_closed(found) || !is_closed(depth))) depth = found;
+    bool stopped = blocked_along(segment, look_around(segment.a, direction, which, radius), which > 0u, walls,
+                                 found, open);
+    if (which == 0u) depth = found;
+    if (which == 0u && stopped) return true;
   }
   return false;
 }
@@ -214,6 +275,18 @@ Depth depth_along(GpuSegment segment, Ray ray, vec2 part) {
   return depth;
 }
 
+/// Returns the depth of the last look that is closed, given that of the segment itself. That counts least: it
+/// meets the very tops of crowns more often than by chance, and the other looks pass beside the tops. A
+/// segment that meets no foliage needs no second look.
+Depth depth_on_segment(GpuSegment segment, vec3 direction, Depth depth) {
+  if (depth.sum == 0 && depth.net == 0) return depth;
+  for (uint which = 1u; which < looks; ++which) {
+    Depth found = depth_along(segment, look(segment.a, direction, which), vec2(0.0, 1.0));
+    if (is_closed(found) || !is_closed(depth)) depth = found;
+  }
+  return depth;
+}
+
 /// Returns the depth of foliage along the whole line, from outside of all foliage to outside, beyond both
 /// ends of the segment. Ends inside a volume or on its surface then need no rule of their own.
 Depth depth_on_line(GpuSegment segment, vec3 direction) {
@@ -242,13 +315,16 @@ void main() {
   }
   Walls walls;
   Depth depth;
-  if (blocked(segment, direction, walls, depth)) {
+  bool open;
+  if (blocked(segment, direction, walls, depth, open)) {
     results[row] = crossings_blocked;
     return;
   }
   uint status = walls.count;
+  if (open) status |= crossings_undecided;
   if (has_foliage) {
-    if (ends_in_foliage(segment, direction)) depth = depth_on_line(segment, direction);
+    depth = ends_in_foliage(segment, direction) ? depth_on_line(segment, direction)
+                                                : depth_on_segment(segment, direction, depth);
     results[row + 1u] = uint(max(depth.sum, 0));
     if (!is_closed(depth)) status |= crossings_foliage_open;
   }

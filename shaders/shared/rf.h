@@ -45,11 +45,14 @@ const uint crossings_max = 8u;  // walls on a segment, at most
 
 // A row of the results begins with crossings_blocked if the segment is blocked (also if the segment on which
 // it depends is blocked); the rest is undefined. Otherwise it holds the number of walls (plus
-// crossings_foliage_open), then, if the pass has foliage, the fraction of the segment inside it, then, if it
-// has walls, the facets passed.
+// crossings_foliage_open and crossings_undecided), then, if the pass has foliage, the fraction of the segment
+// inside it, then, if it has walls, the facets passed.
 const uint crossings_blocked = 0xffffffffu;
 // Flag: the line leaves foliage more or less often than it enters.
 const uint crossings_foliage_open = 0x100u;
+// Flag: the segment passes an edge within the roundings of fp32. Its walls are undefined, and it may be
+// blocked; the host decides. A segment that depends on it is traced.
+const uint crossings_undecided = 0x200u;
 const uint crossings_foliage_one = 1u << 24;  // the whole segment, once
 
 const uint crossings_end_in_foliage = 0x100u;  // flag: an end may be inside foliage of the static world
@@ -93,6 +96,18 @@ struct CrossingConstants {
 const float visibility_coplanar_m = 1e-4f;
 GREATX_FUNCTION float visibility_tolerance(float coordinate) {
   return visibility_coplanar_m + 4.0f * 5.9604645e-8f * coordinate;
+}
+
+/// Sine of the least angle of two facets that make a seam: what lies behind their edge is dark.
+const float crossings_seam_sine = 0.1f;
+/// Rounding a corner and the ends moves each by at most sqrt(3) 2^-24 of the largest coordinate, `reach`, and
+/// the traversal adds some roundings of distances: together less than 2^-20 reach. Edges at half of this
+/// radius are noticed.
+GREATX_FUNCTION float crossings_look_radius(float reach) { return 1.9073486e-6f * reach; }
+/// A hit this far from all edges is certain. The corners may stand off their facet's plane by
+/// visibility_coplanar_m, which moves them sideways by as much at 45 degrees.
+GREATX_FUNCTION float crossings_edge_band(float reach) {
+  return 2.0f * visibility_coplanar_m + crossings_look_radius(reach);
 }
 
 GREATX_SHARED_END

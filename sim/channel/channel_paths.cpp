@@ -147,7 +147,10 @@ void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
 
 ChannelPaths::Result ChannelPaths::collect(const gpu::TickSlot& slot) {
   InFlight& flight = in_flight_[slot.index];
-  const std::vector<rf::Crossing> crossings = crossings_.collect(flight.crossings, flight.segments);
+  uint64_t settled = 0;
+  const std::vector<rf::Crossing> crossings =
+      crossings_.collect(flight.crossings, flight.segments, *flight.world, &settled);
+  settled_segments_ += settled;
   Result result;
   result.world = std::move(flight.world);
   result.transmitter = flight.transmitter;
@@ -231,6 +234,7 @@ std::vector<std::pair<std::string, std::string>> ChannelPaths::notes(const LinkL
 void ChannelPaths::count(std::map<std::string, uint64_t>& counters) const {
   search_->count(counters);
   counters["geometric_paths"] = geometric_paths_;
+  counters["segments_settled_in_fp64"] = settled_segments_;
   counters["path_overflow"] = left_out_.paths;
   counters["paths"] = lit_paths_;
   counters["path_births"] = births_;

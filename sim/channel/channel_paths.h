@@ -151,7 +151,8 @@ class ChannelPaths {
   std::vector<Placed> placed_;  ///< [1 + receivers] transmitter, receivers; empty: nothing checked yet
   size_t placements_told_ = 0;  ///< messages in this sequence
   LinkLeftOut left_out_;
-  uint64_t geometric_paths_ = 0, lit_paths_ = 0, births_ = 0, deaths_ = 0, ends_inside_ = 0;
+  uint64_t geometric_paths_ = 0, settled_segments_ = 0, lit_paths_ = 0, births_ = 0, deaths_ = 0,
+           ends_inside_ = 0;
 };
 
 }  // namespace greatx::sim

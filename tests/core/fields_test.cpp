@@ -62,7 +62,9 @@ TEST(Yaml, BytesThatAreNotUtf8AreRefusedByLine) {
 
 TEST(Yaml, DeepNestingSeveralDocumentsAndOddKeysAreErrors) {
   EXPECT_THAT(message_of(std::string(100000, '[')), HasSubstr("x.yaml:1: expected well-formed YAML"));
-  EXPECT_EQ(message_of("a: 1\n---\nb: 2\n"), "x.yaml:3: expected one YAML document, found 2");
+  EXPECT_EQ(message_of("a: 1\n---\nb: 2\n"), "x.yaml:3: expected one YAML document, found 2 or more");
+  // yaml-cpp would find documents without end.
+  EXPECT_NE(message_of(",m directive}\n  \"leaals ").find("expected one YAML document"), std::string::npos);
   EXPECT_EQ(message_of("a: 1\n[b]: 2\n"), "x.yaml:2: expected a text as key, found a list");
 }
 

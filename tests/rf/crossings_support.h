@@ -26,7 +26,9 @@ inline std::vector<rf::Crossing> cross(const scene::Scene& scene, const rf::Face
   const rf::CrossingPass::Pending pending = pass.record(slot, segments);
   ring.submit(slot);
   ring.wait(slot);
-  return pass.collect(pending, segments);
+  rf::FacetWorld world(scene);
+  for (uint32_t body = 1; body < bodies.size(); ++body) world.move(body, {bodies[body]});
+  return pass.collect(pending, segments, world);
 }
 
 /// Returns a segment that may pass through `walls` walls.

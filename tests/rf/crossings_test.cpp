@@ -105,7 +105,7 @@ TEST(Crossings, EmptyBatchRecordsNothing) {
   gpu::TickSlot& slot = ring.begin();
   gpu_scene.record_update(slot, std::vector{Pose{}});
   const uint64_t before = device.counters().dispatches;
-  EXPECT_TRUE(pass.collect(pass.record(slot, {}), {}).empty());
+  EXPECT_TRUE(pass.collect(pass.record(slot, {}), {}, FacetWorld(scene)).empty());
   EXPECT_EQ(device.counters().dispatches, before);
   ring.submit(slot);
   ring.wait(slot);

@@ -130,7 +130,8 @@ class Channel {
     const CrossingPass::Pending pending = crossings_.record(slot, segments);
     ring.submit(slot);
     ring.wait(slot);
-    return fixed_.finish(link.paths, crossings_.collect(pending, segments), tx, rx, model_.facets);
+    return fixed_.finish(link.paths, crossings_.collect(pending, segments, model_.facets), tx, rx,
+                         model_.facets);
   }
 
   CandidateList last;  ///< candidates by moving bodies, or all candidates

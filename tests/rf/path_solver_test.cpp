@@ -90,7 +90,8 @@ Solved solve(const scene::Scene& scene, const dvec3& tx, const dvec3& rx, const 
   const CrossingPass::Pending pending = pass.record(slot, segments);
   ring.submit(slot);
   ring.wait(slot);
-  return {solver.finish(link.paths, pass.collect(pending, segments), transmitter, receiver, model.facets),
+  return {solver.finish(link.paths, pass.collect(pending, segments, model.facets), transmitter, receiver,
+                        model.facets),
           link.paths.size()};
 }
 

@@ -111,7 +111,7 @@ class Rig {
     const CrossingPass::Pending pending = pass_.record(slot, segments);
     ring_.submit(slot);
     ring_.wait(slot);
-    return pass_.collect(pending, segments);
+    return pass_.collect(pending, segments, model_.facets);
   }
 
   Bounds bounds_;

@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""Writes the corpus of the targets from the seeds of fuzz.py.
+
+    python3 tests/fuzz/targets/make_corpus.py tests/fuzz/targets/corpus
+"""
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+import seeds  # pylint: disable=wrong-import-position
+
+SIDECAR = """materials:
+  wall: {itu: concrete, thickness_m: 0.3}
+  "itu_*": {itu: brick, thickness_m: 0.24, scattering_coefficient: 0.3, pattern: directive}
+  "leaves_*": {foliage: weissberger}
+  "*": {relative_permittivity: 4.0, conductivity: 0.02}
+"""
+LARGEST = 24_000
+
+
+def kind_of(name):
+    """Returns the target that reads a file of this name, or None."""
+    if name.endswith((".gltf", ".glb")):
+        return "gltf"
+    if name.endswith((".png", ".jpg")):
+        return "picture"
+    if name.endswith(".ply"):
+        return "ply"
+    if name.endswith(".xml"):
+        return "mitsuba"
+    words = {"flight": "trajectory", "plain": "trajectory", "gain": "antenna", "field": "antenna"}
+    words.update({"shots": "shots", "points": "receivers"})
+    return words.get(pathlib.PurePath(name).stem) if name.endswith(".csv") else None
+
+
+def main():
+    corpus = pathlib.Path(sys.argv[1])
+    written = {}
+
+    def keep(target, data, suffix):
+        if len(data) > LARGEST or data in written.setdefault(target, []):
+            return
+        written[target].append(data)
+        folder = corpus / target
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / f"seed_{len(written[target]):02d}{suffix}").write_bytes(data)
+
+    for case in seeds.gltf() + seeds.picture() + seeds.mitsuba() + seeds.csv() + seeds.scenario():
+        for name, entry in case.files.items():
+            target = "scenario" if name.endswith(".yaml") and "radio" not in name else kind_of(name)
+            if target is not None:
+                keep(target, entry.content(), pathlib.PurePath(name).suffix)
+    keep("radio_material", SIDECAR.encode(), ".yaml")
+    header = b"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }"
+    header += b" " * (118 - len(header) - 1) + b"\n"
+    keep("npy", b"\x93NUMPY\x01\x00" + len(header).to_bytes(2, "little") + header + bytes(24), ".npy")
+
+
+if __name__ == "__main__":
+    main()
