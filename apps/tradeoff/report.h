@@ -9,7 +9,8 @@
 //                             "errors": [{"sensor", "name", "unit", "value", "meaning"}]}]}],
 //    "absent": [{"name", "why"}],
 //    "fronts": [{"modality", "sensor", "figure", "unit", "how",
-//                "points": [{"settings": {KNOB: LABEL}, "predicted_ms", "predicted_error", "tick_ms", "error",
+//                "points": [{"settings": {KNOB: LABEL}, "predicted_ms", "predicted_error", "tick_ms",
+// "error",
 //                            "default", "reference"}]}]}
 //
 // tick_ms and cpu_ms are {"median", "low", "high", "count"}, with the quartiles. `value` of an error is null
@@ -30,8 +31,8 @@ namespace greatx::apps {
 /// a picture cannot be read.
 void write_report(const nlohmann::json& report, const std::filesystem::path& folder);
 
-/// Returns in words how the settings of a knob compare: what the cheaper ones cost, where to stop, whether the
-/// default is beaten.
+/// Returns in words how the settings of a knob compare: what the cheaper ones cost, where to stop, whether
+/// the default is beaten.
 std::string words_of_knob(const nlohmann::json& knob);
 
 /// Returns the plot of a knob as SVG: the first figure of error over the time of a tick.

@@ -26,7 +26,8 @@ constexpr const char* style = R"(
 @media (prefers-color-scheme: dark) { :root { --paper: #111318; --panel: #1a1d24; --ink: #e2e6ee;
   --dim: #969daa; --grid: #2c303a; --own: #ff8a7a; --finest: #5fd3a2; --mark: #7db1ff; } }
 * { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 1120px; padding: 24px 16px 80px; background: var(--paper); color: var(--ink);
+body { margin: 0 auto; max-width: 1120px; padding: 24px 16px 80px; background: var(--paper);
+  color: var(--ink);
   font: 16px/1.55 system-ui, sans-serif; }
 h1 { font-size: 28px; margin: 8px 0; } h2 { margin: 56px 0 8px; font-size: 22px; } h3 { margin: 0 0 4px; }
 p { max-width: 78ch; } .dim { color: var(--dim); font-size: 14px; }
@@ -35,7 +36,8 @@ section { background: var(--panel); border: 1px solid var(--grid); border-radius
 svg { max-width: 100%; height: auto; } nav a { margin-right: 14px; white-space: nowrap; }
 a { color: var(--mark); }
 .scroll { overflow-x: auto; } table { border-collapse: collapse; font-size: 14px; margin-top: 10px; }
-th, td { padding: 4px 12px 4px 0; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--grid); }
+th, td { padding: 4px 12px 4px 0; text-align: right; white-space: nowrap;
+  border-bottom: 1px solid var(--grid); }
 th:first-child, td:first-child { text-align: left; } .own td { color: var(--own); }
 .finest td { color: var(--finest); }
 .pictures { display: flex; flex-wrap: wrap; gap: 12px; margin-top: 12px; }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Plots as SVG. Colours are CSS variables with defaults, so that a plot follows the page that it stands in and
-// can be looked at alone.
+// Plots as SVG. Colours are CSS variables with defaults, so that a plot follows the page that it stands in
+// and can be looked at alone.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -59,8 +59,8 @@ class Plot {
     x_ = {scale_around(std::max(low, 1e-6), std::max(high, 2e-6), true), x_label};
     y_ = {scale_around(y_low, y_high, y_logarithmic), y_label};
     svg_ = fmt::format(
-        R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" role="img" )"
-        R"(font-family="system-ui, sans-serif" font-size="13"><title>{2}</title>)"
+        R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" )"
+        R"(role="img" font-family="system-ui, sans-serif" font-size="13"><title>{2}</title>)"
         R"(<rect width="{0}" height="{1}" fill='var(--panel, #ffffff)'/>)",
         width, height, escaped(title));
     text(left, 20, title, "var(--ink, #1c2430)", "start", 15);
@@ -261,7 +261,8 @@ std::string overview_plot(const nlohmann::json& report) {
                     name_room - 10.0, y + 4.0, escaped(rows[r].name));
     for (const auto& [factor, setting] : rows[r].places)
       svg += fmt::format(
-          R"(<circle cx="{:.1f}" cy="{:.1f}" r="5" fill="{}" stroke='var(--mark, #175cd3)'><title>{}: {:.3g} of the time, {}</title></circle>)",
+          R"(<circle cx="{:.1f}" cy="{:.1f}" r="5" fill="{}" stroke='var(--mark, #175cd3)'>)"
+          R"(<title>{}: {:.3g} of the time, {}</title></circle>)",
           name_room + scale.at(factor) * span, y,
           (*setting)["exact"].get<bool>() ? "var(--mark, #175cd3)" : "var(--panel, #ffffff)",
           escaped((*setting)["label"].get<std::string>()), factor, escaped(error_text(Point(*setting))));

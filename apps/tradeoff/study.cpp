@@ -213,8 +213,8 @@ std::string Study::keep_picture(const sim::SettingResult& result, const Part& pa
   return {};
 }
 
-/// Measures a knob. Where the finest settings are refused (an echo buffer beyond the device's limits), it goes on
-/// without them: `kept` is the number of settings that are left, and `why` the message.
+/// Measures a knob. Where the finest settings are refused (an echo buffer beyond the device's limits), it
+/// goes on without them: `kept` is the number of settings that are left, and `why` the message.
 std::vector<sim::SettingResult> Study::measure_most(const Part& part, const sim::Knob& knob, size_t& kept,
                                                     std::string& why) {
   for (;;) try {

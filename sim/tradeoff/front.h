@@ -3,9 +3,9 @@
 //
 // Predicts which joint settings of several knobs are worth measuring. The time of a joint setting is taken to
 // be that of the scenario plus what slower settings add to it, times the factors of faster ones. Its error is
-// the root of the sum of squares (powers add up for errors in dB). Both are predictions, so whoever reports or
-// uses them measures the joint settings. They are wrong where one slow knob multiplies what another one costs
-// (diffraction and scattering), or where errors are of one sign.
+// the root of the sum of squares (powers add up for errors in dB). Both are predictions, so whoever reports
+// or uses them measures the joint settings. They are wrong where one slow knob multiplies what another one
+// costs (diffraction and scattering), or where errors are of one sign.
 #pragma once
 
 #include <string>

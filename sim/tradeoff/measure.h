@@ -44,9 +44,9 @@ struct SettingResult {
   Packet last;  ///< the records of the last tick
 };
 
-/// `settings` is not empty; `reference` is one of them. Their sensors have the same names. Records of sensors of
-/// `kind` are compared. `progress` is
-/// called with the share that is done, and may throw to stop. Throws what the simulator throws.
+/// `settings` is not empty; `reference` is one of them. Their sensors have the same names. Records of
+/// sensors of `kind` are compared. `progress` is called with the share that is done, and may throw to stop.
+/// Throws what the simulator throws.
 std::vector<SettingResult> measure_settings(gpu::Device& device, const std::vector<Experiment>& settings,
                                             size_t reference, std::string_view kind, const MeasurePlan& plan,
                                             const std::function<void(double)>& progress);

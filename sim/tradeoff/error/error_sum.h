@@ -43,14 +43,16 @@ class ErrorSum {
 ///   `links` % (of links with a path in one of the two only); `delay_spread` ns (median); `paths` % (by `id`:
 ///   1 - |both| / |either|).
 /// - camera: `flip` 1 (mean of FLIP at 67 pixels per degree; the smaller picture is enlarged bilinearly to
-///   the reference's size); `ssim` 1 (1 - mean structural similarity, ssim.h); `depth` m (mean of |difference| where both are finite), `depth_p95` m, `depth_other` % (pixels
+///   the reference's size); `ssim` 1 (1 - mean structural similarity, ssim.h); `depth` m (mean of
+///   |difference| where both are finite), `depth_p95` m, `depth_other` % (pixels
 ///   finite in one only); `ids` % (pixels of another instance); `flow` px (mean end-point error).
 /// - event_camera: `voxels` 1 (relative L1 of a voxel grid of 15 bins in time, each record for itself, events
 ///   shared bilinearly between bins, polarity as sign); `count` % (|n - n_ref| / n_ref); `time` us (median
 ///   over events that have a partner: the k-th event of a pixel and polarity); `unmatched` % (events of
 ///   either without a partner, of all).
 /// - lidar: `range` m (mean of |difference| over returns that both have, by ring, azimuth and number of the
-///   return); `range_p95` m; `intensity` 1 (mean of |difference|); `missed` % (returns of one only, of the reference's).
+///   return); `range_p95` m; `intensity` 1 (mean of |difference|); `missed` % (returns of one only, of the
+///   reference's).
 /// - radar: `map` dB (sum |P - P_ref| / sum P_ref over the range-Doppler map, 10 log10); `missed` % (of the
 ///   reference's detections, within a bin of range and of velocity); `false` % (detections without a partner,
 ///   of the reference's number); `power` dB (median of |difference| of the partners' received powers).

@@ -13,8 +13,8 @@
 namespace greatx::sim {
 
 /// Keeps samples for quantiles in bounded memory. Beyond `most` it keeps every second one, then every fourth
-/// one, and so on, in the order in which they came. The rank of a quantile of n kept samples is then uncertain
-/// by about 1/sqrt(n): 0.1 % for a million.
+/// one, and so on, in the order in which they came. The rank of a quantile of n kept samples is then
+/// uncertain by about 1/sqrt(n): 0.1 % for a million.
 class Samples {
  public:
   void add(double value) {
