@@ -33,7 +33,7 @@ h1 { font-size: 28px; margin: 8px 0; } h2 { margin: 56px 0 8px; font-size: 22px;
 p { max-width: 78ch; } .dim { color: var(--dim); font-size: 14px; }
 section { background: var(--panel); border: 1px solid var(--grid); border-radius: 10px; padding: 18px;
   margin: 18px 0; }
-svg { max-width: 100%; height: auto; } nav a { margin-right: 14px; white-space: nowrap; }
+svg { max-width: 100%; height: auto; } nav { display: flex; flex-wrap: wrap; gap: 2px 14px; }
 a { color: var(--mark); }
 .scroll { overflow-x: auto; } table { border-collapse: collapse; font-size: 14px; margin-top: 10px; }
 th, td { padding: 4px 12px 4px 0; text-align: right; white-space: nowrap;

@@ -79,7 +79,7 @@ class BoxLinks {
     const CrossingPass::Pending pending = pass.record(slot, segments);
     ring.submit(slot);
     ring.wait(slot);
-    const std::vector<Crossing> crossings = pass.collect(pending, segments);
+    const std::vector<Crossing> crossings = pass.collect(pending, segments, model_.facets);
     std::pair<size_t, size_t> count;
     for (size_t i = 0; i < targets.size(); ++i) {
       EndState receiver;
