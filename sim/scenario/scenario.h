@@ -22,6 +22,7 @@
 #include "renderer/lidar/scan/returns.h"
 #include "renderer/lidar/scan/scan_pattern.h"
 #include "rf/config/path_limits.h"
+#include "sim/scenario/accuracy.h"
 #include "sim/scenario/antenna.h"
 #include "sim/scenario/limits.h"
 #include "sim/scenario/optics.h"
@@ -223,6 +224,7 @@ struct Scenario {
   std::vector<ChannelConfig> channels;
   std::map<std::string, Switch> effects;  ///< by the names in sim/plan/effect_list.h
   double tolerance_db = 0.01;             ///< an effect that cannot change more stays off
+  AccuracyWish accuracy;                  ///< asks `greatx generate` to choose settings (sim/tradeoff)
 };
 
 /// Holds the indices of a sensor called "node/sensor".

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include <fmt/ranges.h>
+
 #include "core/activity.h"
 #include "core/input_file.h"
 #include "core/units.h"
@@ -45,6 +47,23 @@ std::map<std::string, Switch> parse_effects(const Field& field) {
   return effects;
 }
 
+AccuracyWish parse_accuracy(const FieldMap& map) {
+  AccuracyWish wish;
+  if (const auto f = map.find("time_budget_ms_per_tick")) wish.budget_ms = f->between(1e-3, 1e9);
+  const auto accuracy = map.find("accuracy");
+  if (!accuracy) return wish;
+  std::vector<std::string_view> names;
+  for (const AccuracyKind& kind : accuracy_kinds()) names.push_back(kind.name);
+  for (const auto& [name, value] : accuracy->entries())
+    if (std::ranges::find(names, name) == names.end())
+      value.refuse(fmt::format("expected one of {}, found '{}'", fmt::join(names, ", "), name));
+  for (const AccuracyKind& kind : accuracy_kinds())
+    for (const auto& [name, value] : accuracy->entries())
+      if (name == kind.name) wish.targets.push_back({&kind, value.between(kind.least, kind.most)});
+  if (wish.targets.empty()) accuracy->fail("one error or more", "none");
+  return wish;
+}
+
 /// Refuses names that would share a folder or a body.
 void check_names(const Field& root, const Scenario& scenario) {
   for (const auto& [key, field] : root.entries()) {
@@ -67,9 +86,9 @@ void check_names(const Field& root, const Scenario& scenario) {
 Scenario parse_scenario(const std::string& text, const std::string& name, const std::filesystem::path& folder,
                         const std::filesystem::path& assets) {
   const Field root = Field::parse_yaml(text, {name, folder, assets});
-  const FieldMap map(
-      root, {"greatx", "name", "seed", "sequences", "duration_s", "ticks", "trajectory_ticks", "tick_rate_hz",
-             "scene", "environment", "nodes", "channels", "effects", "tolerance_db"});
+  const FieldMap map(root, {"greatx", "name", "seed", "sequences", "duration_s", "ticks", "trajectory_ticks",
+                            "tick_rate_hz", "scene", "environment", "nodes", "channels", "effects",
+                            "tolerance_db", "accuracy", "time_budget_ms_per_tick"});
   map.require("greatx", "1 (the format's version)").choice({"1"});
 
   Scenario scenario;
@@ -88,6 +107,7 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   }
   if (const auto f = map.find("effects")) scenario.effects = parse_effects(*f);
   if (const auto f = map.find("tolerance_db")) scenario.tolerance_db = f->non_negative();
+  scenario.accuracy = parse_accuracy(map);
   check_names(root, scenario);
   return scenario;
 }
