@@ -18,6 +18,7 @@ void add_explain(CLI::App& app);
 void add_paths(CLI::App& app);
 void add_map(CLI::App& app);
 void add_tradeoff(CLI::App& app);
+void add_calibrate(CLI::App& app);
 void add_view(CLI::App& app);
 void add_selftest(CLI::App& app);
 

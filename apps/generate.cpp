@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "apps/calibration/resolve.h"
 #include "apps/commands.h"
 #include "apps/console/command_line.h"
 #include "apps/console/json_text.h"
@@ -61,10 +62,27 @@ bool run_sequences(sim::Simulator& simulator, io::DatasetWriter& writer, const s
   return true;
 }
 
+/// Gives an experiment settings if its scenario gives errors or a time budget instead. The choice goes into
+/// `calibration`; a run that goes on keeps the one in `file`.
+sim::Experiment with_settings(sim::Experiment experiment, const GenerateOptions& options, gpu::Device& device,
+                              const std::filesystem::path& file, nlohmann::json& calibration) {
+  if (experiment.scenario.accuracy.empty()) return experiment;
+  install_interrupt_handler();
+  Resolved resolved = resolve(experiment, device, options.scenario.assets,
+                              options.resume ? file : std::filesystem::path(), false, options.quiet);
+  if (!options.quiet && !options.json) std::cout << calibration_words(resolved.json);
+  calibration = std::move(resolved.json);
+  return sim::make_experiment(std::move(resolved.scenario), experiment);
+}
+
 void run_generate(const GenerateOptions& options) {
   const Clock::time_point begin = Clock::now();
-  const sim::Experiment experiment = sim::make_experiment(load_scenario(options.scenario));
+  sim::Experiment asked = sim::make_experiment(load_scenario(options.scenario));
   gpu::Device device(options.run.device_options());
+  const std::filesystem::path calibration_file = std::filesystem::path(options.output) / io::calibration_file;
+  nlohmann::json calibration;
+  const sim::Experiment experiment =
+      with_settings(std::move(asked), options, device, calibration_file, calibration);
   sim::Simulator simulator(device, experiment);
   io::DatasetWriter writer(options.output, sim::dataset_info(experiment, device, simulator.sensors()),
                            {options.threads, options.resume});
@@ -76,6 +94,7 @@ void run_generate(const GenerateOptions& options) {
       std::cout << options.output << ": complete already, nothing to do\n";
     return;
   }
+  if (!calibration.is_null()) io::write_file_atomically(calibration_file, json_text(calibration));
   install_interrupt_handler();
   double first_packet_s = 0.0;
   bool complete = false;

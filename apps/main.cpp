@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
   apps::add_paths(app);
   apps::add_map(app);
   apps::add_tradeoff(app);
+  apps::add_calibrate(app);
   apps::add_bench(app);
   apps::add_selftest(app);
   apps::read_numbers_strictly(app);

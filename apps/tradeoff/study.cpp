@@ -65,9 +65,6 @@ std::string duration(double seconds) {
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
-/// Figures that are relative to a power add up as powers.
-bool relative_db(const std::string& name) { return name == "nmse" || name == "map"; }
-
 constexpr const char* how_measured =
     "Each knob was measured by itself, with the sensors of its modality alone. A tick was run under every "
     "setting before the next one, so that all settings meet the same ticks and the same state of the "
@@ -213,27 +210,6 @@ std::string Study::keep_picture(const sim::SettingResult& result, const Part& pa
   return {};
 }
 
-/// Measures a knob. Where the finest settings are refused (an echo buffer beyond the device's limits), it
-/// goes on without them: `kept` is the number of settings that are left, and `why` the message.
-std::vector<sim::SettingResult> Study::measure_most(const Part& part, const sim::Knob& knob, size_t& kept,
-                                                    std::string& why) {
-  for (;;) try {
-      std::vector<sim::Experiment> settings;
-      for (size_t i = 0; i < kept; ++i) {
-        std::vector<YamlChange> changes = knob.context_changes;
-        const std::vector<YamlChange>& own = knob.settings[i].changes;
-        changes.insert(changes.end(), own.begin(), own.end());
-        settings.push_back(sim::make_experiment(
-            sim::changed(part.experiment.scenario, changes, scenario_options_.assets), whole_));
-      }
-      return measure(settings, std::min(knob.reference, kept - 1), part);
-    } catch (const UserError& error) {
-      if (kept <= 2 || knob.reference + 1 != knob.settings.size()) throw;
-      why = error.what();
-      --kept;
-    }
-}
-
 void Study::measure_knob(const Part& part, const sim::Knob& knob) {
   Json json{{"name", knob.name},
             {"modality", sim::name_of(part.modality)},
@@ -247,12 +223,13 @@ void Study::measure_knob(const Part& part, const sim::Knob& knob) {
   const auto begin = std::chrono::steady_clock::now();
   std::string words = knob.skipped;
   if (knob.skipped.empty()) try {
-      size_t kept = knob.settings.size();
-      std::string dropped;
-      const std::vector<sim::SettingResult> results = measure_most(part, knob, kept, dropped);
-      if (kept < knob.settings.size()) {
-        json["reference"] = knob.settings[kept - 1].label;
-        json["about"] = fmt::format("{} (without finer settings: {})", knob.about, dropped);
+      const sim::KnobResult measured = sim::measure_knob(
+          part.experiment, knob, whole_, scenario_options_.assets,
+          [&](const auto& settings, size_t reference) { return measure(settings, reference, part); });
+      const std::vector<sim::SettingResult>& results = measured.results;
+      if (!measured.refused.empty()) {
+        json["reference"] = knob.settings[measured.reference].label;
+        json["about"] = fmt::format("{} (without finer settings: {})", knob.about, measured.refused);
       }
       const bool differs = std::ranges::any_of(results, [](const auto& result) { return !result.exact; });
       std::vector<std::string> said;
@@ -351,7 +328,7 @@ std::optional<JointKnob> joint_knob(const sim::Knob& knob, const Json& measured,
     for (const Json& error : setting["errors"])
       if (error["name"] == figure && !error["value"].is_null())
         point.power =
-            std::max(point.power, sim::error_power(error["value"].get<double>(), relative_db(figure)));
+            std::max(point.power, sim::error_power(error["value"].get<double>(), sim::relative_db(figure)));
     matters |= !setting["exact"].get<bool>();
     joint.front.settings.push_back(point);
   }
@@ -403,8 +380,7 @@ void Study::measure_front(const Part& part) {
         for (size_t k = 0; k < joint.size(); ++k)
           for (const YamlChange& change : joint[k].knob->settings[point.choice[k]].changes)
             changes.push_back(change);
-        settings.push_back(sim::make_experiment(
-            sim::changed(part.experiment.scenario, changes, scenario_options_.assets), whole_));
+        settings.push_back(sim::experiment_with(part.experiment, changes, whole_, scenario_options_.assets));
         kept.push_back(point);
       } catch (const UserError&) {  // settings that exclude each other
         if (&point == &points.back()) throw;
@@ -413,7 +389,7 @@ void Study::measure_front(const Part& part) {
     for (size_t i = 0; i < results.size(); ++i) {
       Json point{{"settings", Json::object()},
                  {"predicted_ms", kept[i].ms},
-                 {"predicted_error", number(sim::error_of_power(kept[i].power, relative_db(figure)))},
+                 {"predicted_error", number(sim::error_of_power(kept[i].power, sim::relative_db(figure)))},
                  {"tick_ms", json_of(results[i].wall_ms)},
                  {"error", nullptr},
                  {"default", i + 2 == results.size()},

@@ -57,8 +57,6 @@ class Study {
   sim::MeasurePlan plan_of(const Part& part) const;
   std::vector<sim::SettingResult> measure(const std::vector<sim::Experiment>& settings, size_t reference,
                                           const Part& part);
-  std::vector<sim::SettingResult> measure_most(const Part& part, const sim::Knob& knob, size_t& kept,
-                                               std::string& why);
   void measure_knob(const Part& part, const sim::Knob& knob);
   void measure_front(const Part& part);
   std::string keep_picture(const sim::SettingResult& result, const Part& part, const std::string& name) const;

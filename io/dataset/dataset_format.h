@@ -25,9 +25,13 @@ inline constexpr const char* journal_file = "journal.txt";  ///< exists only whi
 /// Holds the results of the run's consistency checks, by record. It lies beside the data and not in the
 /// manifest, because it is complete only when the data are.
 inline constexpr const char* consistency_file = "consistency.csv";
+/// Holds what a calibration has chosen for the run, if its scenario gave errors instead of settings. It has
+/// times, which do not decide the bytes of the data, so it is not part of the manifest.
+inline constexpr const char* calibration_file = "calibration.json";
 /// Lists the files that `greatx generate` and `greatx inspect` may leave beside the data. They are not part
 /// of the manifest.
-inline constexpr const char* companion_files[] = {"contact_sheet.png", "animation.webp", consistency_file};
+inline constexpr const char* companion_files[] = {"contact_sheet.png", "animation.webp", consistency_file,
+                                                  calibration_file};
 
 // A data set may state no numbers beyond these bounds, so that false numbers cost neither time nor memory.
 inline constexpr int64_t most_sequences = 1'000'000, most_ticks = 1'000'000'000'000;

@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/watch.h"
@@ -233,13 +234,9 @@ bool is_own(const std::string& name) {
          name.find_first_not_of("0123456789abcdef") == key_bytes;
 }
 
-std::string variable(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? "" : value;
-}
-
 uint64_t most_bytes_by_environment() {
-  const std::string text = variable("GREATX_CACHE_MIB");
+  const char* const value = std::getenv("GREATX_CACHE_MIB");
+  const std::string text = value == nullptr ? "" : value;
   if (text.empty()) return SearchCache::default_most_bytes;
   constexpr uint64_t most_mib = uint64_t{1} << 40;
   uint64_t mib = 0;
@@ -255,16 +252,7 @@ uint64_t most_bytes_by_environment() {
 SearchCache::SearchCache(fs::path folder, uint64_t most_bytes)
     : folder_(std::move(folder)), most_bytes_(most_bytes) {}
 
-SearchCache SearchCache::standard() {
-  const uint64_t most_bytes = most_bytes_by_environment();
-  if (const std::string own = variable("GREATX_CACHE"); !own.empty())
-    return SearchCache(own == "off" ? fs::path{} : fs::path(own), most_bytes);
-  if (const std::string shared = variable("XDG_CACHE_HOME"); !shared.empty())
-    return SearchCache(fs::path(shared) / "greatx", most_bytes);
-  if (const std::string home = variable("HOME"); !home.empty())
-    return SearchCache(fs::path(home) / ".cache" / "greatx", most_bytes);
-  return SearchCache({}, most_bytes);
-}
+SearchCache SearchCache::standard() { return SearchCache(cache_folder(), most_bytes_by_environment()); }
 
 std::optional<BeamSearchResult> SearchCache::load(const std::string& key, const SearchExtent& extent) const {
   if (folder_.empty()) return std::nullopt;

@@ -32,15 +32,6 @@ bool belongs(const NodeConfig& node, const SensorConfig& sensor, Modality modali
          });
 }
 
-bool has(const Scenario& scenario, Modality modality) {
-  if (modality == Modality::csi) return !scenario.channels.empty();
-  return std::ranges::any_of(scenario.nodes, [&](const NodeConfig& node) {
-    return std::ranges::any_of(node.sensors, [&](const SensorConfig& sensor) {
-      return sensor_kind(sensor).type == kind_of(modality);
-    });
-  });
-}
-
 }  // namespace
 
 std::string_view name_of(Modality modality) { return modality_rows[static_cast<size_t>(modality)].name; }
@@ -49,6 +40,15 @@ std::optional<Modality> modality_of(std::string_view name) {
   for (const ModalityRow& row : modality_rows)
     if (row.name == name) return row.modality;
   return {};
+}
+
+bool has(const Scenario& scenario, Modality modality) {
+  if (modality == Modality::csi) return !scenario.channels.empty();
+  return std::ranges::any_of(scenario.nodes, [&](const NodeConfig& node) {
+    return std::ranges::any_of(node.sensors, [&](const SensorConfig& sensor) {
+      return sensor_kind(sensor).type == kind_of(modality);
+    });
+  });
 }
 
 Scenario changed(const Scenario& scenario, const std::vector<YamlChange>& changes,

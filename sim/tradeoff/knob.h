@@ -49,6 +49,9 @@ struct Knob {
   std::string skipped;             ///< why it is not measured; empty: it is
 };
 
+/// Whether the scenario has sensors of the modality, or a channel.
+bool has(const Scenario& scenario, Modality modality);
+
 /// Returns the scenario with the sensors of one modality alone, and without the consistency check. Antennas
 /// stay. An event camera keeps the camera whose pixels it has. None if it has no such sensor.
 std::optional<Scenario> alone(const Scenario& scenario, Modality modality,

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "sim/run/simulator.h"
+#include "sim/scenario/sensor_kinds.h"
 
 namespace greatx::sim {
 
@@ -93,9 +94,14 @@ bool same_bytes(const SensorSpec& a, const Record& x, const SensorSpec& b, const
 class Judge {
  public:
   Judge(const std::vector<SensorSpec>& reference, const std::vector<SensorSpec>& specs, std::string_view kind)
-      : reference_(reference), specs_(specs) {
-    for (const SensorSpec& spec : reference)
-      sums_.push_back(spec.kind == kind ? make_error_sum(spec.kind) : nullptr);
+      : reference_(reference), specs_(specs), kind_(kind) {
+    restart();
+  }
+  /// Forgets what was added.
+  void restart() {
+    sums_.clear();
+    for (const SensorSpec& spec : reference_)
+      sums_.push_back(spec.kind == kind_ ? make_error_sum(spec.kind) : nullptr);
   }
   void add(const Packet& reference, const Packet& packet, SettingResult& result) {
     for (size_t i = 0; i < reference_.size(); ++i) {
@@ -118,20 +124,34 @@ class Judge {
 
  private:
   const std::vector<SensorSpec>&reference_, &specs_;
+  std::string_view kind_;
   std::vector<std::unique_ptr<ErrorSum>> sums_;
 };
 
 }  // namespace
 
+int64_t ticks_between_records(const Scenario& scenario) {
+  double highest_hz = 0.0;
+  for (const NodeConfig& node : scenario.nodes)
+    for (const SensorConfig& sensor : node.sensors)
+      if (sensor_kind(sensor).fires) highest_hz = std::max(highest_hz, sensor.rate_hz.value());
+  for (const ChannelConfig& channel : scenario.channels)
+    highest_hz = std::max(highest_hz, channel.rate_hz.value());
+  if (highest_hz <= 0.0) return 1;
+  return std::max<int64_t>(static_cast<int64_t>(scenario.tick_rate_hz.value() / highest_hz), 1);
+}
+
 MeasurePlan plan_blocks(const Scenario& scenario, int64_t blocks, int64_t ticks) {
   MeasurePlan plan;
-  plan.ticks = std::clamp<int64_t>(scenario.ticks - plan.warm_up, 1, ticks);
-  if (scenario.ticks <= plan.warm_up) plan.warm_up = 0;
+  const int64_t stride = ticks_between_records(scenario);
+  const int64_t records = std::max<int64_t>(scenario.ticks / stride, 1);
+  plan.ticks = std::clamp<int64_t>(records - plan.warm_up, 1, ticks);
+  if (records <= plan.warm_up) plan.warm_up = 0;
   const int64_t length = plan.warm_up + plan.ticks;
-  blocks = std::clamp<int64_t>(scenario.ticks / length, 1, blocks);
+  blocks = std::clamp<int64_t>(records / length, 1, blocks);
   plan.starts.clear();
   for (int64_t b = 0; b < blocks; ++b)
-    plan.starts.push_back(blocks == 1 ? 0 : b * (scenario.ticks - length) / (blocks - 1));
+    plan.starts.push_back(blocks == 1 ? 0 : stride * (b * (records - length) / (blocks - 1)));
   return plan;
 }
 
@@ -141,7 +161,7 @@ std::vector<SettingResult> measure_settings(gpu::Device& device, const std::vect
   GREATX_CHECK(reference < settings.size(), "reference {} of {}", reference, settings.size());
   std::vector<std::unique_ptr<Runner>> runners;
   std::vector<SettingResult> results(settings.size());
-  std::vector<Judge> judges;
+  std::vector<Judge> judges, tick_judges;
   MeasurePlan plan = given;
   for (size_t i = 0; i < settings.size(); ++i) {
     runners.push_back(std::make_unique<Runner>(device, settings[i]));
@@ -150,8 +170,10 @@ std::vector<SettingResult> measure_settings(gpu::Device& device, const std::vect
     if (runners[i]->simulator().remembers()) plan.starts = {0};
     progress(0.3 * static_cast<double>(i + 1) / static_cast<double>(settings.size()));
   }
-  for (const SettingResult& result : results)
+  for (const SettingResult& result : results) {
     judges.emplace_back(results[reference].specs, result.specs, kind);
+    tick_judges.emplace_back(results[reference].specs, result.specs, kind);
+  }
   const int64_t length = plan.warm_up + plan.ticks;
   for (size_t block = 0; block < plan.starts.size(); ++block) {
     for (size_t i = 0; i < runners.size(); ++i) runners[i]->start(plan.starts[block], results[i]);
@@ -170,8 +192,13 @@ std::vector<SettingResult> measure_settings(gpu::Device& device, const std::vect
                      static_cast<double>(plan.starts.size()));
       }
       if (!ran) break;
-      for (size_t i = 0; counts && i < runners.size(); ++i)
+      for (size_t i = 0; counts && i < runners.size(); ++i) {
         judges[i].add(runners[reference]->packet(), runners[i]->packet(), results[i]);
+        if (!plan.each_tick) continue;
+        tick_judges[i].restart();
+        tick_judges[i].add(runners[reference]->packet(), runners[i]->packet(), results[i]);
+        results[i].tick_errors.push_back(tick_judges[i].errors());
+      }
     }
   }
   for (size_t i = 0; i < runners.size(); ++i) {
@@ -179,6 +206,32 @@ std::vector<SettingResult> measure_settings(gpu::Device& device, const std::vect
     results[i].last = std::move(runners[i]->packet());
   }
   return results;
+}
+
+Experiment experiment_with(const Experiment& experiment, const std::vector<YamlChange>& changes,
+                           const Experiment& whole, const std::filesystem::path& assets) {
+  return make_experiment(changed(experiment.scenario, changes, assets), whole);
+}
+
+KnobResult measure_knob(const Experiment& experiment, const Knob& knob, const Experiment& whole,
+                        const std::filesystem::path& assets, const MeasureFunction& measure) {
+  KnobResult result;
+  for (size_t kept = knob.settings.size();;) try {
+      std::vector<Experiment> settings;
+      for (size_t i = 0; i < kept; ++i) {
+        std::vector<YamlChange> changes = knob.context_changes;
+        const std::vector<YamlChange>& own = knob.settings[i].changes;
+        changes.insert(changes.end(), own.begin(), own.end());
+        settings.push_back(experiment_with(experiment, changes, whole, assets));
+      }
+      result.reference = std::min(knob.reference, kept - 1);
+      result.results = measure(settings, result.reference);
+      return result;
+    } catch (const UserError& error) {
+      if (kept <= 2 || knob.reference + 1 != knob.settings.size()) throw;
+      result.refused = error.what();
+      --kept;
+    }
 }
 
 Spread spread_of(std::vector<double> samples) {

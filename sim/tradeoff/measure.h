@@ -16,6 +16,7 @@
 #include "gpu/device.h"
 #include "sim/experiment/experiment.h"
 #include "sim/tradeoff/error/error_sum.h"
+#include "sim/tradeoff/knob.h"
 
 namespace greatx::sim {
 
@@ -24,7 +25,11 @@ struct MeasurePlan {
   std::vector<int64_t> starts{0};  ///< ticks; each begins a block
   int64_t warm_up = 1;             ///< ticks of each block that are neither timed nor compared
   int64_t ticks = 4;               ///< of each block after these
+  bool each_tick = false;          ///< keeps the errors of each tick by itself, too
 };
+
+/// Returns the ticks from one record to the next of the sensor or channel with the highest rate; at least 1.
+int64_t ticks_between_records(const Scenario& scenario);
 
 /// Returns a plan of `blocks` blocks spread over the scenario, shortened if it has fewer ticks.
 MeasurePlan plan_blocks(const Scenario& scenario, int64_t blocks, int64_t ticks);
@@ -40,6 +45,8 @@ struct SettingResult {
   double build_ms = 0.0;                ///< upload of the scene, pipelines
   bool exact = true;                    ///< all arrays of the compared records have the reference's bytes
   std::vector<SensorError> errors;      ///< against the reference
+  /// [timed tick], if MeasurePlan::each_tick.
+  std::vector<std::vector<SensorError>> tick_errors;
   std::vector<SensorSpec> specs;
   Packet last;  ///< the records of the last tick
 };
@@ -50,6 +57,24 @@ struct SettingResult {
 std::vector<SettingResult> measure_settings(gpu::Device& device, const std::vector<Experiment>& settings,
                                             size_t reference, std::string_view kind, const MeasurePlan& plan,
                                             const std::function<void(double)>& progress);
+
+/// The settings of one knob as they were measured.
+struct KnobResult {
+  std::vector<SettingResult> results;  ///< [setting], without those that were refused
+  size_t reference = 0;                ///< index of the setting that the others were compared with
+  std::string refused;                 ///< why the finest settings are missing; empty: none is
+};
+
+/// Makes the experiment of a scenario with changes. It takes the world of `whole` if that is the same.
+Experiment experiment_with(const Experiment& experiment, const std::vector<YamlChange>& changes,
+                           const Experiment& whole, const std::filesystem::path& assets);
+
+/// Measures the settings of a knob. If the finest ones are refused (for example an echo buffer beyond the
+/// device's limits), it goes on without them. Throws UserError if fewer than two are left.
+using MeasureFunction =
+    std::function<std::vector<SettingResult>(const std::vector<Experiment>& settings, size_t reference)>;
+KnobResult measure_knob(const Experiment& experiment, const Knob& knob, const Experiment& whole,
+                        const std::filesystem::path& assets, const MeasureFunction& measure);
 
 /// Of the times of ticks: median and quartiles.
 struct Spread {

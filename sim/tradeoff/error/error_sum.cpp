@@ -6,6 +6,8 @@
 
 namespace greatx::sim {
 
+bool relative_db(std::string_view figure) { return figure == "nmse" || figure == "map"; }
+
 const Array* array_of(const SensorSpec& spec, const Record& record, std::string_view name) {
   for (size_t i = 0; i < spec.arrays.size() && i < record.arrays.size(); ++i)
     if (spec.arrays[i].name == name) return &record.arrays[i];

@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/record.h"
@@ -22,6 +23,9 @@ struct ErrorFigure {
   double value = 0.0;
   std::string meaning;  ///< one line, e.g. "error of H(f) relative to its power"
 };
+
+/// Whether a figure is in dB relative to a power, so that errors add up as powers: `nmse` and `map`.
+bool relative_db(std::string_view figure);
 
 class ErrorSum {
  public:

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Chooses settings for a scenario that says which errors it allows (`accuracy:`) or how long a tick may take
+// (`time_budget_ms_per_tick:`) instead of giving settings. Data flows one way, for each modality:
+//
+//   Experiment ─► effects off, one by one ─► knobs, one by one ─► predicted front ─► joint settings, measured
+//              ─► other ticks: what is promised is checked ─► CalibratedPart ─► the scenario with the choice
+//
+// The reference of a modality has every effect on that has something to act on, and every knob at its finest
+// setting. A knob that the scenario writes stays as written: it is a part of what is asked for.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/fields/edit_yaml.h"
+#include "gpu/device.h"
+#include "sim/experiment/experiment.h"
+#include "sim/tradeoff/knob.h"
+#include "sim/tradeoff/measure.h"
+
+namespace greatx::sim {
+
+/// A knob that takes another setting than it has by default.
+struct ChosenSetting {
+  std::string knob, own, chosen;  ///< own: empty if it is none of the knob's settings
+};
+
+/// A knob that takes no part, and why.
+struct KeptKnob {
+  std::string knob, why;
+};
+
+struct TargetOutcome {
+  AccuracyTarget target;
+  bool asked = true;  ///< false: the weight of a modality that has a time budget alone
+  /// Errors against the reference, of the worst sensor, on the ticks of the calibration and on others. NaN:
+  /// there was nothing to compare, or no tick was left.
+  double calibrated = 0.0, validated = 0.0;
+};
+
+/// Holds the choice for one modality.
+struct CalibratedPart {
+  Modality modality = Modality::csi;
+  std::vector<ChosenSetting> chosen;
+  std::vector<KeptKnob> kept;
+  std::vector<TargetOutcome> outcomes;
+  std::vector<YamlChange> changes;  ///< of the scenario with all of its sensors
+  std::string reference;            ///< in words: the knobs' settings
+  /// Times of ticks of the modality alone, measured in turns on the ticks that check the promise: with the
+  /// choice, as the scenario is without it, and of the reference.
+  Spread chosen_ms, own_ms, reference_ms;
+  /// Ticks that took no part in the choice, and those of them at which every target was met.
+  int64_t checked_ticks = 0, met_ticks = 0;
+};
+
+struct Calibration {
+  std::vector<CalibratedPart> parts;  ///< of the modalities that were calibrated
+  double budget_ms = 0.0;             ///< 0: none
+  Spread tick_ms;                     ///< of the whole scenario with the choice; only with a budget
+  std::string text;                   ///< the scenario with the choice, without its wishes
+};
+
+/// Chooses settings. `say` takes a line of progress from time to time and may throw to stop. Throws UserError
+/// if no sensor delivers what a target speaks of, if no setting meets the time budget, and what the simulator
+/// throws.
+Calibration calibrate(gpu::Device& device, const Experiment& experiment, const std::filesystem::path& assets,
+                      const std::function<void(const std::string&)>& say);
+
+/// Returns the share of ticks that meet the targets at least, with 95 % confidence, if `met` of `checked`
+/// independent ticks did (Clopper and Pearson, Biometrika 26, 1934, one-sided). 0 if none was checked.
+double least_share(int64_t met, int64_t checked);
+
+}  // namespace greatx::sim

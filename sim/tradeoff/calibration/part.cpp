@@ -1,0 +1,340 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/tradeoff/calibration/part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.h"
+#include "sim/tradeoff/calibration/ticks.h"
+#include "sim/tradeoff/calibration/wishes.h"
+
+namespace greatx::sim {
+
+namespace {
+
+constexpr double margin = 0.5;         ///< of the allowed power that the choice may take: 3 dB
+constexpr double dropped_share = 0.1;  ///< of the allowed power that effects may take which go first
+constexpr double least_saving = 0.03;  ///< of a tick; below that, times count as equal
+constexpr double most_factor = 10.0;   ///< settings that take longer than so many times the default are out
+constexpr double round_factor = 4.0;   ///< of power between the joint settings of a round
+constexpr size_t rounds = 3, of_a_round = 3;
+
+double median_ms(const SettingResult& result) { return spread_of(result.wall_ms).median; }
+
+bool is_effect(const Knob& knob) {
+  return knob.settings.size() == 2 && knob.settings[0].changes.size() == 1 &&
+         knob.settings[0].changes[0].path.front() == YamlStep("effects");
+}
+YamlChange switched(const std::string& effect, bool on) {
+  return {YamlChange::Kind::set, {"effects", effect}, on ? "on" : "off"};
+}
+bool is_on(const Experiment& experiment, const std::string& effect) {
+  for (const Effect* known : experiment.plan.all())
+    if (known->name == effect) return known->on;
+  return false;
+}
+void append(std::vector<YamlChange>& changes, const std::vector<YamlChange>& more) {
+  changes.insert(changes.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+PartCalibration::PartCalibration(const CalibrationRun& run, Modality modality,
+                                 std::vector<AccuracyTarget> targets, bool asked)
+    : run_(run),
+      modality_(modality),
+      targets_(std::move(targets)),
+      asked_(asked),
+      base_(make_experiment(scenario_to_calibrate(run.whole, modality, run.assets), run.whole)),
+      open_(base_) {
+  find_knobs();
+}
+
+Experiment PartCalibration::with(const std::vector<YamlChange>& changes) const {
+  return experiment_with(base_, changes, run_.whole, run_.assets);
+}
+
+std::vector<SettingResult> PartCalibration::measure(const std::vector<Experiment>& settings,
+                                                    size_t reference) const {
+  return measure_settings(run_.device, settings, reference, kind_of(modality_),
+                          calibration_ticks(base_.scenario), [this](double) { run_.say({}); });
+}
+
+void PartCalibration::find_knobs() {
+  std::vector<YamlChange> on;
+  for (const Knob& knob : knobs_of(base_, modality_, modality_ != Modality::events)) {
+    const std::string why = why_kept(knob, base_, run_.whole.scenario, modality_);
+    if (!why.empty()) {
+      kept_.push_back({knob.name, why});
+      continue;
+    }
+    if (!is_effect(knob)) continue;
+    effects_.push_back(knob);
+    on.push_back(switched(knob.name, true));
+  }
+  open_ = with(on);
+  // What takes part although it is switched on in vain has nothing to act on.
+  std::erase_if(effects_, [&](const Knob& knob) { return !is_on(open_, knob.name); });
+}
+
+double PartCalibration::worst(const std::vector<SensorError>& errors, const AccuracyTarget& target) const {
+  double worst = std::numeric_limits<double>::quiet_NaN();
+  for (const SensorError& error : errors)
+    if (error.figure.name == target.kind->figure && !(error.figure.value <= worst))
+      worst = error.figure.value;
+  return worst;
+}
+
+double PartCalibration::power_of(const std::vector<SensorError>& errors) const {
+  double power = 0.0;
+  for (const AccuracyTarget& target : targets_) {
+    const bool db = relative_db(target.kind->figure);
+    const double error = worst(errors, target);
+    if (!std::isnan(error)) power = std::max(power, error_power(error, db) / error_power(target.value, db));
+  }
+  return power;
+}
+
+void PartCalibration::measure_knobs() {
+  run_.say(fmt::format("{}: {} effects, one by one", name_of(modality_), effects_.size()));
+  measure_effects();
+  measure_numbers();
+  std::vector<FrontKnob> knobs;
+  for (const Free& free : free_) knobs.push_back(free.front);
+  front_ = front_of(own_ms_, knobs);
+  for (FrontPoint& point : front_) point.power += dropped_power_;
+  chosen_ = front_.back();
+}
+
+void PartCalibration::measure_effects() {
+  std::vector<Experiment> settings{open_};
+  std::vector<Knob> able;
+  for (const Knob& knob : effects_) try {
+      settings.push_back(experiment_with(open_, {switched(knob.name, false)}, run_.whole, run_.assets));
+      able.push_back(knob);
+    } catch (const UserError&) {  // another setting needs it
+    }
+  effects_ = std::move(able);
+  const std::vector<SettingResult> results = measure(settings, 0);
+  own_ms_ = median_ms(results[0]);
+  if (asked_) check_figures(results[0], targets_, run_.whole.scenario);
+  std::vector<FrontSetting> off;
+  for (size_t i = 0; i < effects_.size(); ++i)
+    off.push_back({median_ms(results[i + 1]), power_of(results[i + 1].errors)});
+  drop_effects(off);
+}
+
+/// Effects that hardly matter go first, so that the knobs are measured without their time.
+void PartCalibration::drop_effects(const std::vector<FrontSetting>& off) {
+  std::vector<size_t> order(off.size());
+  for (size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, {}, [&](size_t i) { return off[i].power; });
+  const double open_ms = own_ms_;
+  for (const size_t i : order) {
+    const std::string& name = effects_[i].name;
+    const bool saves = off[i].ms < (1.0 - least_saving) * open_ms, own_on = is_on(base_, name);
+    if (dropped_power_ + off[i].power <= dropped_share && (saves || !own_on)) {
+      dropped_power_ += off[i].power;
+      dropped_.push_back(name);
+      if (saves) own_ms_ *= off[i].ms / open_ms;
+      continue;
+    }
+    if (!saves) continue;  // stays on for nothing
+    Free free{effects_[i], {}, 1, 1};
+    free.front.settings = {{own_ms_ * off[i].ms / open_ms, off[i].power}, {own_ms_, 0.0}};
+    free_.push_back(std::move(free));
+  }
+  // Times of the effects that stay are ratios to the base that is left.
+  for (Free& free : free_) {
+    const double ratio = free.front.settings[0].ms / free.front.settings[1].ms;
+    free.front.settings = {{own_ms_ * ratio, free.front.settings[0].power}, {own_ms_, 0.0}};
+  }
+}
+
+void PartCalibration::measure_numbers() {
+  std::vector<YamlChange> changes;
+  for (const Knob& effect : effects_)
+    changes.push_back(switched(effect.name, std::ranges::find(dropped_, effect.name) == dropped_.end()));
+  open_ = with(changes);
+  std::vector<Knob> numbers;
+  for (const Knob& knob : knobs_of(open_, modality_, modality_ != Modality::events))
+    if (!is_effect(knob) && why_kept(knob, base_, run_.whole.scenario, modality_).empty())
+      numbers.push_back(knob);
+  for (size_t k = 0; k < numbers.size(); ++k) {
+    run_.say(
+        fmt::format("{}: knob {} of {}, {}", name_of(modality_), k + 1, numbers.size(), numbers[k].name));
+    add_number(numbers[k]);
+  }
+}
+
+void PartCalibration::add_number(const Knob& given) {
+  Knob knob = given;
+  if (!knob.standard) {
+    knob.settings.insert(knob.settings.begin(), Setting{"as it is", {}, {}});
+    ++knob.reference;
+    knob.standard = 0;
+  }
+  KnobResult measured;
+  try {
+    measured =
+        measure_knob(open_, knob, run_.whole, run_.assets,
+                     [this](const auto& settings, size_t reference) { return measure(settings, reference); });
+  } catch (const UserError& error) {
+    kept_.push_back({knob.name, fmt::format("cannot be set here: {}", error.what())});
+    return;
+  }
+  if (*knob.standard >= measured.results.size()) return;
+  const double own = median_ms(measured.results[*knob.standard]);
+  Free free{knob, {}, 0, 0};
+  free.knob.settings.clear();
+  bool matters = false;
+  for (size_t i = 0; i < measured.results.size(); ++i) {
+    double ratio = median_ms(measured.results[i]) / own;
+    if (i != *knob.standard && ratio > most_factor) continue;
+    if (std::abs(ratio - 1.0) < least_saving) ratio = 1.0;
+    const double power = power_of(measured.results[i].errors);
+    matters |= ratio < 1.0 || power > 0.0;
+    if (i == *knob.standard) free.own = free.knob.settings.size();
+    if (i == measured.reference) free.reference = free.knob.settings.size();
+    free.knob.settings.push_back(knob.settings[i]);
+    // Of equal settings the scenario's own one is taken.
+    free.front.settings.push_back({own_ms_ * ratio * (i == *knob.standard ? 1.0 : 1.0 + 1e-6), power});
+  }
+  if (free.reference == 0) free.reference = free.knob.settings.size() - 1;
+  if (matters) free_.push_back(std::move(free));
+}
+
+std::vector<YamlChange> PartCalibration::reference_changes() const {
+  std::vector<YamlChange> changes;
+  for (const Knob& effect : effects_)
+    if (!is_on(base_, effect.name)) changes.push_back(switched(effect.name, true));
+  for (const Free& free : free_)
+    if (!is_effect(free.knob)) append(changes, free.knob.settings[free.reference].changes);
+  return changes;
+}
+
+std::vector<YamlChange> PartCalibration::changes_of(const std::vector<size_t>& choice) const {
+  std::vector<YamlChange> changes;
+  for (const Knob& effect : effects_) {
+    bool on = std::ranges::find(dropped_, effect.name) == dropped_.end();
+    for (size_t k = 0; k < free_.size(); ++k)
+      if (free_[k].knob.name == effect.name) on = choice[k] == 1;
+    if (on != is_on(base_, effect.name)) changes.push_back(switched(effect.name, on));
+  }
+  for (size_t k = 0; k < free_.size(); ++k)
+    if (!is_effect(free_[k].knob) && choice[k] != *free_[k].own)
+      append(changes, free_[k].knob.settings[choice[k]].changes);
+  return changes;
+}
+
+void PartCalibration::take(double power) {
+  for (const FrontPoint& point : front_) {
+    chosen_ = point;
+    if (point.power <= power) return;
+  }
+}
+
+void PartCalibration::choose_cheapest() {
+  const Experiment reference = with(reference_changes());
+  double best_ms = std::numeric_limits<double>::infinity(), level = round_factor;
+  for (size_t round = 0; round < rounds; ++round) {
+    run_.say(fmt::format("{}: joint settings, round {}", name_of(modality_), round + 1));
+    std::vector<Experiment> settings{reference};
+    std::vector<FrontPoint> points;
+    for (size_t i = 0; i < of_a_round; ++i, level /= round_factor) {
+      take(level);
+      if (!points.empty() && points.back().choice == chosen_.choice) continue;
+      try {
+        settings.push_back(with(changes_of(chosen_.choice)));
+        points.push_back(chosen_);
+      } catch (const UserError&) {  // settings that exclude each other
+      }
+    }
+    const std::vector<SettingResult> results = measure(settings, 0);
+    size_t met = 0;
+    for (size_t i = 0; i < points.size(); ++i) {
+      const SettingResult& result = results[i + 1];
+      if (power_of(result.errors) > margin) continue;
+      ++met;
+      if (median_ms(result) >= best_ms) continue;
+      best_ms = median_ms(result);
+      chosen_ = points[i];
+      chosen_.ms = best_ms;
+      calibrated_ = result.errors;
+      finest_ = false;
+    }
+    if (!std::isfinite(best_ms)) {
+      finest_ = true;
+      calibrated_ = results[0].errors;
+      continue;  // more accurate ones
+    }
+    if (round > 0 || met < points.size()) break;
+    // All of them met it: cheaper ones may, too.
+    const FrontPoint kept = chosen_;
+    level = std::pow(round_factor, double(of_a_round) + 1.0);
+    take(level);
+    const bool cheaper = chosen_.choice != points.front().choice;
+    chosen_ = kept;
+    if (!cheaper) break;
+  }
+}
+
+std::vector<YamlChange> PartCalibration::changes() const {
+  return for_whole(finest_ ? reference_changes() : changes_of(chosen_.choice), base_.scenario,
+                   run_.whole.scenario);
+}
+
+CalibratedPart PartCalibration::checked() const {
+  CalibratedPart part;
+  part.modality = modality_;
+  part.kept = kept_;
+  part.changes = changes();
+  for (const Knob& effect : effects_) {
+    bool on = std::ranges::find(dropped_, effect.name) == dropped_.end();
+    for (size_t k = 0; k < free_.size(); ++k)
+      if (free_[k].knob.name == effect.name) on = finest_ || chosen_.choice[k] == 1;
+    on = on || finest_;
+    if (on != is_on(base_, effect.name))
+      part.chosen.push_back({effect.name, on ? "off" : "on", on ? "on" : "off"});
+  }
+  std::vector<std::string> words;
+  for (const Knob& effect : effects_) words.push_back(effect.name + " on");
+  for (size_t k = 0; k < free_.size(); ++k) {
+    const Free& free = free_[k];
+    if (is_effect(free.knob)) continue;
+    words.push_back(fmt::format("{} {}", free.knob.name, free.knob.settings[free.reference].label));
+    const size_t choice = finest_ ? free.reference : chosen_.choice[k];
+    if (choice != *free.own)
+      part.chosen.push_back(
+          {free.knob.name, free.knob.settings[*free.own].label, free.knob.settings[choice].label});
+  }
+  part.reference = fmt::format("{}", fmt::join(words, ", "));
+
+  run_.say(fmt::format("{}: the choice on other ticks", name_of(modality_)));
+  const std::vector<Experiment> settings{with(finest_ ? reference_changes() : changes_of(chosen_.choice)),
+                                         base_, with(reference_changes())};
+  const std::optional<MeasurePlan> others = check_ticks(base_.scenario, modality_ == Modality::events);
+  const std::vector<SettingResult> results =
+      measure_settings(run_.device, settings, 2, kind_of(modality_),
+                       others.value_or(calibration_ticks(base_.scenario)), [this](double) { run_.say({}); });
+  part.chosen_ms = spread_of(results[0].wall_ms);
+  part.own_ms = spread_of(results[1].wall_ms);
+  part.reference_ms = spread_of(results[2].wall_ms);
+  for (const AccuracyTarget& target : targets_)
+    part.outcomes.push_back(
+        {target, asked_, worst(calibrated_, target),
+         others ? worst(results[0].errors, target) : std::numeric_limits<double>::quiet_NaN()});
+  if (!others) return part;
+  for (const std::vector<SensorError>& errors : results[0].tick_errors) {
+    ++part.checked_ticks;
+    part.met_ticks += power_of(errors) <= 1.0;
+  }
+  return part;
+}
+
+}  // namespace greatx::sim

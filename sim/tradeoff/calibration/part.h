@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The calibration of one modality. Inside of sim/tradeoff/calibration.
+#pragma once
+
+#include <limits>
+#include <map>
+
+#include "sim/tradeoff/calibration/calibration.h"
+#include "sim/tradeoff/front.h"
+
+namespace greatx::sim {
+
+/// What all modalities have in common.
+struct CalibrationRun {
+  gpu::Device& device;
+  const Experiment& whole;
+  std::filesystem::path assets;
+  std::function<void(const std::string&)> say;
+};
+
+class PartCalibration {
+ public:
+  /// `targets` are those of the modality, at least one. `asked` is false if they are weights.
+  PartCalibration(const CalibrationRun& run, Modality modality, std::vector<AccuracyTarget> targets,
+                  bool asked);
+
+  /// Measures effects and knobs by themselves, and predicts the front.
+  void measure_knobs();
+  /// Measures joint settings and takes the cheapest one that meets the targets with a margin.
+  void choose_cheapest();
+  /// Takes the cheapest point of the predicted front whose power is at most `power`; 1 meets the targets.
+  void take(double power);
+  double predicted_ms() const { return chosen_.ms; }
+  double predicted_power() const { return chosen_.power; }
+  /// The changes of the choice, for the scenario with all of its sensors.
+  std::vector<YamlChange> changes() const;
+  /// Runs the choice on ticks that took no part so far.
+  CalibratedPart checked() const;
+
+ private:
+  struct Part;
+  /// A knob that takes part, as it was measured.
+  struct Free {
+    Knob knob;
+    FrontKnob front;
+    size_t reference = 0;
+    std::optional<size_t> own;
+  };
+
+  void find_knobs();
+  void measure_effects();
+  void drop_effects(const std::vector<FrontSetting>& off);
+  void measure_numbers();
+  void add_number(const Knob& knob);
+  /// Runs settings on the ticks of the calibration.
+  std::vector<SettingResult> measure(const std::vector<Experiment>& settings, size_t reference) const;
+  Experiment with(const std::vector<YamlChange>& changes) const;
+  std::vector<YamlChange> reference_changes() const;
+  std::vector<YamlChange> changes_of(const std::vector<size_t>& choice) const;
+  /// Error over allowed error, as powers; the largest of all targets and sensors. 1 is just allowed.
+  double power_of(const std::vector<SensorError>& errors) const;
+  double worst(const std::vector<SensorError>& errors, const AccuracyTarget& target) const;
+
+  const CalibrationRun& run_;
+  const Modality modality_;
+  const std::vector<AccuracyTarget> targets_;
+  const bool asked_;
+  Experiment base_;  ///< of the modality alone, as the scenario is
+  Experiment open_;  ///< the same with every effect on that takes part
+  std::vector<Knob> effects_;
+  std::vector<std::string> dropped_;  ///< effects that the choice switches off in any case
+  std::vector<YamlChange> dropped_changes_;
+  double dropped_power_ = 0.0;
+  std::vector<KeptKnob> kept_;
+  std::vector<Free> free_;
+  double own_ms_ = 0.0;  ///< of the base of the front: open_ without dropped effects
+  std::vector<FrontPoint> front_;
+  FrontPoint chosen_;
+  bool finest_ = false;  ///< the choice is the reference
+  std::vector<SensorError> calibrated_;
+};
+
+}  // namespace greatx::sim
