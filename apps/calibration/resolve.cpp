@@ -66,7 +66,8 @@ Json json_of(const sim::CalibratedPart& part) {
                               {"asked", outcome.asked},
                               {"allowed", outcome.target.value},
                               {"calibrated", number(outcome.calibrated)},
-                              {"checked", number(outcome.validated)}});
+                              {"checked", number(outcome.validated)},
+                              {"own", number(outcome.own)}});
   return json;
 }
 

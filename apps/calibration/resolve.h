@@ -22,7 +22,7 @@ namespace greatx::apps {
 /// - `scenario`: the text with the choice; `minutes`: of the calibration;
 /// - `tick_ms`: of the whole scenario, if there is a budget;
 /// - `parts`: for each modality `modality`, `reference` (words), `chosen` (`knob`, `own`, `chosen`), `kept`
-///   (`knob`, `why`), `errors` (`name`, `unit`, `asked`, `allowed`, `calibrated`, `checked`), `tick_ms` of
+///   (`knob`, `why`), `errors` (`name`, `unit`, `asked`, `allowed`, `calibrated`, `checked`, `own`), `tick_ms` of
 ///   `chosen`, `own` and `reference` (`median`, `low`, `high`), `checked_ticks`, `met_ticks`, `least_share`.
 struct Resolved {
   sim::Scenario scenario;

@@ -22,10 +22,10 @@ std::string error_words(const Json& error) {
   const auto value = [&](const char* name) {
     return error[name].is_null() ? std::string("none") : fmt::format("{:.3g}", error[name].get<double>());
   };
-  return fmt::format("  {:<34}{} {} {}; {} on the ticks of the choice, {} on others\n",
-                     error["name"].get<std::string>(), error["asked"].get<bool>() ? "at most" : "weight",
-                     value("allowed"), error["unit"].get<std::string>(), value("calibrated"),
-                     value("checked"));
+  return fmt::format(
+      "  {:<34}{} {} {}: {} on the ticks of the choice, {} on others; {} with the scenario's own settings\n",
+      error["name"].get<std::string>(), error["asked"].get<bool>() ? "at most" : "weight", value("allowed"),
+      error["unit"].get<std::string>(), value("calibrated"), value("checked"), value("own"));
 }
 
 std::string part_words(const Json& part) {
@@ -34,6 +34,12 @@ std::string part_words(const Json& part) {
     words += fmt::format("  {:<34}{} -> {}\n", chosen["knob"].get<std::string>(),
                          chosen["own"].get<std::string>(), chosen["chosen"].get<std::string>());
   if (part["chosen"].empty()) words += "  every setting stays as it is\n";
+  std::vector<std::string> written;
+  for (const Json& kept : part["kept"])
+    if (kept["why"] == "the scenario writes it") written.push_back(kept["knob"]);
+  if (!written.empty())
+    words += fmt::format("  {:<34}{}; what they cost in accuracy is not counted\n",
+                         "as the scenario writes it", fmt::join(written, ", "));
   for (const Json& error : part["errors"]) words += error_words(error);
   const int64_t checked = part["checked_ticks"], met = part["met_ticks"];
   words += checked == 0 ? std::string("  no tick was left to check that\n")
@@ -42,13 +48,10 @@ std::string part_words(const Json& part) {
                               "confidence\n",
                               met, checked, 100.0 * part["least_share"].get<double>());
   const Json& times = part["tick_ms"];
-  const double own = times["own"]["median"], chosen = times["chosen"]["median"];
-  const double reference = times["reference"]["median"];
-  return words + fmt::format(
-                     "  {:<34}{}; {} with the scenario's own settings ({:.2f} times), {} at the "
-                     "finest ({:.1f} times)\n",
+  return words +
+         fmt::format("  {:<34}{}; {} with the scenario's own settings, {} at the finest, which are {}\n",
                      "time of a tick alone", milliseconds(times["chosen"]), milliseconds(times["own"]),
-                     own / chosen, milliseconds(times["reference"]), reference / chosen);
+                     milliseconds(times["reference"]), part["reference"].get<std::string>());
 }
 
 }  // namespace

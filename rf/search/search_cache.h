@@ -30,8 +30,8 @@ class SearchCache {
   /// If `folder` is empty, nothing is kept. `most_bytes` bounds all results together; beyond it the least
   /// recently used results are removed.
   explicit SearchCache(std::filesystem::path folder, uint64_t most_bytes = default_most_bytes);
-  /// Returns the cache that the environment asks for. The folder is cache_folder(). The size is GREATX_CACHE_MIB MiB, else default_most_bytes.
-  /// Throws UserError if that is not a whole number above 0.
+  /// Returns the cache that the environment asks for, in cache_folder(). The size is GREATX_CACHE_MIB MiB,
+  /// else default_most_bytes. Throws UserError if that is not a whole number above 0.
   static SearchCache standard();
 
   /// Returns the result of `key`, if there is a file that fits `extent`. Counts as a use of the file.

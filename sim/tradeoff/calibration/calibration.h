@@ -4,11 +4,12 @@
 // Chooses settings for a scenario that says which errors it allows (`accuracy:`) or how long a tick may take
 // (`time_budget_ms_per_tick:`) instead of giving settings. Data flows one way, for each modality:
 //
-//   Experiment ─► effects off, one by one ─► knobs, one by one ─► predicted front ─► joint settings, measured
-//              ─► other ticks: what is promised is checked ─► CalibratedPart ─► the scenario with the choice
+//   Experiment ─► effects, one by one ─► knobs, one by one ─► predicted front ─► joint settings
+//              ─► a check on other ticks ─► CalibratedPart ─► the scenario with the choice
 //
-// The reference of a modality has every effect on that has something to act on, and every knob at its finest
-// setting. A knob that the scenario writes stays as written: it is a part of what is asked for.
+// The reference of a modality has the effects on that the scenario has and those whose own change is more
+// than a tenth of the allowed power of errors, and every knob at its finest setting. A knob that the scenario
+// writes stays as written: it is a part of what is asked for.
 #pragma once
 
 #include <filesystem>
@@ -40,6 +41,7 @@ struct TargetOutcome {
   /// Errors against the reference, of the worst sensor, on the ticks of the calibration and on others. NaN:
   /// there was nothing to compare, or no tick was left.
   double calibrated = 0.0, validated = 0.0;
+  double own = 0.0;  ///< of the scenario as it is without the choice, on the ticks of `validated`
 };
 
 /// Holds the choice for one modality.

@@ -55,6 +55,10 @@ PartCalibration::PartCalibration(const CalibrationRun& run, Modality modality,
   find_knobs();
 }
 
+bool PartCalibration::is_dropped(const std::string& effect) const {
+  return std::ranges::find(dropped_, effect) != dropped_.end();
+}
+
 Experiment PartCalibration::with(const std::vector<YamlChange>& changes) const {
   return experiment_with(base_, changes, run_.whole, run_.assets);
 }
@@ -77,9 +81,9 @@ void PartCalibration::find_knobs() {
     effects_.push_back(knob);
     on.push_back(switched(knob.name, true));
   }
-  open_ = with(on);
-  // What takes part although it is switched on in vain has nothing to act on.
-  std::erase_if(effects_, [&](const Knob& knob) { return !is_on(open_, knob.name); });
+  // What is switched on in vain has nothing to act on.
+  const Experiment open = with(on);
+  std::erase_if(effects_, [&](const Knob& knob) { return !is_on(open, knob.name); });
 }
 
 double PartCalibration::worst(const std::vector<SensorError>& errors, const AccuracyTarget& target) const {
@@ -111,55 +115,60 @@ void PartCalibration::measure_knobs() {
   chosen_ = front_.back();
 }
 
+/// Each effect is switched by itself, from the scenario's own settings: on if it is off, and the other way
+/// round. With all of them on, some scenarios take a hundred times as long.
 void PartCalibration::measure_effects() {
-  std::vector<Experiment> settings{open_};
+  std::vector<Experiment> settings{base_};
   std::vector<Knob> able;
   for (const Knob& knob : effects_) try {
-      settings.push_back(experiment_with(open_, {switched(knob.name, false)}, run_.whole, run_.assets));
+      settings.push_back(with({switched(knob.name, !is_on(base_, knob.name))}));
       able.push_back(knob);
-    } catch (const UserError&) {  // another setting needs it
+    } catch (const UserError&) {  // another setting needs it as it is
     }
   effects_ = std::move(able);
   const std::vector<SettingResult> results = measure(settings, 0);
   own_ms_ = median_ms(results[0]);
   if (asked_) check_figures(results[0], targets_, run_.whole.scenario);
-  std::vector<FrontSetting> off;
+  std::vector<FrontSetting> toggled;
   for (size_t i = 0; i < effects_.size(); ++i)
-    off.push_back({median_ms(results[i + 1]), power_of(results[i + 1].errors)});
-  drop_effects(off);
+    toggled.push_back({median_ms(results[i + 1]), power_of(results[i + 1].errors)});
+  drop_effects(toggled);
 }
 
-/// Effects that hardly matter go first, so that the knobs are measured without their time.
-void PartCalibration::drop_effects(const std::vector<FrontSetting>& off) {
-  std::vector<size_t> order(off.size());
+/// Decides which effects may be on. Those that hardly matter go first, so that the knobs are measured without
+/// their time: an effect that is off stays off, and one that is on goes off if that saves time.
+void PartCalibration::drop_effects(const std::vector<FrontSetting>& toggled) {
+  std::vector<size_t> order(toggled.size());
   for (size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::stable_sort(order, {}, [&](size_t i) { return off[i].power; });
-  const double open_ms = own_ms_;
+  std::ranges::stable_sort(order, {}, [&](size_t i) { return toggled[i].power; });
+  const double base_ms = own_ms_;
+  std::vector<double> ratios;  // of a tick without the effect to one with it
   for (const size_t i : order) {
     const std::string& name = effects_[i].name;
-    const bool saves = off[i].ms < (1.0 - least_saving) * open_ms, own_on = is_on(base_, name);
-    if (dropped_power_ + off[i].power <= dropped_share && (saves || !own_on)) {
-      dropped_power_ += off[i].power;
+    const bool own_on = is_on(base_, name);
+    const double ratio = own_on ? toggled[i].ms / base_ms : base_ms / toggled[i].ms;
+    const bool saves = ratio < 1.0 - least_saving;
+    if (dropped_power_ + toggled[i].power <= dropped_share && (saves || !own_on)) {
+      dropped_power_ += toggled[i].power;
       dropped_.push_back(name);
-      if (saves) own_ms_ *= off[i].ms / open_ms;
+      if (own_on) own_ms_ *= ratio;
       continue;
     }
+    if (!own_on) own_ms_ /= std::min(ratio, 1.0);
     if (!saves) continue;  // stays on for nothing
-    Free free{effects_[i], {}, 1, 1};
-    free.front.settings = {{own_ms_ * off[i].ms / open_ms, off[i].power}, {own_ms_, 0.0}};
-    free_.push_back(std::move(free));
+    free_.push_back({effects_[i], {}, 1, 1});
+    free_.back().front.settings = {{0.0, toggled[i].power}, {0.0, 0.0}};
+    ratios.push_back(ratio);
   }
-  // Times of the effects that stay are ratios to the base that is left.
-  for (Free& free : free_) {
-    const double ratio = free.front.settings[0].ms / free.front.settings[1].ms;
-    free.front.settings = {{own_ms_ * ratio, free.front.settings[0].power}, {own_ms_, 0.0}};
+  for (size_t k = 0; k < free_.size(); ++k) {
+    free_[k].front.settings[0].ms = own_ms_ * ratios[k];
+    free_[k].front.settings[1].ms = own_ms_;
   }
 }
 
 void PartCalibration::measure_numbers() {
   std::vector<YamlChange> changes;
-  for (const Knob& effect : effects_)
-    changes.push_back(switched(effect.name, std::ranges::find(dropped_, effect.name) == dropped_.end()));
+  for (const Knob& effect : effects_) changes.push_back(switched(effect.name, !is_dropped(effect.name)));
   open_ = with(changes);
   std::vector<Knob> numbers;
   for (const Knob& knob : knobs_of(open_, modality_, modality_ != Modality::events))
@@ -212,7 +221,8 @@ void PartCalibration::add_number(const Knob& given) {
 std::vector<YamlChange> PartCalibration::reference_changes() const {
   std::vector<YamlChange> changes;
   for (const Knob& effect : effects_)
-    if (!is_on(base_, effect.name)) changes.push_back(switched(effect.name, true));
+    if (!is_on(base_, effect.name) && !is_dropped(effect.name))
+      changes.push_back(switched(effect.name, true));
   for (const Free& free : free_)
     if (!is_effect(free.knob)) append(changes, free.knob.settings[free.reference].changes);
   return changes;
@@ -221,7 +231,7 @@ std::vector<YamlChange> PartCalibration::reference_changes() const {
 std::vector<YamlChange> PartCalibration::changes_of(const std::vector<size_t>& choice) const {
   std::vector<YamlChange> changes;
   for (const Knob& effect : effects_) {
-    bool on = std::ranges::find(dropped_, effect.name) == dropped_.end();
+    bool on = !is_dropped(effect.name);
     for (size_t k = 0; k < free_.size(); ++k)
       if (free_[k].knob.name == effect.name) on = choice[k] == 1;
     if (on != is_on(base_, effect.name)) changes.push_back(switched(effect.name, on));
@@ -295,15 +305,16 @@ CalibratedPart PartCalibration::checked() const {
   part.kept = kept_;
   part.changes = changes();
   for (const Knob& effect : effects_) {
-    bool on = std::ranges::find(dropped_, effect.name) == dropped_.end();
+    bool on = !is_dropped(effect.name);
     for (size_t k = 0; k < free_.size(); ++k)
       if (free_[k].knob.name == effect.name) on = finest_ || chosen_.choice[k] == 1;
-    on = on || finest_;
+    if (finest_ && is_on(base_, effect.name)) on = true;
     if (on != is_on(base_, effect.name))
       part.chosen.push_back({effect.name, on ? "off" : "on", on ? "on" : "off"});
   }
   std::vector<std::string> words;
-  for (const Knob& effect : effects_) words.push_back(effect.name + " on");
+  for (const Knob& effect : effects_)
+    if (is_on(base_, effect.name) || !is_dropped(effect.name)) words.push_back(effect.name + " on");
   for (size_t k = 0; k < free_.size(); ++k) {
     const Free& free = free_[k];
     if (is_effect(free.knob)) continue;
@@ -328,7 +339,8 @@ CalibratedPart PartCalibration::checked() const {
   for (const AccuracyTarget& target : targets_)
     part.outcomes.push_back(
         {target, asked_, worst(calibrated_, target),
-         others ? worst(results[0].errors, target) : std::numeric_limits<double>::quiet_NaN()});
+         others ? worst(results[0].errors, target) : std::numeric_limits<double>::quiet_NaN(),
+         worst(results[1].errors, target)});
   if (!others) return part;
   for (const std::vector<SensorError>& errors : results[0].tick_errors) {
     ++part.checked_ticks;

@@ -51,7 +51,8 @@ class PartCalibration {
 
   void find_knobs();
   void measure_effects();
-  void drop_effects(const std::vector<FrontSetting>& off);
+  void drop_effects(const std::vector<FrontSetting>& toggled);
+  bool is_dropped(const std::string& effect) const;
   void measure_numbers();
   void add_number(const Knob& knob);
   /// Runs settings on the ticks of the calibration.
@@ -68,10 +69,9 @@ class PartCalibration {
   const std::vector<AccuracyTarget> targets_;
   const bool asked_;
   Experiment base_;  ///< of the modality alone, as the scenario is
-  Experiment open_;  ///< the same with every effect on that takes part
+  Experiment open_;  ///< the same with the effects on that may matter
   std::vector<Knob> effects_;
-  std::vector<std::string> dropped_;  ///< effects that the choice switches off in any case
-  std::vector<YamlChange> dropped_changes_;
+  std::vector<std::string> dropped_;  ///< effects that are off in any choice
   double dropped_power_ = 0.0;
   std::vector<KeptKnob> kept_;
   std::vector<Free> free_;
