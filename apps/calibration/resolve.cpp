@@ -46,9 +46,11 @@ Json json_of(const sim::Spread& spread) {
 Json json_of(const sim::CalibratedPart& part) {
   Json json{{"modality", sim::name_of(part.modality)},
             {"reference", part.reference},
+            {"finest", part.finest},
             {"chosen", Json::array()},
             {"kept", Json::array()},
             {"errors", Json::array()},
+            {"figures", Json::array()},
             {"tick_ms",
              {{"chosen", json_of(part.chosen_ms)},
               {"own", json_of(part.own_ms)},
@@ -68,6 +70,11 @@ Json json_of(const sim::CalibratedPart& part) {
                               {"calibrated", number(outcome.calibrated)},
                               {"checked", number(outcome.validated)},
                               {"own", number(outcome.own)}});
+  for (const sim::SensorError& error : part.errors)
+    json["figures"].push_back({{"sensor", error.sensor},
+                               {"name", error.figure.name},
+                               {"unit", error.figure.unit},
+                               {"value", number(error.figure.value)}});
   return json;
 }
 

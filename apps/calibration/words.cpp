@@ -20,7 +20,7 @@ std::string milliseconds(const Json& spread) {
 
 std::string error_words(const Json& error) {
   const auto value = [&](const char* name) {
-    return error[name].is_null() ? std::string("none") : fmt::format("{:.3g}", error[name].get<double>());
+    return error[name].is_null() ? std::string("equal") : fmt::format("{:.3g}", error[name].get<double>());
   };
   return fmt::format(
       "  {:<34}{} {} {}: {} on the ticks of the choice, {} on others; {} with the scenario's own settings\n",
@@ -47,6 +47,13 @@ std::string part_words(const Json& part) {
                               "  {} of {} other ticks met that: at least {:.0f} % of ticks do, with 95 % "
                               "confidence\n",
                               met, checked, 100.0 * part["least_share"].get<double>());
+  std::vector<std::string> figures;
+  for (const Json& figure : part["figures"])
+    if (!figure["value"].is_null() && figure["value"].get<double>() != 0.0)
+      figures.push_back(fmt::format("{} {:.3g} {}", figure["name"].get<std::string>(),
+                                    figure["value"].get<double>(), figure["unit"].get<std::string>()));
+  if (!figures.empty()) words += fmt::format("  {:<34}{}\n", "all errors there", fmt::join(figures, ", "));
+  if (part["finest"].get<bool>()) words += "  no joint setting but the finest met that with a margin\n";
   const Json& times = part["tick_ms"];
   return words +
          fmt::format("  {:<34}{}; {} with the scenario's own settings, {} at the finest, which are {}\n",

@@ -8,8 +8,9 @@
 //              ─► a check on other ticks ─► CalibratedPart ─► the scenario with the choice
 //
 // The reference of a modality has the effects on that the scenario has and those whose own change is more
-// than a tenth of the allowed power of errors, and every knob at its finest setting. A knob that the scenario
-// writes stays as written: it is a part of what is asked for.
+// than a part of the allowed error. Every knob is at its finest setting that takes at most ten times as long
+// as the scenario's own one, which stays if its error is at most 2 % of the allowed power. A knob that the
+// scenario writes stays as written: it is a part of what is asked for.
 #pragma once
 
 #include <filesystem>
@@ -50,6 +51,9 @@ struct CalibratedPart {
   std::vector<ChosenSetting> chosen;
   std::vector<KeptKnob> kept;
   std::vector<TargetOutcome> outcomes;
+  bool finest = false;  ///< no joint setting but the reference met the targets with a margin
+  /// All figures on the ticks that check the promise: a choice may change what no target speaks of.
+  std::vector<SensorError> errors;
   std::vector<YamlChange> changes;  ///< of the scenario with all of its sensors
   std::string reference;            ///< in words: the knobs' settings
   /// Times of ticks of the modality alone, measured in turns on the ticks that check the promise: with the

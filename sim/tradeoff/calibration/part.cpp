@@ -17,11 +17,12 @@ namespace greatx::sim {
 
 namespace {
 
-constexpr double margin = 0.5;         ///< of the allowed power that the choice may take: 3 dB
-constexpr double dropped_share = 0.1;  ///< of the allowed power that effects may take which go first
-constexpr double least_saving = 0.03;  ///< of a tick; below that, times count as equal
-constexpr double most_factor = 10.0;   ///< settings that take longer than so many times the default are out
-constexpr double round_factor = 4.0;   ///< of power between the joint settings of a round
+constexpr double margin = 0.5;            ///< of the allowed power that the choice may take: 3 dB
+constexpr double dropped_share = 0.1;     ///< of the allowed power that effects may take which go first
+constexpr double converged_share = 0.02;  ///< of the allowed power: a knob's own setting is fine enough
+constexpr double least_saving = 0.03;     ///< of a tick; below that, times count as equal
+constexpr double most_factor = 10.0;  ///< settings that take longer than so many times the default are out
+constexpr double round_factor = 4.0;  ///< of power between the joint settings of a round
 constexpr size_t rounds = 3, of_a_round = 3;
 
 double median_ms(const SettingResult& result) { return spread_of(result.wall_ms).median; }
@@ -199,21 +200,24 @@ void PartCalibration::add_number(const Knob& given) {
   }
   if (*knob.standard >= measured.results.size()) return;
   const double own = median_ms(measured.results[*knob.standard]);
+  // Finer settings than the scenario's own one are out if its error is a small part of what is allowed.
+  const bool converged = power_of(measured.results[*knob.standard].errors) <= converged_share;
   Free free{knob, {}, 0, 0};
   free.knob.settings.clear();
   bool matters = false;
   for (size_t i = 0; i < measured.results.size(); ++i) {
     double ratio = median_ms(measured.results[i]) / own;
-    if (i != *knob.standard && ratio > most_factor) continue;
+    if (i != *knob.standard && ratio > (converged ? 1.0 : most_factor)) continue;
     if (std::abs(ratio - 1.0) < least_saving) ratio = 1.0;
     const double power = power_of(measured.results[i].errors);
     matters |= ratio < 1.0 || power > 0.0;
     if (i == *knob.standard) free.own = free.knob.settings.size();
-    if (i == measured.reference) free.reference = free.knob.settings.size();
+    if (i == measured.reference && !converged) free.reference = free.knob.settings.size();
     free.knob.settings.push_back(knob.settings[i]);
     // Of equal settings the scenario's own one is taken.
     free.front.settings.push_back({own_ms_ * ratio * (i == *knob.standard ? 1.0 : 1.0 + 1e-6), power});
   }
+  if (converged) free.reference = *free.own;
   if (free.reference == 0) free.reference = free.knob.settings.size() - 1;
   if (matters) free_.push_back(std::move(free));
 }
@@ -341,6 +345,8 @@ CalibratedPart PartCalibration::checked() const {
         {target, asked_, worst(calibrated_, target),
          others ? worst(results[0].errors, target) : std::numeric_limits<double>::quiet_NaN(),
          worst(results[1].errors, target)});
+  part.finest = finest_;
+  part.errors = results[0].errors;
   if (!others) return part;
   for (const std::vector<SensorError>& errors : results[0].tick_errors) {
     ++part.checked_ticks;

@@ -51,7 +51,9 @@ void add_to_grid(const Events& events, const Extent& extent, std::vector<float>&
                                                         static_cast<double>(extent.last - extent.first)
                                                   : 0.0;
   for (size_t i = 0; i < events.count(); ++i) {
-    const double at = static_cast<double>(events.t[i] - extent.first) * scale;
+    // Rounding may carry the last event beyond the last bin.
+    const double at =
+        std::min(static_cast<double>(events.t[i] - extent.first) * scale, double(grid_bins - 1));
     const auto low = static_cast<size_t>(at);
     const auto share = static_cast<float>(at - static_cast<double>(low));
     const float sign = events.p[i] != 0 ? 1.0f : -1.0f;
