@@ -62,14 +62,15 @@ Json json_of(const sim::CalibratedPart& part) {
     json["chosen"].push_back({{"knob", chosen.knob}, {"own", chosen.own}, {"chosen", chosen.chosen}});
   for (const sim::KeptKnob& kept : part.kept)
     json["kept"].push_back({{"knob", kept.knob}, {"why", kept.why}});
-  for (const sim::TargetOutcome& outcome : part.outcomes)
+  for (const sim::TargetOutcome& outcome : part.outcomes) {
     json["errors"].push_back({{"name", outcome.target.kind->name},
                               {"unit", outcome.target.kind->unit},
-                              {"asked", outcome.asked},
+                              {"asked", outcome.target.asked},
                               {"allowed", outcome.target.value},
-                              {"calibrated", number(outcome.calibrated)},
                               {"checked", number(outcome.validated)},
                               {"own", number(outcome.own)}});
+    if (!std::isnan(outcome.calibrated)) json["errors"].back()["calibrated"] = number(outcome.calibrated);
+  }
   for (const sim::SensorError& error : part.errors)
     json["figures"].push_back({{"sensor", error.sensor},
                                {"name", error.figure.name},

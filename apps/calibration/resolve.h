@@ -21,11 +21,11 @@ namespace greatx::apps {
 /// - `wish`: a map of the allowed errors by name, and `time_budget_ms_per_tick`;
 /// - `scenario`: the text with the choice; `minutes`: of the calibration;
 /// - `tick_ms`: of the whole scenario, if there is a budget;
-/// - `parts`: for each modality `modality`, `reference` (words), `finest` (whether the choice is it), `chosen`
-///   (`knob`, `own`, `chosen`), `kept` (`knob`, `why`), `errors` (`name`, `unit`, `asked`, `allowed`,
-///   `calibrated`, `checked`, `own`), `figures` (`sensor`, `name`, `unit`, `value`), `tick_ms` of `chosen`,
-///   `own` and `reference` (`median`, `low`, `high`), `checked_ticks`, `met_ticks`, `least_share`. An error of
-///   null is minus infinity (equal records) or one without anything to compare.
+/// - `parts`: for each modality `modality`, `reference` (words), `finest` (whether the choice is it),
+///   `chosen` (`knob`, `own`, `chosen`), `kept` (`knob`, `why`), `errors` (`name`, `unit`, `asked`,
+///   `allowed`, `calibrated`, `checked`, `own`), `figures` (`sensor`, `name`, `unit`, `value`), `tick_ms`
+///   of `chosen`, `own` and `reference` (`median`, `low`, `high`), `checked_ticks`, `met_ticks`,
+///   `least_share`. An error of null is minus infinity (equal records) or one without anything to compare.
 struct Resolved {
   sim::Scenario scenario;
   nlohmann::json json;

@@ -23,9 +23,11 @@ std::string error_words(const Json& error) {
     return error[name].is_null() ? std::string("equal") : fmt::format("{:.3g}", error[name].get<double>());
   };
   return fmt::format(
-      "  {:<34}{} {} {}: {} on the ticks of the choice, {} on others; {} with the scenario's own settings\n",
-      error["name"].get<std::string>(), error["asked"].get<bool>() ? "at most" : "weight", value("allowed"),
-      error["unit"].get<std::string>(), value("calibrated"), value("checked"), value("own"));
+      "  {:<34}{} {} {}: {}{} on other ticks; {} with the scenario's own settings\n",
+      error["name"].get<std::string>(), error["asked"].get<bool>() ? "at most" : "weighed by",
+      value("allowed"), error["unit"].get<std::string>(),
+      error.contains("calibrated") ? value("calibrated") + " on the ticks of the choice, " : "",
+      value("checked"), value("own"));
 }
 
 std::string part_words(const Json& part) {

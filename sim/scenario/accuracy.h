@@ -19,8 +19,11 @@ struct AccuracyKind {
   std::string_view unit;
   double least, most;  ///< of what a scenario may allow
   /// The error that counts as much as those of the other modalities if a scenario gives a time budget and no
-  /// error of this modality. NaN: the modality has another figure for that.
+  /// error of this modality. NaN: the modality has other figures for that.
   double weight;
+  /// Whether the weight holds, too, if the scenario gives another error of the modality: it is of something
+  /// that the other figures do not see.
+  bool guards;
   std::string_view about;
 };
 
@@ -31,6 +34,7 @@ std::span<const AccuracyKind> accuracy_kinds();
 struct AccuracyTarget {
   const AccuracyKind* kind = nullptr;  ///< never null
   double value = 0.0;                  ///< in the kind's unit
+  bool asked = true;                   ///< false: it is the kind's weight
 };
 
 /// Holds what a scenario asks for instead of settings.

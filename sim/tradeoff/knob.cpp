@@ -42,6 +42,11 @@ std::optional<Modality> modality_of(std::string_view name) {
   return {};
 }
 
+bool is_effect(const Knob& knob) {
+  return knob.settings.size() == 2 && knob.settings[0].changes.size() == 1 &&
+         knob.settings[0].changes[0].path.front() == YamlStep("effects");
+}
+
 bool has(const Scenario& scenario, Modality modality) {
   if (modality == Modality::csi) return !scenario.channels.empty();
   return std::ranges::any_of(scenario.nodes, [&](const NodeConfig& node) {

@@ -49,6 +49,9 @@ struct Knob {
   std::string skipped;             ///< why it is not measured; empty: it is
 };
 
+/// Whether a knob switches one effect: its settings are off and on.
+bool is_effect(const Knob& knob);
+
 /// Whether the scenario has sensors of the modality, or a channel.
 bool has(const Scenario& scenario, Modality modality);
 

@@ -142,8 +142,8 @@ TEST(EventError, ShiftedMissingAndTurned) {
   EXPECT_EQ(errors(events({}, {}, {}), reference).at("count"), infinity);
 }
 
-// d * (14 / d) in doubles is above 14 for d = 25, 41, 43, ...: the last event must stay in the last bin, which
-// AddressSanitizer checks.
+// d * (14 / d) in doubles is above 14 for d = 25, 41, 43, ...: the last event must stay in the last bin.
+// AddressSanitizer checks that.
 TEST(EventError, RoundingKeepsTheLastEventInTheGrid) {
   for (int64_t d = 1; d <= 300; ++d) {
     const Made both = events({7, 7 + d}, {0, 1}, {1, 1});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -23,15 +24,18 @@ constexpr size_t budget_rounds = 5;
 constexpr double budget_use = 0.85;  ///< of the budget: a choice that takes less is tried once more
 constexpr double finest_power = 1e-12, coarsest_power = 1e12;
 
-/// Returns the targets of a modality, or its weight if it has none and `weigh`.
-std::vector<AccuracyTarget> targets_of(const Scenario& scenario, Modality modality, bool weigh, bool& asked) {
+/// Returns the targets of a modality with the weights that guard its other figures. If the scenario gives
+/// none and `weigh`, it returns all weights of the modality.
+std::vector<AccuracyTarget> targets_of(const Scenario& scenario, Modality modality, bool weigh) {
   std::vector<AccuracyTarget> targets;
   for (const AccuracyTarget& target : scenario.accuracy.targets)
     if (target.kind->modality == name_of(modality)) targets.push_back(target);
-  asked = !targets.empty();
+  const bool asked = !targets.empty();
+  if (!asked && !(weigh && has(scenario, modality))) return {};
   for (const AccuracyKind& kind : accuracy_kinds())
-    if (!asked && weigh && kind.modality == name_of(modality) && !std::isnan(kind.weight))
-      targets.push_back({&kind, kind.weight});
+    if (kind.modality == name_of(modality) && !std::isnan(kind.weight) && (!asked || kind.guards) &&
+        std::ranges::find(targets, &kind, &AccuracyTarget::kind) == targets.end())
+      targets.push_back({&kind, kind.weight, false});
   return targets;
 }
 
@@ -100,17 +104,18 @@ Spread fill_budget(const CalibrationRun& run, Parts& parts, double budget_ms) {
 
 Calibration calibrate(gpu::Device& device, const Experiment& experiment, const std::filesystem::path& assets,
                       const std::function<void(const std::string&)>& say) {
-  const CalibrationRun run{device, experiment, assets, say};
   const Scenario& scenario = experiment.scenario;
+  const double most_ms = scenario.accuracy.budget_ms > 0.0 ? scenario.accuracy.budget_ms
+                                                           : std::numeric_limits<double>::infinity();
+  const CalibrationRun run{device, experiment, assets, say, most_ms};
   Calibration calibration;
   calibration.budget_ms = scenario.accuracy.budget_ms;
   const bool budget = calibration.budget_ms > 0.0;
   Parts parts;
   for (const Modality modality : all_modalities) {
-    bool asked = false;
-    std::vector<AccuracyTarget> targets = targets_of(scenario, modality, budget, asked);
-    if (targets.empty() || (!asked && !has(scenario, modality))) continue;
-    parts.push_back(std::make_unique<PartCalibration>(run, modality, std::move(targets), asked));
+    std::vector<AccuracyTarget> targets = targets_of(scenario, modality, budget);
+    if (targets.empty()) continue;
+    parts.push_back(std::make_unique<PartCalibration>(run, modality, std::move(targets)));
     parts.back()->measure_knobs();
     if (!budget) parts.back()->choose_cheapest();
   }

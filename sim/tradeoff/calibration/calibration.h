@@ -38,9 +38,8 @@ struct KeptKnob {
 
 struct TargetOutcome {
   AccuracyTarget target;
-  bool asked = true;  ///< false: the weight of a modality that has a time budget alone
   /// Errors against the reference, of the worst sensor, on the ticks of the calibration and on others. NaN:
-  /// there was nothing to compare, or no tick was left.
+  /// there was nothing to compare, no tick was left, or the choice is a predicted one (a time budget).
   double calibrated = 0.0, validated = 0.0;
   double own = 0.0;  ///< of the scenario as it is without the choice, on the ticks of `validated`
 };
@@ -54,8 +53,9 @@ struct CalibratedPart {
   bool finest = false;  ///< no joint setting but the reference met the targets with a margin
   /// All figures on the ticks that check the promise: a choice may change what no target speaks of.
   std::vector<SensorError> errors;
-  std::vector<YamlChange> changes;  ///< of the scenario with all of its sensors
-  std::string reference;            ///< in words: the knobs' settings
+  std::vector<YamlChange> changes;            ///< of the scenario with all of its sensors
+  std::string reference;                      ///< in words: the knobs' settings
+  std::vector<YamlChange> reference_changes;  ///< of the scenario with all of its sensors
   /// Times of ticks of the modality alone, measured in turns on the ticks that check the promise: with the
   /// choice, as the scenario is without it, and of the reference.
   Spread chosen_ms, own_ms, reference_ms;

@@ -10,7 +10,6 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
-#include "sim/tradeoff/calibration/ticks.h"
 #include "sim/tradeoff/calibration/wishes.h"
 
 namespace greatx::sim {
@@ -21,16 +20,13 @@ constexpr double margin = 0.5;            ///< of the allowed power that the cho
 constexpr double dropped_share = 0.1;     ///< of the allowed power that effects may take which go first
 constexpr double converged_share = 0.02;  ///< of the allowed power: a knob's own setting is fine enough
 constexpr double least_saving = 0.03;     ///< of a tick; below that, times count as equal
+constexpr double slow_ms = 500.0;         ///< of a tick: then the calibration has one tick
 constexpr double most_factor = 10.0;  ///< settings that take longer than so many times the default are out
 constexpr double round_factor = 4.0;  ///< of power between the joint settings of a round
 constexpr size_t rounds = 3, of_a_round = 3;
 
 double median_ms(const SettingResult& result) { return spread_of(result.wall_ms).median; }
 
-bool is_effect(const Knob& knob) {
-  return knob.settings.size() == 2 && knob.settings[0].changes.size() == 1 &&
-         knob.settings[0].changes[0].path.front() == YamlStep("effects");
-}
 YamlChange switched(const std::string& effect, bool on) {
   return {YamlChange::Kind::set, {"effects", effect}, on ? "on" : "off"};
 }
@@ -46,11 +42,10 @@ void append(std::vector<YamlChange>& changes, const std::vector<YamlChange>& mor
 }  // namespace
 
 PartCalibration::PartCalibration(const CalibrationRun& run, Modality modality,
-                                 std::vector<AccuracyTarget> targets, bool asked)
+                                 std::vector<AccuracyTarget> targets)
     : run_(run),
       modality_(modality),
       targets_(std::move(targets)),
-      asked_(asked),
       base_(make_experiment(scenario_to_calibrate(run.whole, modality, run.assets), run.whole)),
       open_(base_) {
   find_knobs();
@@ -64,10 +59,11 @@ Experiment PartCalibration::with(const std::vector<YamlChange>& changes) const {
   return experiment_with(base_, changes, run_.whole, run_.assets);
 }
 
-std::vector<SettingResult> PartCalibration::measure(const std::vector<Experiment>& settings,
-                                                    size_t reference) const {
+std::vector<SettingResult> PartCalibration::measure(const std::vector<Experiment>& settings, size_t reference,
+                                                    Effort effort) const {
+  if (own_ms_ > slow_ms) effort = effort == Effort::joint ? Effort::singles : Effort::slow;
   return measure_settings(run_.device, settings, reference, kind_of(modality_),
-                          calibration_ticks(base_.scenario), [this](double) { run_.say({}); });
+                          calibration_ticks(base_.scenario, effort), [this](double) { run_.say({}); });
 }
 
 void PartCalibration::find_knobs() {
@@ -127,9 +123,9 @@ void PartCalibration::measure_effects() {
     } catch (const UserError&) {  // another setting needs it as it is
     }
   effects_ = std::move(able);
-  const std::vector<SettingResult> results = measure(settings, 0);
+  const std::vector<SettingResult> results = measure(settings, 0, Effort::singles);
   own_ms_ = median_ms(results[0]);
-  if (asked_) check_figures(results[0], targets_, run_.whole.scenario);
+  check_figures(results[0], targets_, run_.whole.scenario);
   std::vector<FrontSetting> toggled;
   for (size_t i = 0; i < effects_.size(); ++i)
     toggled.push_back({median_ms(results[i + 1]), power_of(results[i + 1].errors)});
@@ -147,6 +143,11 @@ void PartCalibration::drop_effects(const std::vector<FrontSetting>& toggled) {
   for (const size_t i : order) {
     const std::string& name = effects_[i].name;
     const bool own_on = is_on(base_, name);
+    if (!own_on && toggled[i].ms > run_.most_ms) {
+      dropped_.push_back(name);
+      kept_.push_back({name, fmt::format("it alone takes {:.3g} ms", toggled[i].ms)});
+      continue;
+    }
     const double ratio = own_on ? toggled[i].ms / base_ms : base_ms / toggled[i].ms;
     const bool saves = ratio < 1.0 - least_saving;
     if (dropped_power_ + toggled[i].power <= dropped_share && (saves || !own_on)) {
@@ -192,8 +193,9 @@ void PartCalibration::add_number(const Knob& given) {
   KnobResult measured;
   try {
     measured =
-        measure_knob(open_, knob, run_.whole, run_.assets,
-                     [this](const auto& settings, size_t reference) { return measure(settings, reference); });
+        measure_knob(open_, knob, run_.whole, run_.assets, [this](const auto& settings, size_t reference) {
+          return measure(settings, reference, Effort::singles);
+        });
   } catch (const UserError& error) {
     kept_.push_back({knob.name, fmt::format("cannot be set here: {}", error.what())});
     return;
@@ -208,6 +210,7 @@ void PartCalibration::add_number(const Knob& given) {
   for (size_t i = 0; i < measured.results.size(); ++i) {
     double ratio = median_ms(measured.results[i]) / own;
     if (i != *knob.standard && ratio > (converged ? 1.0 : most_factor)) continue;
+    if (i != *knob.standard && ratio > 1.0 && ratio * own > run_.most_ms) continue;
     if (std::abs(ratio - 1.0) < least_saving) ratio = 1.0;
     const double power = power_of(measured.results[i].errors);
     matters |= ratio < 1.0 || power > 0.0;
@@ -269,16 +272,19 @@ void PartCalibration::choose_cheapest() {
       } catch (const UserError&) {  // settings that exclude each other
       }
     }
-    const std::vector<SettingResult> results = measure(settings, 0);
+    const std::vector<SettingResult> results = measure(settings, 0, Effort::joint);
     size_t met = 0;
     for (size_t i = 0; i < points.size(); ++i) {
       const SettingResult& result = results[i + 1];
-      if (power_of(result.errors) > margin) continue;
+      const double power = power_of(result.errors);
+      if (power > margin) continue;
       ++met;
+      candidates_.push_back({points[i], power, result.errors});
       if (median_ms(result) >= best_ms) continue;
       best_ms = median_ms(result);
       chosen_ = points[i];
       chosen_.ms = best_ms;
+      chosen_power_ = power;
       calibrated_ = result.errors;
       finest_ = false;
     }
@@ -303,11 +309,38 @@ std::vector<YamlChange> PartCalibration::changes() const {
                    run_.whole.scenario);
 }
 
-CalibratedPart PartCalibration::checked() const {
+bool PartCalibration::take_more_accurate() {
+  if (finest_) return false;
+  const Candidate* next = nullptr;
+  for (const Candidate& candidate : candidates_)
+    if (candidate.power < chosen_power_ / round_factor && (next == nullptr || candidate.power > next->power))
+      next = &candidate;
+  finest_ = next == nullptr;
+  calibrated_.clear();
+  if (finest_) return true;
+  chosen_ = next->point;
+  chosen_power_ = next->power;
+  calibrated_ = next->errors;
+  return true;
+}
+
+CalibratedPart PartCalibration::checked() {
+  for (;;) {
+    CalibratedPart part = check();
+    const bool missed = std::ranges::any_of(
+        part.outcomes, [](const TargetOutcome& outcome) { return outcome.validated > outcome.target.value; });
+    // The choice of a time budget is not one of joint settings that were measured: it stays.
+    if (!missed || candidates_.empty() || !take_more_accurate()) return part;
+    run_.say(fmt::format("{}: it misses a target there; a more accurate one", name_of(modality_)));
+  }
+}
+
+CalibratedPart PartCalibration::check() const {
   CalibratedPart part;
   part.modality = modality_;
   part.kept = kept_;
   part.changes = changes();
+  part.reference_changes = for_whole(reference_changes(), base_.scenario, run_.whole.scenario);
   for (const Knob& effect : effects_) {
     bool on = !is_dropped(effect.name);
     for (size_t k = 0; k < free_.size(); ++k)
@@ -334,15 +367,15 @@ CalibratedPart PartCalibration::checked() const {
   const std::vector<Experiment> settings{with(finest_ ? reference_changes() : changes_of(chosen_.choice)),
                                          base_, with(reference_changes())};
   const std::optional<MeasurePlan> others = check_ticks(base_.scenario, modality_ == Modality::events);
-  const std::vector<SettingResult> results =
-      measure_settings(run_.device, settings, 2, kind_of(modality_),
-                       others.value_or(calibration_ticks(base_.scenario)), [this](double) { run_.say({}); });
+  const std::vector<SettingResult> results = measure_settings(
+      run_.device, settings, 2, kind_of(modality_),
+      others.value_or(calibration_ticks(base_.scenario, Effort::joint)), [this](double) { run_.say({}); });
   part.chosen_ms = spread_of(results[0].wall_ms);
   part.own_ms = spread_of(results[1].wall_ms);
   part.reference_ms = spread_of(results[2].wall_ms);
   for (const AccuracyTarget& target : targets_)
     part.outcomes.push_back(
-        {target, asked_, worst(calibrated_, target),
+        {target, worst(calibrated_, target),
          others ? worst(results[0].errors, target) : std::numeric_limits<double>::quiet_NaN(),
          worst(results[1].errors, target)});
   part.finest = finest_;

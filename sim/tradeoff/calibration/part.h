@@ -8,6 +8,7 @@
 #include <map>
 
 #include "sim/tradeoff/calibration/calibration.h"
+#include "sim/tradeoff/calibration/ticks.h"
 #include "sim/tradeoff/front.h"
 
 namespace greatx::sim {
@@ -18,13 +19,13 @@ struct CalibrationRun {
   const Experiment& whole;
   std::filesystem::path assets;
   std::function<void(const std::string&)> say;
+  double most_ms = 0.0;  ///< settings that alone take longer are out: a budget
 };
 
 class PartCalibration {
  public:
-  /// `targets` are those of the modality, at least one. `asked` is false if they are weights.
-  PartCalibration(const CalibrationRun& run, Modality modality, std::vector<AccuracyTarget> targets,
-                  bool asked);
+  /// `targets` are those of the modality, at least one.
+  PartCalibration(const CalibrationRun& run, Modality modality, std::vector<AccuracyTarget> targets);
 
   /// Measures effects and knobs by themselves, and predicts the front.
   void measure_knobs();
@@ -36,8 +37,9 @@ class PartCalibration {
   double predicted_power() const { return chosen_.power; }
   /// The changes of the choice, for the scenario with all of its sensors.
   std::vector<YamlChange> changes() const;
-  /// Runs the choice on ticks that took no part so far.
-  CalibratedPart checked() const;
+  /// Runs the choice on ticks that took no part so far. Where it misses a target, more accurate joint
+  /// settings take its place, and at last the reference.
+  CalibratedPart checked();
 
  private:
   struct Part;
@@ -49,6 +51,15 @@ class PartCalibration {
     std::optional<size_t> own;
   };
 
+  /// A joint setting that met the targets on the ticks of the calibration.
+  struct Candidate {
+    FrontPoint point;
+    double power = 0.0;
+    std::vector<SensorError> errors;
+  };
+
+  CalibratedPart check() const;
+  bool take_more_accurate();
   void find_knobs();
   void measure_effects();
   void drop_effects(const std::vector<FrontSetting>& toggled);
@@ -56,7 +67,8 @@ class PartCalibration {
   void measure_numbers();
   void add_number(const Knob& knob);
   /// Runs settings on the ticks of the calibration.
-  std::vector<SettingResult> measure(const std::vector<Experiment>& settings, size_t reference) const;
+  std::vector<SettingResult> measure(const std::vector<Experiment>& settings, size_t reference,
+                                     Effort effort) const;
   Experiment with(const std::vector<YamlChange>& changes) const;
   std::vector<YamlChange> reference_changes() const;
   std::vector<YamlChange> changes_of(const std::vector<size_t>& choice) const;
@@ -67,7 +79,6 @@ class PartCalibration {
   const CalibrationRun& run_;
   const Modality modality_;
   const std::vector<AccuracyTarget> targets_;
-  const bool asked_;
   Experiment base_;  ///< of the modality alone, as the scenario is
   Experiment open_;  ///< the same with the effects on that may matter
   std::vector<Knob> effects_;
@@ -78,8 +89,10 @@ class PartCalibration {
   double own_ms_ = 0.0;  ///< of the base of the front: open_ without dropped effects
   std::vector<FrontPoint> front_;
   FrontPoint chosen_;
-  bool finest_ = false;  ///< the choice is the reference
+  bool finest_ = false;        ///< the choice is the reference
+  double chosen_power_ = 0.0;  ///< measured
   std::vector<SensorError> calibrated_;
+  std::vector<Candidate> candidates_;
 };
 
 }  // namespace greatx::sim

@@ -8,29 +8,40 @@ namespace greatx::sim {
 
 namespace {
 
-constexpr int64_t block_length = 3, check_blocks = 4, remembered_ticks = 6;
+constexpr int64_t block_length = 3, remembered_ticks = 6;
+/// Four blocks leave room for others between them from so many records on.
+constexpr int64_t long_records = 7 * block_length;
+
+int64_t records_of(const Scenario& scenario) { return scenario.ticks / ticks_between_records(scenario); }
 
 }  // namespace
 
-MeasurePlan calibration_ticks(const Scenario& scenario) { return plan_blocks(scenario, 2, block_length - 1); }
+MeasurePlan calibration_ticks(const Scenario& scenario, Effort effort) {
+  if (effort == Effort::slow) return plan_blocks(scenario, 1, 1);
+  const bool four = effort == Effort::joint && records_of(scenario) >= long_records;
+  return plan_blocks(scenario, four ? 4 : 2, block_length - 1);
+}
 
 std::optional<MeasurePlan> check_ticks(const Scenario& scenario, bool remembers) {
-  const int64_t stride = ticks_between_records(scenario), records = scenario.ticks / stride;
   MeasurePlan plan;
   plan.each_tick = true;
   plan.ticks = block_length - 1;
   if (remembers) {
     plan.warm_up = block_length;
-    plan.ticks = std::min(records - block_length, remembered_ticks);
+    plan.ticks = std::min(records_of(scenario) - block_length, remembered_ticks);
     return plan.ticks > 0 ? std::optional(plan) : std::nullopt;
   }
-  const int64_t room = records - 2 * block_length;
-  const int64_t blocks = std::min(room / block_length, check_blocks);
-  if (blocks <= 0) return {};
+  const int64_t stride = ticks_between_records(scenario);
+  const MeasurePlan chosen = calibration_ticks(scenario, Effort::joint);
+  const int64_t most = chosen.starts.size() > 2 ? 2 : 4;  // of blocks in a gap
   plan.starts.clear();
-  for (int64_t b = 0; b < blocks; ++b)
-    plan.starts.push_back(stride * (block_length + (2 * b + 1) * (room - block_length) / (2 * blocks)));
-  return plan;
+  for (size_t i = 0; i + 1 < chosen.starts.size(); ++i) {
+    const int64_t begin = chosen.starts[i] / stride + block_length;
+    const int64_t gap = chosen.starts[i + 1] / stride - begin, blocks = std::min(most, gap / block_length);
+    for (int64_t b = 0; b < blocks; ++b)
+      plan.starts.push_back(stride * (begin + b * gap / blocks + (gap / blocks - block_length) / 2));
+  }
+  return plan.starts.empty() ? std::nullopt : std::optional(plan);
 }
 
 }  // namespace greatx::sim

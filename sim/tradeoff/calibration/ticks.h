@@ -4,17 +4,22 @@
 // The ticks of a calibration, and those that check it. Inside of sim/tradeoff/calibration.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "sim/tradeoff/measure.h"
 
 namespace greatx::sim {
 
-/// Two blocks of two ticks after one tick of warm-up: at the begin and at the end of the scenario.
-MeasurePlan calibration_ticks(const Scenario& scenario);
+enum class Effort : uint8_t {
+  slow,     ///< one tick after one of warm-up: settings that take long
+  singles,  ///< two blocks of two ticks, each after one of warm-up: effects and knobs by themselves
+  joint     ///< four such blocks, or two in a short scenario: joint settings, which are chosen from
+};
+MeasurePlan calibration_ticks(const Scenario& scenario, Effort effort);
 
-/// Up to four blocks of two ticks after one tick of warm-up, between the blocks of the calibration; none if
-/// no tick is left there. If a sensor of the scenario remembers, it is one block after the calibration's.
+/// Blocks of two ticks after one of warm-up, between those of Effort::joint: up to six in all. None if no
+/// tick is left there. If a sensor of the scenario remembers, it is one block after the calibration's.
 std::optional<MeasurePlan> check_ticks(const Scenario& scenario, bool remembers);
 
 }  // namespace greatx::sim

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -32,9 +33,14 @@ class CsiError : public ErrorSum {
       figures.push_back({"path_gain", "dB", gain_db_.quantile(0.5), "median error of the links' path gain"});
       figures.push_back(
           {"path_gain_p95", "dB", gain_db_.quantile(0.95), "95th percentile of the error of path gain"});
+      figures.push_back({"path_gain_most", "dB", most_db_, "largest error of a link's path gain"});
     }
     if (!spread_ns_.empty())
       figures.push_back({"delay_spread", "ns", spread_ns_.quantile(0.5), "median error of the delay spread"});
+    if (links_ > 0)
+      figures.push_back(
+          {"changed", "%", 100.0 * static_cast<double>(changed_) / static_cast<double>(links_),
+           "links whose path gain is off by more than 0.1 dB, or that only one of the two has"});
     if (links_ > 0)
       figures.push_back({"links", "%", 100.0 * static_cast<double>(lost_) / static_cast<double>(links_),
                          "links that have a path in one of the two only"});
@@ -62,7 +68,12 @@ class CsiError : public ErrorSum {
       const bool in_x = x[i] > 0.0, in_y = y[i] > 0.0;
       links_ += in_x || in_y;
       lost_ += in_x != in_y;
-      if (in_x && in_y) gain_db_.add(std::abs(10.0 * std::log10(y[i] / x[i])));
+      changed_ += in_x != in_y;
+      if (!in_x || !in_y) continue;
+      const double error_db = std::abs(10.0 * std::log10(y[i] / x[i]));
+      gain_db_.add(error_db);
+      most_db_ = std::max(most_db_, error_db);
+      changed_ += error_db > changed_db;
     }
     if (!spread || spread.reference->dtype != DType::f64) return;
     const auto s = spread.reference->as<double>(), t = spread.got->as<double>();
@@ -80,9 +91,10 @@ class CsiError : public ErrorSum {
     either_ += of_x.size() + of_y.size() - both;
   }
 
-  double error_ = 0.0, power_ = 0.0;
+  static constexpr double changed_db = 0.1;
+  double error_ = 0.0, power_ = 0.0, most_db_ = 0.0;
   Samples gain_db_, spread_ns_;
-  uint64_t links_ = 0, lost_ = 0, both_ = 0, either_ = 0;
+  uint64_t links_ = 0, lost_ = 0, changed_ = 0, both_ = 0, either_ = 0;
 };
 
 }  // namespace

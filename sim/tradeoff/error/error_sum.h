@@ -42,8 +42,9 @@ class ErrorSum {
 /// Returns the sum for a sensor of this SensorSpec::kind. `camera`, `event_camera`, `lidar`, `radar` and
 /// `csi` have figures; null for others.
 ///
-/// - csi: `nmse` dB (sum |H - H_ref|^2 / sum |H_ref|^2 over all records); `path_gain` dB and
-///   `path_gain_p95` dB (median and 95th percentile of |difference| over links that have a path in both);
+/// - csi: `nmse` dB (sum |H - H_ref|^2 / sum |H_ref|^2 over all records); `path_gain` dB, `path_gain_p95` dB
+///   and `path_gain_most` dB (median, 95th percentile and largest |difference| over links that have a path in
+///   both); `changed` % (links whose path gain differs by more than 0.1 dB, or with a path in one only);
 ///   `links` % (of links with a path in one of the two only); `delay_spread` ns (median); `paths` % (by `id`:
 ///   1 - |both| / |either|).
 /// - camera: `flip` 1 (mean of FLIP at 67 pixels per degree; the smaller picture is enlarged bilinearly to
