@@ -26,7 +26,7 @@ struct CalibrateOptions {
 };
 
 void run_calibrate(const CalibrateOptions& options) {
-  const sim::Experiment experiment = sim::make_experiment(load_scenario(options.scenario));
+  const sim::Experiment experiment = sim::make_experiment(load_scenario(options.scenario, true));
   if (experiment.scenario.accuracy.empty())
     throw_user_error("{}: expected 'accuracy' or 'time_budget_ms_per_tick', found neither",
                      options.scenario.scenario);

@@ -77,7 +77,7 @@ sim::Experiment with_settings(sim::Experiment experiment, const GenerateOptions&
 
 void run_generate(const GenerateOptions& options) {
   const Clock::time_point begin = Clock::now();
-  sim::Experiment asked = sim::make_experiment(load_scenario(options.scenario));
+  sim::Experiment asked = sim::make_experiment(load_scenario(options.scenario, true));
   gpu::Device device(options.run.device_options());
   const std::filesystem::path calibration_file = std::filesystem::path(options.output) / io::calibration_file;
   nlohmann::json calibration;

@@ -35,7 +35,7 @@ void RunOptions::add_to(CLI::App& command) {
                    "run under the Vulkan validation layer; a message is an error");
 }
 
-sim::Scenario load_scenario(const ScenarioOptions& options) {
+sim::Scenario load_scenario(const ScenarioOptions& options, bool chooses) {
   sim::Scenario scenario;
   const auto embedded = std::find_if(embedded_scenarios().begin(), embedded_scenarios().end(),
                                      [&](const EmbeddedScenario& s) { return s.name == options.scenario; });
@@ -57,6 +57,11 @@ sim::Scenario load_scenario(const ScenarioOptions& options) {
   if (options.ticks && scenario.trajectory_ticks && scenario.ticks > *scenario.trajectory_ticks)
     spdlog::warn("{}: its curves end at tick {} of {}; from there on they go straight", scenario.name,
                  *scenario.trajectory_ticks - 1, scenario.ticks);
+  if (!chooses && !scenario.accuracy.empty())
+    spdlog::warn(
+        "{}: only `greatx generate` and `greatx calibrate` choose settings for 'accuracy' and "
+        "'time_budget_ms_per_tick'; this command takes those that are written",
+        scenario.name);
   return scenario;
 }
 

@@ -34,8 +34,9 @@ struct RunOptions {
   gpu::DeviceOptions device_options() const { return {device, validation}; }
 };
 
-/// Reads the scenario and applies the options. Throws UserError if there is no such scenario.
-sim::Scenario load_scenario(const ScenarioOptions& options);
+/// Reads the scenario and applies the options. If the scenario gives errors or a time budget and the command
+/// does not choose settings (`chooses`), it warns. Throws UserError if there is no such scenario.
+sim::Scenario load_scenario(const ScenarioOptions& options, bool chooses = false);
 
 /// Returns the index of the channel `name` (--channel), or of the first one if `name` is empty. Throws
 /// UserError if there is no such channel.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Measures what each effect of a scenario costs and changes here: every effect by itself is switched off if it
-// is on, and on if it is off.
+// Measures what each effect of a scenario costs and changes here: every effect by itself is switched off if
+// it is on, and on if it is off.
 #pragma once
 
 #include <filesystem>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Settings chosen for scenarios that give errors or a time budget. The promise is checked by whole runs of the
-// choice and of the reference, with sums of their own, on scenes from seeds that nothing was tuned on.
+// Settings chosen for scenarios that give errors or a time budget. The promise is checked by whole runs of
+// the choice and of the reference, with sums of their own, on scenes that nothing was tuned on.
 #include "sim/tradeoff/calibration/calibration.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ name: street
 ticks: 30
 tick_rate_hz: 10
 {}
-scene: {{generate: {{kind: canyon, seed: {}, size_m: 240}}}}
+scene: {{generate: {{kind: canyon, seed: {}, size_m: 100}}}}
 nodes:
   - name: mast
     trajectory: {{type: static, position_m: [6.3, -21.7, 9.4]}}
@@ -55,7 +55,8 @@ nodes:
       - {{name: scan, type: lidar, rate_hz: 10, channels: 16, elevation_min_deg: -20, elevation_max_deg: 10,
          azimuth_steps: 128, mount: {{position_m: [0, 0, 1]}}}}
 channels:
-  - {{name: csi, tx: mast/a, rx: car/a, rate_hz: 10, carrier_hz: 5e9, bandwidth_hz: 50e6, subcarriers: 32}}
+  - {{name: csi, tx: mast/a, rx: car/a, rate_hz: 10, carrier_hz: 5e9, bandwidth_hz: 50e6, subcarriers: 32,
+      max_depth: 2}}
 )",
                      wishes, seed);
 }
@@ -143,7 +144,7 @@ TEST_F(Calibrations, WrittenKnobsStay) {
   std::set<std::string> kept;
   for (const KeptKnob& knob : calibration.parts.at(0).kept)
     if (knob.why == "the scenario writes it") kept.insert(knob.knob);
-  EXPECT_EQ(kept, (std::set<std::string>{"diffraction", "scattering", "reflection"}));
+  EXPECT_EQ(kept, (std::set<std::string>{"diffraction", "max_depth", "reflection", "scattering"}));
 }
 
 TEST_F(Calibrations, GuardOtherFiguresOfAModality) {
@@ -159,12 +160,15 @@ TEST_F(Calibrations, GuardOtherFiguresOfAModality) {
 }
 
 TEST_F(Calibrations, FillATimeBudgetOrSayWhatItTakes) {
-  const Calibration calibration =
-      calibrate(device(), make_experiment(parsed(street(303, "time_budget_ms_per_tick: 60000"))), {}, ignore);
+  const Calibration calibration = calibrate(
+      device(),
+      make_experiment(parsed(street(303, "time_budget_ms_per_tick: 60000\neffects: {scattering: off}"))), {},
+      ignore);
   EXPECT_EQ(calibration.parts.size(), 2u);  // csi and lidar
   EXPECT_GT(calibration.tick_ms.median, 0.0);
   EXPECT_LE(calibration.tick_ms.median, 60000.0);
-  const Experiment tight = make_experiment(parsed(street(303, "time_budget_ms_per_tick: 0.001")));
+  const Experiment tight =
+      make_experiment(parsed(street(303, "time_budget_ms_per_tick: 0.001\neffects: {scattering: off}")));
   try {
     calibrate(device(), tight, {}, ignore);
     FAIL() << "expected UserError";
