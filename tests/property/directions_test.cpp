@@ -73,7 +73,7 @@ std::string words(std::span<const rf::Interaction> interactions) {
 
 /// Returns what differs between a path and the same path from the other end. Fields agree to 1e-9 of the
 /// largest component.
-std::optional<std::string> difference(const rf::Path& path, const rf::Path& back) {
+std::optional<std::string> backward_difference(const rf::Path& path, const rf::Path& back) {
   double largest = 0.0, off = 0.0;
   for (const int i : {0, 1, 2, 3}) {
     const int transposed = i == 1 ? 2 : i == 2 ? 1 : i;
@@ -90,7 +90,7 @@ std::optional<std::string> difference(const rf::Path& path, const rf::Path& back
   return std::nullopt;
 }
 
-std::optional<std::string> difference(const Solved& link, const Solved& back) {
+std::optional<std::string> backward_difference(const Solved& link, const Solved& back) {
   std::map<std::vector<rf::Interaction>, const rf::Path*> known;
   for (const rf::Path& path : back.paths)
     known[{path.interactions.rbegin(), path.interactions.rend()}] = &path;
@@ -98,7 +98,7 @@ std::optional<std::string> difference(const Solved& link, const Solved& back) {
     const auto found = known.find(path.interactions);
     if (found == known.end())
       return fmt::format("{} of {} m is not there backwards", words(path.interactions), path.length_m);
-    if (const auto fault = difference(path, *found->second))
+    if (const auto fault = backward_difference(path, *found->second))
       return fmt::format("{}: {}", words(path.interactions), *fault);
     known.erase(found);
   }
@@ -128,7 +128,7 @@ std::optional<std::string> directions_differ(const DrawnCase& drawn) {
   const Direction there = solve(drawn, false), back = solve(drawn, true);
   for (size_t tick = 0; tick < ticks; ++tick) {
     for (size_t r = 0; r < drawn.receivers.size(); ++r)
-      if (const auto fault = difference(there.links[tick].at(r), back.links[tick].at(r)))
+      if (const auto fault = backward_difference(there.links[tick].at(r), back.links[tick].at(r)))
         return fmt::format("tick {}, link {}: {}", tick, r, *fault);
     if (const auto fault =
             not_transposed(there.responses[tick], back.responses[tick], drawn.receivers.size()))
@@ -137,11 +137,11 @@ std::optional<std::string> directions_differ(const DrawnCase& drawn) {
   return std::nullopt;
 }
 
-/// Adds diffraction and scattering to a case. The ends move by `moving`: 0 none, 1 the transmitter, 2 the
+/// Adds diffraction and scattering to a case, every second one with `search: every_tick`. The ends move by `moving`: 0 none, 1 the transmitter, 2 the
 /// receivers, 3 all.
 void bend(DrawnCase& drawn, uint32_t after, uint32_t moving) {
   drawn.diffraction = drawn.scattering = true;
-  drawn.depth = 2;
+  drawn.every_tick = drawn.seed % 2 == 0;
   drawn.reflections_after = after;
   drawn.transmitter_moves = (moving & 1u) != 0;
   drawn.receivers_move = (moving & 2u) != 0;
@@ -156,12 +156,14 @@ TEST_P(BothDirections, HaveTheSamePathsAndTheTransposedTransferFunction) {
                {form_of(false), form_of(true)}, [&](DrawnCase& drawn) { bend(drawn, after, moving); });
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Property, BothDirections,
-    ::testing::Combine(::testing::Values(0u, 1u), ::testing::Values(0u, 1u, 2u, 3u)), [](const auto& info) {
-      constexpr const char* names[] = {"AllRest", "TheTransmitterMoves", "TheReceiversMove", "AllMove"};
-      return fmt::format("{}After{}", std::get<0>(info.param), names[std::get<1>(info.param)]);
-    });
+std::string name_of_setting(const ::testing::TestParamInfo<std::tuple<uint32_t, uint32_t>>& info) {
+  constexpr const char* names[] = {"AllRest", "TheTransmitterMoves", "TheReceiversMove", "AllMove"};
+  return fmt::format("{}After{}", std::get<0>(info.param), names[std::get<1>(info.param)]);
+}
+
+INSTANTIATE_TEST_SUITE_P(Property, BothDirections,
+                         ::testing::Combine(::testing::Values(0u, 1u), ::testing::Values(0u, 1u, 2u, 3u)),
+                         name_of_setting);
 
 TEST(Property, BothDirectionsHaveTheSamePaths) {
   check_scenes("reciprocity", directions_differ, {form_of(false), form_of(true)},
@@ -178,7 +180,8 @@ TEST(Property, BothDirectionsHaveBendsToCompare) {
       DrawnCase drawn = draw_case(seed);
       bend(drawn, after, 0);
       drawn.transmission = false;
-      for (const Solved& link : solve(drawn, false).links[0])
+      const Direction direction = solve(drawn, false);
+      for (const Solved& link : direction.links[0])
         for (const rf::Path& path : link.paths) {
           std::string shape = fmt::format("{}:", after);
           for (const rf::Interaction& one : path.interactions)

@@ -38,6 +38,7 @@ struct DrawnCase {
   uint32_t depth = 2;
   bool transmission = true, diffraction = false, scattering = false;
   uint32_t reflections_after = 0;  ///< max_reflections_after
+  bool every_tick = false;         ///< search: every_tick
   bool transmitter_moves = false, receivers_move = false;
   double carrier_hz = 3.5e9;
 };
