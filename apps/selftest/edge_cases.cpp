@@ -157,8 +157,8 @@ void n47_split_edge(const Lab& lab, Rows& rows) {
   rows.add("edges of a block of many triangles", host, 12.0, static_cast<double>(wedges.size()), 0.0);
   rows.add("their length, m", host, 4.0 * (4.0 + 6.0 + 5.0), length, 1e-9);
 
-  // The edge at (-2, 3) is 5 m from both ends, whose heights differ by 1 m. Unfolded, the path has 10 m by 1 m
-  // and meets the edge at 2.5 m. No other edge is seen from both ends.
+  // The edge at (-2, 3) is 5 m from both ends, whose heights differ by 1 m. Unfolded, the path has 10 m by
+  // 1 m and meets the edge at 2.5 m. No other edge is seen from both ends.
   const dvec3 from(-6, 0, 2), to(2.8, 4.4, 3);
   Links of_cut(lab, cut, {.edges = true}), of_plain(lab, plain, {.edges = true});
   const std::vector<rf::Path> paths = of_cut.solve(from, lab.given(to)), known = of_plain.solve(from, to);

@@ -62,8 +62,8 @@ struct GeometricPath {
   double patch_area_m2 = 0.0;  ///< area of the scattering patch; 0 if the path is not scattered
   /// Bit i: the diffraction at the edges of the facet of interaction i, a reflection, is in other paths.
   uint32_t edges_diffract = 0;
-  /// The field is computed as if the receiver sent. A diffraction at a lossy wedge and a scattering have other
-  /// fields from each side, so both directions of a link compute theirs from the same end.
+  /// The field is computed as if the receiver sent. A diffraction at a lossy wedge and a scattering have
+  /// other fields from each side, so both directions of a link compute theirs from the same end.
   bool from_receiver = false;
   FacetSequence facets() const { return reflecting_facets(interactions); }
 };

@@ -26,8 +26,8 @@ namespace greatx::sim {
 class ChannelSearch {
  public:
   /// The ends decide the way to search. All arguments but `ends` must outlive this. If `gpu_scene` is null,
-  /// only notes() may be called. Throws UserError if `search: once` is asked for and both ends of a link move,
-  /// or if diffraction is on and candidates come from rays.
+  /// only notes() may be called. Throws UserError if `search: once` is asked for and no end stands still, or
+  /// if diffraction is on and candidates come from rays.
   ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& model, const EffectPlan& plan,
                 const ChannelConfig& config, const ChannelEnds& ends);
 
