@@ -30,8 +30,8 @@ struct ChannelEnd {
 /// Returns the end of a link that the search starts from if paths with a diffraction or a scattering would
 /// differ by it (PathLimits). The choice does not depend on which end transmits, nor on the other ends of the
 /// channel: it is the end that rests; else the one whose antenna has more elements; else, if both rest, the
-/// higher one, by whole millimetres; else the one whose name comes first in the order of bytes. The first two
-/// and the third mostly name a base station, whose one search then serves many links.
+/// higher one, by whole millimetres; else the one whose name comes first in the order of bytes. Elements and
+/// height mostly name a base station, whose one search then serves many links.
 rf::Source searched_from(const ChannelEnd& transmitter, const ChannelEnd& receiver);
 
 /// Holds one transmitter and its receivers.
