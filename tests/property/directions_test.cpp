@@ -170,6 +170,16 @@ TEST(Property, BothDirectionsHaveTheSamePaths) {
                [](DrawnCase& drawn) { drawn.diffraction = false; });
 }
 
+TEST(Property, BothDirectionsShootTheirRaysFromOneEnd) {
+  for (const uint32_t moving : {0u, 3u})
+    check_scenes(fmt::format("directions_rays_{}", moving), directions_differ,
+                 {form_of(false), form_of(true)}, [&](DrawnCase& drawn) {
+                   bend(drawn, 0, moving);
+                   drawn.diffraction = false;
+                   drawn.rays = 4096;
+                 });
+}
+
 /// The properties above compare something: paths with reflections on one side of a bend, on the other side,
 /// and on both, and links that are searched from either end.
 TEST(Property, BothDirectionsHaveBendsToCompare) {

@@ -192,10 +192,11 @@ void write_case(const DrawnCase& drawn, const Form& form, const std::filesystem:
   const std::string transmitter = "tx/antenna";
   yaml << fmt::format(
       "channels:\n  - {{name: csi, tx: [{}], rx: [{}], rate_hz: 10, carrier_hz: {}, bandwidth_hz: 20e6,\n"
-      "     subcarriers: 16, max_depth: {}, max_reflections_after: {}, scattering_patch_m: 16{},\n"
+      "     subcarriers: 16, max_depth: {}, max_reflections_after: {}, scattering_patch_m: 16{}{},\n"
       "     outputs: [cfr, paths]}}\n",
       form.swapped ? receivers : transmitter, form.swapped ? transmitter : receivers, drawn.carrier_hz,
-      drawn.depth, drawn.reflections_after, drawn.every_tick ? ", search: every_tick" : "");
+      drawn.depth, drawn.reflections_after, drawn.every_tick ? ", search: every_tick" : "",
+      drawn.rays > 0 ? fmt::format(", rays: {}", drawn.rays) : "");
 }
 
 Links run_case(const std::filesystem::path& folder) {
@@ -223,12 +224,12 @@ Links run_case(const DrawnCase& drawn, const Form& form) {
 }
 
 std::string describe(const DrawnCase& drawn) {
-  return fmt::format("seed {}: {} boxes{}, {} receivers, depth {}{}{}{}, {} reflections after{}{}{}, {} Hz",
+  return fmt::format("seed {}: {} boxes{}, {} receivers, depth {}{}{}{}, {} reflections after{}{}{}{}, {} Hz",
                      drawn.seed, drawn.boxes.size(), drawn.ground ? " on a ground" : "",
                      drawn.receivers.size(), drawn.depth, drawn.transmission ? ", transmission" : "",
                      drawn.diffraction ? ", diffraction" : "", drawn.scattering ? ", scattering" : "",
                      drawn.reflections_after, drawn.every_tick ? ", searched every tick" : "",
-                     drawn.transmitter_moves ? ", the transmitter moves" : "",
+                     drawn.rays > 0 ? ", rays" : "", drawn.transmitter_moves ? ", the transmitter moves" : "",
                      drawn.receivers_move ? ", the receivers move" : "", drawn.carrier_hz);
 }
 

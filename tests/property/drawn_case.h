@@ -39,6 +39,7 @@ struct DrawnCase {
   bool transmission = true, diffraction = false, scattering = false;
   uint32_t reflections_after = 0;  ///< max_reflections_after
   bool every_tick = false;         ///< search: every_tick
+  uint32_t rays = 0;               ///< of `candidates: rays`; 0: beams
   bool transmitter_moves = false, receivers_move = false;
   double carrier_hz = 3.5e9;
 };
