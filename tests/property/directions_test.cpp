@@ -137,11 +137,12 @@ std::optional<std::string> directions_differ(const DrawnCase& drawn) {
   return std::nullopt;
 }
 
-/// Adds diffraction and scattering to a case, every second one with `search: every_tick`. The ends move by
-/// `moving`: 0 none, 1 the transmitter, 2 the receivers, 3 all.
+/// Adds diffraction and scattering to a case, every second one with `search: every_tick`, every fourth with
+/// dispersion. The ends move by `moving`: 0 none, 1 the transmitter, 2 the receivers, 3 all.
 void bend(DrawnCase& drawn, uint32_t after, uint32_t moving) {
   drawn.diffraction = drawn.scattering = true;
   drawn.every_tick = drawn.seed % 2 == 0;
+  drawn.dispersion = drawn.seed % 4 == 1;
   drawn.reflections_after = after;
   drawn.transmitter_moves = (moving & 1u) != 0;
   drawn.receivers_move = (moving & 2u) != 0;

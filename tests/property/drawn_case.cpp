@@ -185,8 +185,9 @@ void write_case(const DrawnCase& drawn, const Form& form, const std::filesystem:
   const auto on = [](bool value) { return value ? "on" : "off"; };
   yaml << fmt::format("greatx: 1\nname: drawn\nticks: {}\ntick_rate_hz: 10\nscene: {{file: {}}}\n",
                       form.ticks, file)
-       << fmt::format("effects: {{transmission: {}, diffraction: {}, scattering: {}}}\n",
-                      on(drawn.transmission), on(drawn.diffraction), on(drawn.scattering))
+       << fmt::format("effects: {{transmission: {}, diffraction: {}, scattering: {}, dispersion: {}}}\n",
+                      on(drawn.transmission), on(drawn.diffraction), on(drawn.scattering),
+                      on(drawn.dispersion))
        << "nodes:\n";
   for (const std::string& node : nodes) yaml << node;
   const std::string transmitter = "tx/antenna";
@@ -224,13 +225,14 @@ Links run_case(const DrawnCase& drawn, const Form& form) {
 }
 
 std::string describe(const DrawnCase& drawn) {
-  return fmt::format("seed {}: {} boxes{}, {} receivers, depth {}{}{}{}, {} reflections after{}{}{}{}, {} Hz",
-                     drawn.seed, drawn.boxes.size(), drawn.ground ? " on a ground" : "",
-                     drawn.receivers.size(), drawn.depth, drawn.transmission ? ", transmission" : "",
-                     drawn.diffraction ? ", diffraction" : "", drawn.scattering ? ", scattering" : "",
-                     drawn.reflections_after, drawn.every_tick ? ", searched every tick" : "",
-                     drawn.rays > 0 ? ", rays" : "", drawn.transmitter_moves ? ", the transmitter moves" : "",
-                     drawn.receivers_move ? ", the receivers move" : "", drawn.carrier_hz);
+  return fmt::format(
+      "seed {}: {} boxes{}, {} receivers, depth {}{}{}{}{}, {} reflections after{}{}{}{}, {} Hz", drawn.seed,
+      drawn.boxes.size(), drawn.ground ? " on a ground" : "", drawn.receivers.size(), drawn.depth,
+      drawn.transmission ? ", transmission" : "", drawn.diffraction ? ", diffraction" : "",
+      drawn.scattering ? ", scattering" : "", drawn.dispersion ? ", dispersion" : "", drawn.reflections_after,
+      drawn.every_tick ? ", searched every tick" : "", drawn.rays > 0 ? ", rays" : "",
+      drawn.transmitter_moves ? ", the transmitter moves" : "",
+      drawn.receivers_move ? ", the receivers move" : "", drawn.carrier_hz);
 }
 
 }  // namespace greatx::property
