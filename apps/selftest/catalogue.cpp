@@ -11,8 +11,8 @@ namespace greatx::apps::selftest {
 
 std::vector<Case> catalogue() {
   std::vector<Case> all;
-  for (const auto part : {ray_cases(), path_cases(), surface_cases(), channel_cases(), edge_cases(),
-                          antenna_cases(), sensor_cases(), radar_cases(), time_cases()})
+  for (const auto part : {ray_cases(), mesh_cases(), path_cases(), surface_cases(), channel_cases(),
+                          edge_cases(), antenna_cases(), sensor_cases(), radar_cases(), time_cases()})
     all.insert(all.end(), part.begin(), part.end());
   std::ranges::stable_sort(all, {}, &Case::number);
   return all;

@@ -68,6 +68,7 @@ void run(const Case& item, const Lab& lab, std::vector<Row>& rows);
 
 // The parts of the catalogue.
 std::span<const Case> ray_cases();
+std::span<const Case> mesh_cases();
 std::span<const Case> path_cases();
 std::span<const Case> surface_cases();
 std::span<const Case> channel_cases();

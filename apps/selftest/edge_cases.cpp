@@ -128,12 +128,59 @@ void n46_two_faces(const Lab& lab, Rows& rows) {
   rows.add("edges of a box, and none of a flat seam", host, 12.0, static_cast<double>(wedges.size()), 0.0);
 }
 
+/// Adds a plate from `corner` along u and v, cut into `us` x `vs` quads.
+void add_cut_plate(Stage& stage, const dvec3& corner, const dvec3& u, const dvec3& v, int us, int vs) {
+  const auto at = [&](int i, int j) {
+    return corner + (static_cast<double>(i) / us) * u + (static_cast<double>(j) / vs) * v;
+  };
+  for (int i = 0; i < us; ++i)
+    for (int j = 0; j < vs; ++j) stage.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+}
+
+void n47_split_edge(const Lab& lab, Rows& rows) {
+  // A block whose faces have no common corners but the block's own: two pieces of one face and three of the
+  // other meet at each edge. The edge beside which the path passes is cut just where the path touches it.
+  const dvec3 low(-2, -3, 0), x(4, 0, 0), y(0, 6, 0), z(0, 0, 5);
+  Stage split = lab.stage(), whole = lab.stage();
+  split.object("block");
+  add_cut_plate(split, low, y, x, 3, 2);
+  add_cut_plate(split, low + z, x, y, 5, 7);
+  add_cut_plate(split, low, x, z, 1, 1);
+  add_cut_plate(split, low + y, z, x, 3, 4);
+  add_cut_plate(split, low, z, y, 2, 6);
+  add_cut_plate(split, low + x, y, z, 2, 1);
+  whole.object("block").box(low, low + x + y + z);
+  const scene::Scene cut = split.build(), plain = whole.build();
+  const std::vector<scene::Wedge> wedges = scene::find_wedges(cut);
+  double length = 0.0;
+  for (const scene::Wedge& wedge : wedges) length += glm::length(wedge.b - wedge.a);
+  rows.add("edges of a block of many triangles", host, 12.0, static_cast<double>(wedges.size()), 0.0);
+  rows.add("their length, m", host, 4.0 * (4.0 + 6.0 + 5.0), length, 1e-9);
+
+  // The edge at (-2, 3) is 5 m from both ends, whose heights differ by 1 m. Unfolded, the path has 10 m by
+  // 1 m and meets the edge at 2.5 m. No other edge is seen from both ends.
+  const dvec3 from(-6, 0, 2), to(2.8, 4.4, 3);
+  Links of_cut(lab, cut, {.edges = true}), of_plain(lab, plain, {.edges = true});
+  const std::vector<rf::Path> paths = of_cut.solve(from, lab.given(to)), known = of_plain.solve(from, to);
+  rows.add("paths round a split edge", "host, fp64 + driver, fp32", 1.0, static_cast<double>(paths.size()),
+           0.0);
+  const bool found = paths.size() == 1 && known.size() == 1;
+  rows.add("length of the path, m", host, std::sqrt(101.0), found ? paths[0].length_m : std::nan(""), 1e-12);
+  double change = found ? 0.0 : std::nan(""), largest = 0.0;
+  for (int i = 0; found && i < 4; ++i) {
+    change = std::max(change, std::abs(paths[0].transfer[i] - known[0].transfer[i]));
+    largest = std::max(largest, std::abs(known[0].transfer[i]));
+  }
+  rows.add("change of its field by the cuts, of its largest part", host, 0.0, change / largest, 1e-12);
+}
+
 constexpr Case list_of_edge_cases[] = {
     {44, "transition function", n44_transition},
     {44, "exactly on a shadow boundary", n44_on_the_boundary},
     {44, "Sommerfeld's half-plane", n44_half_plane},
     {45, "ends next to the edge", n45_grazing_the_edge},
     {46, "faces of a half-plane, flat seams", n46_two_faces},
+    {47, "edge and faces in many pieces", n47_split_edge},
 };
 
 }  // namespace

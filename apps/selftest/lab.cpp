@@ -12,9 +12,10 @@ namespace greatx::apps::selftest {
 
 namespace {
 
-rf::RadioEffects effects_of(bool walls) {
+rf::RadioEffects effects_of(bool walls, bool edges = false) {
   rf::RadioEffects effects;
   effects.transmission = walls;
+  effects.diffraction = edges;
   return effects;
 }
 
@@ -78,7 +79,7 @@ render::LidarScan Lab::sweep(const scene::Scene& scene, const render::LidarDesc&
 
 Links::Links(const Lab& lab, const scene::Scene& scene, const Options& options)
     : options_(options),
-      model_(scene, options.carrier_hz, effects_of(options.walls)),
+      model_(scene, options.carrier_hz, effects_of(options.walls, options.edges)),
       gpu_(lab.device(), scene, {}),
       pass_(gpu_, model_.kinds),
       ring_(lab.device(), 1, 1u << 16, 1u << 16) {}

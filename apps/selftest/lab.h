@@ -70,6 +70,7 @@ class Links {
     double carrier_hz = 3.5e9;
     uint32_t max_depth = 1;
     bool walls = false;  ///< materials with a thickness let waves through
+    bool edges = false;  ///< edges diffract
     uint32_t threads = 0;
   };
   /// `scene` must outlive this.

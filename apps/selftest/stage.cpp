@@ -38,6 +38,12 @@ Stage& Stage::object(const std::string& name, uint32_t material) {
   model_.instances.push_back(instance);
   triangles_.emplace_back();
   materials_.push_back(material);
+  normals_.emplace_back();
+  return *this;
+}
+
+Stage& Stage::normal(const dvec3& normal) {
+  normals_.back() = normal;
   return *this;
 }
 
@@ -63,7 +69,7 @@ Stage& Stage::box(const dvec3& low, const dvec3& high) {
       .quad(p(1, 0, 0), p(1, 1, 0), p(1, 1, 1), p(1, 0, 1));
 }
 
-scene::Scene Stage::build(const dvec3& shift, const dvec3& origin) const {
+scene::Scene Stage::build(const dvec3& shift, const dvec3& origin, const dvec3& scale) const {
   scene::Model model = model_;
   for (size_t object = 0; object < triangles_.size(); ++object) {
     scene::ModelPrimitive primitive;
@@ -72,12 +78,14 @@ scene::Scene Stage::build(const dvec3& shift, const dvec3& origin) const {
       for (const dvec3& corner : triangles_[object][i]) {
         primitive.indices.push_back(static_cast<uint32_t>(primitive.positions.size()));
         primitive.positions.push_back(vec3(corner));
+        if (normals_[object]) primitive.normals.emplace_back(*normals_[object]);
       }
     if (!primitive.indices.empty()) model.meshes[object].primitives.push_back(std::move(primitive));
   }
   scene::ModelPlacement placement;
   placement.model = &model;
   placement.pose.position = shift;
+  placement.scale = scale;
   scene::BuildOptions options;
   options.name = "selftest";
   options.origin = origin;

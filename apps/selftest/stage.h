@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,14 +36,20 @@ class Stage {
   /// Adds a closed box whose normals point outwards.
   Stage& box(const dvec3& low, const dvec3& high);
 
-  /// Builds the scene, moved by `shift` in the world. `origin` is the world position of the local origin.
-  scene::Scene build(const dvec3& shift = dvec3(0.0), const dvec3& origin = dvec3(0.0)) const;
+  /// Gives all corners of the present object this normal, as files with smooth normals do.
+  Stage& normal(const dvec3& normal);
+
+  /// Builds the scene, scaled and then moved by `shift` in the world. `origin` is the world position of the
+  /// local origin.
+  scene::Scene build(const dvec3& shift = dvec3(0.0), const dvec3& origin = dvec3(0.0),
+                     const dvec3& scale = dvec3(1.0)) const;
 
  private:
   bool hole_;
   scene::Model model_;
   std::vector<std::vector<Triangle>> triangles_;  ///< [objects]
   std::vector<uint32_t> materials_;               ///< [objects]
+  std::vector<std::optional<dvec3>> normals_;     ///< [objects] of all corners; none: computed
 };
 
 }  // namespace greatx::apps::selftest

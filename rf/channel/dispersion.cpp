@@ -27,8 +27,8 @@ Dispersion::Dispersion(const scene::Scene& scene, const FieldModel& carrier, con
 }
 
 TransferSpectrum Dispersion::spectrum(const Path& path, const FacetWorld& world) const {
-  const GeometricPath geometry{path.interactions, path.vertices, path.length_m, path.foliage_m,
-                               path.patch_area_m2, path.edges_diffract};
+  const GeometricPath geometry{path.interactions,  path.vertices,       path.length_m,     path.foliage_m,
+                               path.patch_area_m2, path.edges_diffract, path.from_receiver};
   TransferSpectrum spectrum(subcarriers_.size());
   FieldModel model = carrier_;
   model.world = &world;

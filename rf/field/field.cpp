@@ -241,6 +241,17 @@ void set_transfer(const GeometricPath& path, const FieldModel& model, const Runs
   }
 }
 
+/// Returns the path as the receiver's wave takes it.
+GeometricPath reversed(GeometricPath path) {
+  const size_t count = path.interactions.size();
+  uint32_t bits = 0;
+  for (size_t i = 0; i < count; ++i) bits |= (path.edges_diffract >> i & 1u) << (count - 1 - i);
+  path.edges_diffract = bits;
+  std::reverse(path.interactions.begin(), path.interactions.end());
+  std::reverse(path.vertices.begin(), path.vertices.end());
+  return path;
+}
+
 /// Returns the rate at which the path shortens, m/s: v_0 . k_0 - v_{n+1} . k_n + sum v_i . (k_i - k_{i-1}).
 double closing_rate(const GeometricPath& path, const FieldModel& model, const Runs& runs,
                     const dvec3& transmitter_velocity, const dvec3& receiver_velocity) {
@@ -269,7 +280,10 @@ void check(const GeometricPath& path) {
 Path path_field(const GeometricPath& geometry, const FieldModel& model, const dvec3& transmitter_velocity,
                 const dvec3& receiver_velocity) {
   check(geometry);
-  const Runs runs = runs_of(geometry, *model.world);
+  const bool back = geometry.from_receiver;
+  const GeometricPath turned = back ? reversed(geometry) : GeometricPath{};
+  const GeometricPath& wave = back ? turned : geometry;
+  const Runs runs = runs_of(wave, *model.world);
   Path path;
   path.interactions = geometry.interactions;
   path.vertices = geometry.vertices;
@@ -277,18 +291,27 @@ Path path_field(const GeometricPath& geometry, const FieldModel& model, const dv
   path.foliage_m = geometry.foliage_m;
   path.patch_area_m2 = geometry.patch_area_m2;
   path.edges_diffract = geometry.edges_diffract;
+  path.from_receiver = back;
   path.delay_s = geometry.length_m / speed_of_light;
-  path.doppler_hz = closing_rate(geometry, model, runs, transmitter_velocity, receiver_velocity) /
+  path.doppler_hz = closing_rate(wave, model, runs, back ? receiver_velocity : transmitter_velocity,
+                                 back ? transmitter_velocity : receiver_velocity) /
                     model.surfaces->wavelength_m();
   path.departure = runs.directions.front();
   path.arrival = -runs.directions.back();
-  set_transfer(geometry, model, runs, path.transfer);
+  set_transfer(wave, model, runs, path.transfer);
+  if (!back) return path;
+  std::swap(path.departure, path.arrival);
+  std::swap(path.transfer[1], path.transfer[2]);
   return path;
 }
 
 void path_transfer(const GeometricPath& geometry, const FieldModel& model, Complex (&transfer)[4]) {
   check(geometry);
-  set_transfer(geometry, model, runs_of(geometry, *model.world), transfer);
+  if (!geometry.from_receiver)
+    return set_transfer(geometry, model, runs_of(geometry, *model.world), transfer);
+  const GeometricPath wave = reversed(geometry);
+  set_transfer(wave, model, runs_of(wave, *model.world), transfer);
+  std::swap(transfer[1], transfer[2]);
 }
 
 }  // namespace greatx::rf

@@ -64,9 +64,11 @@ void cut(const Triangle& triangle, double side_m, uint32_t facet, std::vector<Pa
                      0.5 * glm::length(glm::cross(b - a, c - a))});
 }
 
+/// Turns a path that runs from the receiver, because the search did, into one from the transmitter.
 void reverse(GeometricPath& path) {
   std::reverse(path.interactions.begin(), path.interactions.end());
   std::reverse(path.vertices.begin(), path.vertices.end());
+  path.from_receiver = true;
 }
 
 }  // namespace

@@ -73,10 +73,7 @@ ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossin
       ends_(std::move(ends)),
       radio_(std::move(radio)),
       crossings_(crossings) {
-  const bool receivers_rest = std::all_of(ends_.receivers.begin(), ends_.receivers.end(),
-                                          [](const ChannelEnd& end) { return end.rests; });
-  search_.emplace(&gpu_scene, radio_->model(), experiment.plan, config_,
-                  ChannelSearch::Ends{ends_.transmitter.rests, receivers_rest, ends_.transmitter.body});
+  search_.emplace(&gpu_scene, radio_->model(), experiment.plan, config_, ends_);
 }
 
 ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings,
@@ -108,7 +105,8 @@ void ChannelPaths::start(const TickContext& context) {
 }
 
 void ChannelPaths::record_ahead(gpu::TickSlot& slot, const TickContext& next) {
-  search_->record_ahead(slot, state(ends_.transmitter, next).position);
+  if (!looks_ahead()) return;
+  search_->record_ahead(slot, state(ends_.transmitter, next).position, receiver_positions(next));
 }
 
 void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
@@ -117,7 +115,7 @@ void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
   radio_->move_on(context);
   flight.world = radio_->snapshot();
   check_placements(context);
-  search_->renew(context.tick, flight.transmitter.position, receiver_positions(context));
+  search_->renew(context.tick, flight.transmitter.position, receiver_positions(context), context.body_poses);
 
   flight.links.assign(ends_.receivers.size(), {});
   parallel_for(ends_.receivers.size(), 0, [&](size_t r) {
@@ -139,7 +137,7 @@ void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
     left_out_.add(link.left_out);
     geometric_paths_ += link.paths.size();
     link.first_segment = flight.segments.size();
-    search_->solver().add_segments(link.paths, flight.transmitter, link.receiver, flight.segments);
+    search_->solver(r).add_segments(link.paths, flight.transmitter, link.receiver, flight.segments);
     link.segment_count = flight.segments.size() - link.first_segment;
   }
   flight.crossings = crossings_.record(slot, flight.segments);
@@ -160,7 +158,7 @@ ChannelPaths::Result ChannelPaths::collect(const gpu::TickSlot& slot) {
     result.links[r].receiver = link.receiver;
     result.links[r].distance_m = link.distance_m;
     result.links[r].left_out = link.left_out;
-    result.links[r].paths = search_->solver().finish(
+    result.links[r].paths = search_->solver(r).finish(
         link.paths, std::span(crossings).subspan(link.first_segment, link.segment_count), flight.transmitter,
         link.receiver, *result.world);
   });

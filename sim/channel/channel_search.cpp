@@ -36,13 +36,14 @@ rf::MovingSearchOptions moving_options(const ChannelConfig& config, uint32_t wal
 }  // namespace
 
 ChannelSearch::ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& model, const EffectPlan& plan,
-                             const ChannelConfig& config, const Ends& ends)
+                             const ChannelConfig& config, const ChannelEnds& ends)
     : model_(model),
       config_(config),
       move_facets_(plan.moving_reflectors.on),
       walls_(plan.transmission.on ? config.walls() : 0),
-      transmitter_body_(ends.transmitter_body) {
+      transmitter_{.body = ends.transmitter.body, .kept = ends.transmitter.rests} {
   choose(plan, ends);
+  list_sources(ends);
   if (plan.diffraction.on && config_.candidates == ChannelConfig::Candidates::rays)
     throw_user_error_at(
         config_.where,
@@ -56,18 +57,20 @@ ChannelSearch::ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& m
     rays_.emplace(*gpu_scene, ray_options(config_, walls_, move_facets_), model_.kinds);
 }
 
-void ChannelSearch::choose(const EffectPlan& plan, const Ends& ends) {
+void ChannelSearch::choose(const EffectPlan& plan, const ChannelEnds& ends) {
   const bool bounces = plan.reflection.on || plan.diffraction.on || plan.scattering.on;
   if (!bounces || config_.limits.max_depth == 0) return;
   // Diffraction, scattering and rays need everything that the transmitter reaches, not only sequences that
   // lead to the receivers.
   const bool whole =
       config_.candidates == ChannelConfig::Candidates::rays || plan.diffraction.on || plan.scattering.on;
-  if (config_.search == ChannelConfig::Search::every_tick || (move_facets_ && whole))
+  const bool receivers_rest = std::ranges::all_of(ends.receivers, &ChannelEnd::rests);
+  if (config_.search == ChannelConfig::Search::every_tick || (move_facets_ && whole)) {
     way_ = Way::every_tick;
-  else if (ends.transmitter_rests)
+    transmitter_.kept = false;
+  } else if (ends.transmitter.rests)
     way_ = Way::once_from_transmitter;
-  else if (ends.receivers_rest)
+  else if (receivers_rest)
     way_ = Way::once_from_receivers;
   else if (config_.search == ChannelConfig::Search::once)
     throw_user_error_at(config_.where,
@@ -75,16 +78,52 @@ void ChannelSearch::choose(const EffectPlan& plan, const Ends& ends) {
                         config_.name);
   else
     way_ = whole ? Way::every_tick : Way::between_ends;
+  // Other paths would be found from the other end, and their fields would be others.
+  if (plan.diffraction.on || plan.scattering.on) choose_by_link(ends);
+}
+
+/// Replaces the way if a link is to be searched from another end than the way does.
+void ChannelSearch::choose_by_link(const ChannelEnds& ends) {
+  const rf::Source end = way_ == Way::once_from_receivers ? rf::Source::receiver : rf::Source::transmitter;
+  for (const ChannelEnd& receiver : ends.receivers)
+    if (searched_from(ends.transmitter, receiver) != end) way_ = Way::by_link;
+}
+
+void ChannelSearch::list_sources(const ChannelEnds& ends) {
+  const bool every_tick = config_.search == ChannelConfig::Search::every_tick || move_facets_;
+  const auto add_receiver = [&](size_t r, bool kept) {
+    source_of_.push_back(sources_.size());
+    sources_.push_back({rf::Source::receiver, r, ends.receivers[r].body, kept});
+  };
+  sources_.clear();
+  source_of_.clear();
+  if (way_ == Way::once_from_receivers) {
+    for (size_t r = 0; r < ends.receivers.size(); ++r) add_receiver(r, true);
+  } else if (way_ == Way::by_link) {
+    std::optional<size_t> transmitter;
+    for (size_t r = 0; r < ends.receivers.size(); ++r) {
+      if (searched_from(ends.transmitter, ends.receivers[r]) == rf::Source::receiver) {
+        add_receiver(r, ends.receivers[r].rests && !every_tick);
+        continue;
+      }
+      if (!transmitter) {
+        transmitter = sources_.size();
+        sources_.push_back(transmitter_);
+      }
+      source_of_.push_back(*transmitter);
+    }
+  } else {
+    sources_.push_back(transmitter_);
+    sources_[0].kept = way_ == Way::once_from_transmitter;
+  }
 }
 
 void ChannelSearch::make_beams() {
   rf::BeamSearchOptions options;
   options.max_depth = config_.limits.max_depth;
   options.max_transmissions = walls_;
-  if (way_ == Way::every_tick) {
-    options.moving_bodies = move_facets_;
-    options.source_body = transmitter_body_;
-  }
+  if (way_ == Way::every_tick || way_ == Way::by_link) options.moving_bodies = move_facets_;
+  if (way_ == Way::every_tick) options.source_body = transmitter_.body;
   // The last two reflections are cheaper to find backwards from known receivers than forwards for any
   // receiver.
   if (way_ == Way::between_ends) options.stop_depth = std::max(config_.limits.max_depth, 2u) - 2;
@@ -96,20 +135,36 @@ void ChannelSearch::make_beams() {
 
 /// One search from the transmitter serves all points, of which there may be thousands.
 void ChannelSearch::set_points() {
-  if (rays_ && way_ == Way::once_from_receivers) way_ = Way::every_tick;
-  if (!beams_ || way_ == Way::every_tick || (way_ == Way::once_from_transmitter && !move_facets_)) return;
-  way_ = Way::every_tick;
-  make_beams();
+  const bool kept = transmitter_.kept && !(beams_ && move_facets_);
+  const bool others = way_ == Way::once_from_receivers || way_ == Way::by_link;
+  if (!others && (!beams_ || way_ == Way::every_tick || kept)) return;
+  way_ = kept ? Way::once_from_transmitter : Way::every_tick;
+  sources_ = {transmitter_};
+  sources_[0].kept = kept;
+  source_of_.clear();
+  fixed_.clear();
+  moving_.clear();
+  if (beams_) make_beams();
 }
 
-void ChannelSearch::record_ahead(gpu::TickSlot& slot, const dvec3& transmitter) {
-  searching_ = rays_->record(slot, transmitter);
+bool ChannelSearch::looks_ahead() const {
+  return rays_ && !std::ranges::all_of(sources_, &SearchSource::kept);
+}
+
+void ChannelSearch::record_ahead(gpu::TickSlot& slot, const dvec3& transmitter,
+                                 std::span<const dvec3> receivers) {
+  searching_.assign(sources_.size(), std::nullopt);
+  for (size_t s = 0; s < sources_.size(); ++s) {
+    const SearchSource& from = sources_[s];
+    if (from.kept) continue;
+    searching_[s] = rays_->record(slot, position_of(from, transmitter, receivers));
+  }
 }
 
 void ChannelSearch::grow_solvers(size_t count) {
   rf::PathLimits limits = config_.limits;
   limits.max_transmissions = config_.walls();
-  const bool reflect = move_facets_ && way_ == Way::every_tick;
+  const bool reflect = move_facets_ && (way_ == Way::every_tick || way_ == Way::by_link);
   while (fixed_.size() < count) fixed_.emplace_back(model_, limits, reflect);
   left_out_.resize(fixed_.size());
   while (!moving_searches_.empty() && moving_searches_.size() < count)
@@ -120,37 +175,39 @@ void ChannelSearch::grow_solvers(size_t count) {
 
 void ChannelSearch::start(const dvec3& transmitter, std::span<const dvec3> receivers,
                           std::span<const Pose> bodies) {
-  searching_.reset();
+  searching_.clear();
   renewed_tick_ = -1;
   seams_.reset();
-  if (once() && !fixed_.empty()) return;
-  fixed_.clear();
-  moving_.clear();
-  const bool from_receivers = way_ == Way::once_from_receivers;
-  grow_solvers(from_receivers ? receivers.size() : 1);
-  if (from_receivers)
-    for (size_t r = 0; r < receivers.size(); ++r) search_from(r, receivers[r], bodies, rf::Source::receiver);
-  else if (!beams_ || way_ == Way::once_from_transmitter)  // otherwise renew() searches
-    search_from(0, transmitter, bodies, rf::Source::transmitter);
+  const bool again = !fixed_.empty();
+  grow_solvers(sources_.size());
+  for (size_t s = 0; s < sources_.size(); ++s) {
+    const bool kept = sources_[s].kept;
+    if (kept ? !again : !beams_)  // otherwise it is known, or renew() searches
+      search_from(s, position_of(sources_[s], transmitter, receivers), bodies);
+  }
 }
 
-void ChannelSearch::search_from(size_t index, const dvec3& source, std::span<const Pose> bodies,
-                                rf::Source end) {
+void ChannelSearch::search_from(size_t index, const dvec3& source, std::span<const Pose> bodies) {
   if (rays_) {
     rf::CandidateSearchResult result = rays_->search(bodies, source);
     const rf::LeftOut left_out{result.overflow()};
-    return take(index, std::move(result.list), left_out, source, end);
+    return take(index, std::move(result.list), left_out, source);
   }
-  if (!beams_) return take(index, {}, {}, source, end);
-  rf::BeamSearchResult result = beams(source);
+  if (!beams_) return take(index, {}, {}, source);
+  rf::BeamSearchResult result = beams(sources_[index], source);
   if (once() && move_facets_) moving_searches_[index].set_tree(result, source);
   const rf::LeftOut left_out{result.overflow(), result.complete_depth()};
-  take(index, std::move(result.list), left_out, source, end);
+  take(index, std::move(result.list), left_out, source);
 }
 
-rf::BeamSearchResult ChannelSearch::beams(const dvec3& source) {
+rf::BeamSearchResult ChannelSearch::beams(const SearchSource& from, const dvec3& source) {
   // Results for moving bodies are not worth caching: the next run has other poses.
-  if (!once()) return beams_->search(source);
+  if (!from.kept) {
+    rf::BeamSearchOptions options = beams_->options();
+    if (!options.moving_bodies || options.source_body == from.body) return beams_->search(source);
+    options.source_body = from.body;
+    return rf::BeamSearch(model_.facets, model_.kinds, model_.wedges, options).search(source);
+  }
   const rf::SearchCache cache = rf::SearchCache::standard();
   const std::string key =
       rf::search_key(model_.facets, model_.kinds, model_.wedges, source, beams_->options());
@@ -169,7 +226,7 @@ rf::BeamSearchResult ChannelSearch::beams(const dvec3& source) {
 
 /// Turns a list of candidates into images of the source, and counts what the search left out.
 void ChannelSearch::take(size_t index, rf::CandidateList list, const rf::LeftOut& left_out,
-                         const dvec3& source, rf::Source end) {
+                         const dvec3& source) {
   if (left_out.sequences > 0 && overflow_ == 0)
     spdlog::warn("channel '{}': {} candidates beyond the bound were left out; more in the counters",
                  config_.name, left_out.sequences);
@@ -181,32 +238,34 @@ void ChannelSearch::take(size_t index, rf::CandidateList list, const rf::LeftOut
   }
   fixed_count_ = std::max<uint64_t>(fixed_count_, list.size());
   candidates_ = std::max(candidates_, fixed_count_);
-  fixed_[index].set_candidates(list, source, end);
+  fixed_[index].set_candidates(list, source, sources_[index].end);
 }
 
-void ChannelSearch::renew(int64_t tick, const dvec3& transmitter, std::span<const dvec3> receivers) {
+void ChannelSearch::renew(int64_t tick, const dvec3& transmitter, std::span<const dvec3> receivers,
+                          std::span<const Pose> bodies) {
+  if (fixed_.empty()) start(transmitter, receivers, bodies);  // set_points() has changed the sources
   if (!moving_searches_.empty()) seams_.emplace(moving_searches_[0].seams());
   if (way_ == Way::between_ends) return renew_between(transmitter, receivers);
   if (once()) return renew_moving(transmitter, receivers);
-  if (way_ == Way::every_tick && beams_) {
-    if (tick == renewed_tick_) return;  // further points at the same tick
-    renewed_tick_ = tick;
-    search_from(0, transmitter, {}, rf::Source::transmitter);
-  } else if (searching_) {
-    rf::CandidateSearchResult result = rays_->collect(*searching_);
-    const rf::LeftOut left_out{result.overflow()};
-    take(0, std::move(result.list), left_out, transmitter, rf::Source::transmitter);
-    searching_.reset();
-  } else {
-    fixed_[0].move_source(transmitter);
-  }
+  if (beams_ && tick == renewed_tick_) return;  // further points at the same tick
+  renewed_tick_ = tick;
+  for (size_t s = 0; s < sources_.size(); ++s)
+    if (!sources_[s].kept) renew_source(s, position_of(sources_[s], transmitter, receivers));
+  searching_.clear();
+}
+
+void ChannelSearch::renew_source(size_t index, const dvec3& source) {
+  if (beams_) return search_from(index, source, {});
+  if (searching_.empty()) return fixed_[index].move_source(source);
+  rf::CandidateSearchResult result = rays_->collect(*searching_[index]);
+  const rf::LeftOut left_out{result.overflow()};
+  take(index, std::move(result.list), left_out, source);
 }
 
 void ChannelSearch::renew_between(const dvec3& transmitter, std::span<const dvec3> receivers) {
-  const rf::BeamSearchResult tree = beams(transmitter);
+  const rf::BeamSearchResult tree = beams(sources_[0], transmitter);
   moving_searches_[0].set_tree(tree, transmitter);
-  take(0, moving_searches_[0].all(receivers), {tree.overflow(), tree.complete_depth()}, transmitter,
-       rf::Source::transmitter);
+  take(0, moving_searches_[0].all(receivers), {tree.overflow(), tree.complete_depth()}, transmitter);
 }
 
 void ChannelSearch::renew_moving(const dvec3& transmitter, std::span<const dvec3> receivers) {
@@ -222,16 +281,16 @@ void ChannelSearch::renew_moving(const dvec3& transmitter, std::span<const dvec3
 
 rf::LinkGeometry ChannelSearch::geometry(size_t index, const rf::EndState& transmitter,
                                          const rf::EndState& receiver) const {
-  const bool from_receivers = way_ == Way::once_from_receivers;
-  const size_t source = from_receivers ? index : 0;
-  const rf::EndState& target = from_receivers ? transmitter : receiver;
+  const size_t source = source_of(index);
+  const rf::Source end = sources_[source].end;
+  const bool from_receiver = end == rf::Source::receiver;
+  const rf::EndState& target = from_receiver ? transmitter : receiver;
   rf::LinkGeometry link = fixed_[source].geometry(target);
   link.searched.add(left_out_[source]);
   if (way_ == Way::between_ends) seams_->drop_behind(link.paths, rf::Source::transmitter, transmitter.body);
   if (moving_.empty()) return link;
   rf::LinkGeometry more = moving_[source].geometry(target);
-  seams_->drop_behind(more.paths, from_receivers ? rf::Source::receiver : rf::Source::transmitter,
-                      from_receivers ? receiver.body : transmitter.body);
+  seams_->drop_behind(more.paths, end, from_receiver ? receiver.body : transmitter.body);
   link.overflow += more.overflow;
   link.searched.add(more.searched);
   link.paths.insert(link.paths.end(), std::make_move_iterator(more.paths.begin()),
@@ -247,13 +306,24 @@ void ChannelSearch::count(std::map<std::string, uint64_t>& counters) const {
   counters["candidates_from_cache"] = cache_hits_;
 }
 
+const char* ChannelSearch::by_link_times() const {
+  if (way_ != Way::by_link) return "";
+  if (std::ranges::all_of(sources_, &SearchSource::kept)) return "; once";
+  return std::ranges::any_of(sources_, &SearchSource::kept) ? "; once if it rests, else every tick"
+                                                            : "; every tick";
+}
+
 std::vector<std::pair<std::string, std::string>> ChannelSearch::notes(const rf::LeftOut& left_out) const {
-  constexpr const char* ways[] = {"none", "once, from the transmitter", "once, from each receiver",
-                                  "every tick, from both ends", "every tick, from the transmitter"};
+  constexpr const char* ways[] = {"none",
+                                  "once, from the transmitter",
+                                  "once, from each receiver",
+                                  "every tick, from both ends",
+                                  "every tick, from the transmitter",
+                                  "from one end of each link, the same in both directions"};
   std::vector<std::pair<std::string, std::string>> notes;
   const bool reuse = once() && !moving_searches_.empty();
   notes.emplace_back("search", std::string(ways[static_cast<uint32_t>(way_)]) +
-                                   (reuse ? "; every tick for what moves" : ""));
+                                   (reuse ? "; every tick for what moves" : by_link_times()));
   if (beams_ && way_ != Way::between_ends)
     notes.emplace_back("guarantee", beams_->guarantee(left_out.sequences, left_out.complete_depth));
   if (!moving_searches_.empty())
@@ -264,7 +334,7 @@ std::vector<std::pair<std::string, std::string>> ChannelSearch::notes(const rf::
                  ? fmt::format("; {} at least are left out of the beams', beyond the {} that a search keeps",
                                left_out.sequences, rf::BeamSearchOptions{}.capacity)
                  : std::string()));
-  if (beams_ && move_facets_ && way_ == Way::every_tick &&
+  if (beams_ && move_facets_ && (way_ == Way::every_tick || way_ == Way::by_link) &&
       config_.search != ChannelConfig::Search::every_tick)
     notes.emplace_back("reuse",
                        "none: diffraction, scattering or a list of points with moving reflectors; the whole "

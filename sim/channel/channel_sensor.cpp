@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/channel/channel_sensor.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <spdlog/spdlog.h>
@@ -103,6 +104,10 @@ void ChannelSensor::record(gpu::TickSlot& slot, const TickContext& context) {
     if (!link.elements) link.elements = make_elements(link);
     link.elements->record(slot, context);
   }
+}
+
+bool ChannelSensor::looks_ahead() const {
+  return std::any_of(paths_.begin(), paths_.end(), [](const auto& paths) { return paths->looks_ahead(); });
 }
 
 void ChannelSensor::record_ahead(gpu::TickSlot& slot, const TickContext& next) {

@@ -32,7 +32,7 @@ class ChannelSensor : public Sensor {
   const SensorSpec& spec() const override { return spec_; }
   void start(const TickContext& context) override;
   void record(gpu::TickSlot& slot, const TickContext& context) override;
-  bool looks_ahead() const override { return paths_[0]->looks_ahead(); }
+  bool looks_ahead() const override;
   void record_ahead(gpu::TickSlot& slot, const TickContext& next) override;
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
   Evidence evidence() const override;

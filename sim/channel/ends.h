@@ -4,6 +4,7 @@
 // Defines the ends of a channel: antennas on nodes, single elements of antennas, or points.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,16 @@ struct ChannelEnd {
   Pose mount;                    ///< relative to its node; without a node: to the world
   uint32_t body = 0;             ///< the body that carries the node and does not block it; 0: none
   bool rests = true;             ///< its node never moves
+  uint32_t elements = 1;         ///< of its antenna
+  int64_t height_mm = 0;         ///< of its antenna in the world, if it rests; otherwise 0
 };
+
+/// Returns the end of a link that the search starts from if paths with a diffraction or a scattering would
+/// differ by it (PathLimits). The choice does not depend on which end transmits, nor on the other ends of the
+/// channel: it is the end that rests; else the one whose antenna has more elements; else, if both rest, the
+/// higher one, by whole millimetres; else the one whose name comes first in the order of bytes. Elements and
+/// height mostly name a base station, whose one search then serves many links.
+rf::Source searched_from(const ChannelEnd& transmitter, const ChannelEnd& receiver);
 
 /// Holds one transmitter and its receivers.
 struct ChannelEnds {

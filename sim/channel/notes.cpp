@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/channel/notes.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "sim/channel/channel_paths.h"
@@ -14,11 +12,7 @@ namespace greatx::sim {
 std::vector<std::pair<std::string, std::string>> channel_notes(const Experiment& experiment,
                                                                uint32_t channel) {
   const ChannelConfig& config = experiment.scenario.channels[channel];
-  const ChannelEnds of = channel_ends(experiment, channel, 0);
-  const ChannelSearch::Ends ends{
-      of.transmitter.rests,
-      std::all_of(of.receivers.begin(), of.receivers.end(), [](const ChannelEnd& end) { return end.rests; }),
-      of.transmitter.body};
+  const ChannelEnds ends = channel_ends(experiment, channel, 0);
   // The notes do not depend on edges, and finding edges takes a while, for either effect.
   rf::RadioEffects effects = radio_effects(experiment);
   effects.diffraction = effects.field.finite_reflectors = false;

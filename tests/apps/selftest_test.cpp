@@ -4,6 +4,7 @@
 // Runs the catalogue of `greatx selftest` on the test device, and proves that every case can fail.
 #include <algorithm>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -49,6 +50,20 @@ INSTANTIATE_TEST_SUITE_P(Selftest, Catalogue, testing::ValuesIn(every_case()), [
   const auto before = std::count_if(cases.begin(), cases.begin() + static_cast<long>(test.param), same);
   return "N" + std::to_string(cases[test.param].number) + "_" + std::to_string(before + 1);
 });
+
+/// Every number of the catalogue of hard cases has figures, its own or those of a case whose title names it.
+TEST(SelftestReport, EveryHardCaseHasFigures) {
+  std::set<uint32_t> numbers;
+  for (const Case& item : catalogue()) {
+    numbers.insert(item.number);
+    const std::string title = item.title;
+    const size_t open = title.rfind('(');
+    if (open == std::string::npos) continue;
+    std::istringstream list(title.substr(open + 1));
+    for (uint32_t number = 0; list >> number; list.ignore(1)) numbers.insert(number);
+  }
+  for (uint32_t number = 1; number <= 64; ++number) EXPECT_TRUE(numbers.contains(number)) << number;
+}
 
 TEST(SelftestReport, AFigureThatIsNotFiniteOrThrowsFails) {
   Row row;

@@ -26,8 +26,9 @@ struct NamedRadio {
   const char* fields;  ///< JSON of GREATX_radio_material
 };
 constexpr NamedRadio materials[] = {
-    {"ground", R"({"itu": "concrete"})"},
-    {"brick", R"({"itu": "brick", "thickness_m": 0.2})"},
+    {"ground", R"({"itu": "concrete", "scattering_coefficient": 0.2, "pattern": "directive"})"},
+    {"brick", R"({"itu": "brick", "thickness_m": 0.2, "scattering_coefficient": 0.4,
+                  "cross_polarization": 0.2})"},
     {"glass", R"({"itu": "glass", "thickness_m": 0.01})"},
     {"metal", R"({"itu": "metal"})"},
 };
@@ -116,12 +117,18 @@ std::string glb_of(const DrawnCase& drawn, const Form& form, const std::filesyst
   return file.filename().string();
 }
 
-std::string node_yaml(const std::string& name, const DrawnCase&, const Form& form, const dvec3& at) {
-  const dvec3 p = orientation_from_yaw_pitch_roll(radians(form.turn_deg), 0, 0) * at + form.shift;
+std::string node_yaml(const std::string& name, const Form& form, const dvec3& at, bool moves) {
+  const auto place = [&](const dvec3& from) {
+    const dvec3 p = orientation_from_yaw_pitch_roll(radians(form.turn_deg), 0, 0) * from + form.shift;
+    return fmt::format("position_m: [{:.17g}, {:.17g}, {:.17g}]", p.x, p.y, p.z);
+  };
+  const std::string trajectory =
+      moves ? fmt::format("type: waypoints, points: [{{t_s: 0, {}}}, {{t_s: 1, {}}}]", place(at),
+                          place(at + dvec3(7.0, -4.0, 1.0)))
+            : "type: static, " + place(at);
   return fmt::format(
-      "  - name: {}\n    trajectory: {{type: static, position_m: [{:.17g}, {:.17g}, {:.17g}]}}\n"
-      "    sensors: [{{name: antenna, type: antenna}}]\n",
-      name, p.x, p.y, p.z);
+      "  - name: {}\n    trajectory: {{{}}}\n    sensors: [{{name: antenna, type: antenna{}}}]\n", name,
+      trajectory, form.slant ? ", polarization: slant" : "");
 }
 
 }  // namespace
@@ -167,25 +174,30 @@ void write_case(const DrawnCase& drawn, const Form& form, const std::filesystem:
   if (there.empty())
     for (uint32_t r = 0; r < drawn.receivers.size(); ++r) there.push_back(r);
   std::vector<std::string> nodes;
-  const dvec3 from = form.swapped ? drawn.receivers[0] : drawn.transmitter;
-  nodes.push_back(node_yaml("tx", drawn, form, from));
+  nodes.push_back(node_yaml("tx", form, drawn.transmitter, drawn.transmitter_moves));
   std::string receivers;
   for (const uint32_t r : there) {
-    const dvec3 at = form.swapped && r == 0 ? drawn.transmitter : drawn.receivers[r];
-    nodes.push_back(node_yaml(fmt::format("rx{}", r), drawn, form, at));
+    nodes.push_back(node_yaml(fmt::format("rx{}", r), form, drawn.receivers[r], drawn.receivers_move));
     receivers += fmt::format("{}rx{}/antenna", receivers.empty() ? "" : ", ", r);
   }
   if (form.reversed) std::ranges::reverse(nodes);
   std::ofstream yaml(folder / "scenario.yaml");
-  yaml << "greatx: 1\nname: drawn\nticks: 1\ntick_rate_hz: 10\nscene: {file: " << file << "}\n"
-       << fmt::format("effects: {{transmission: {}, diffraction: {}}}\n", drawn.transmission ? "on" : "off",
-                      drawn.diffraction ? "on" : "off")
+  const auto on = [](bool value) { return value ? "on" : "off"; };
+  yaml << fmt::format("greatx: 1\nname: drawn\nticks: {}\ntick_rate_hz: 10\nscene: {{file: {}}}\n",
+                      form.ticks, file)
+       << fmt::format("effects: {{transmission: {}, diffraction: {}, scattering: {}, dispersion: {}}}\n",
+                      on(drawn.transmission), on(drawn.diffraction), on(drawn.scattering),
+                      on(drawn.dispersion))
        << "nodes:\n";
   for (const std::string& node : nodes) yaml << node;
+  const std::string transmitter = "tx/antenna";
   yaml << fmt::format(
-      "channels:\n  - {{name: csi, tx: tx/antenna, rx: [{}], rate_hz: 10, carrier_hz: {}, bandwidth_hz: "
-      "20e6,\n     subcarriers: 16, max_depth: {}, outputs: [cfr, paths]}}\n",
-      receivers, drawn.carrier_hz, drawn.depth);
+      "channels:\n  - {{name: csi, tx: [{}], rx: [{}], rate_hz: 10, carrier_hz: {}, bandwidth_hz: 20e6,\n"
+      "     subcarriers: 16, max_depth: {}, max_reflections_after: {}, scattering_patch_m: 16{}{},\n"
+      "     outputs: [cfr, paths]}}\n",
+      form.swapped ? receivers : transmitter, form.swapped ? transmitter : receivers, drawn.carrier_hz,
+      drawn.depth, drawn.reflections_after, drawn.every_tick ? ", search: every_tick" : "",
+      drawn.rays > 0 ? fmt::format(", rays: {}", drawn.rays) : "");
 }
 
 Links run_case(const std::filesystem::path& folder) {
@@ -213,10 +225,14 @@ Links run_case(const DrawnCase& drawn, const Form& form) {
 }
 
 std::string describe(const DrawnCase& drawn) {
-  return fmt::format("seed {}: {} boxes{}, {} receivers, depth {}{}{}, {} Hz", drawn.seed, drawn.boxes.size(),
-                     drawn.ground ? " on a ground" : "", drawn.receivers.size(), drawn.depth,
-                     drawn.transmission ? ", transmission" : "", drawn.diffraction ? ", diffraction" : "",
-                     drawn.carrier_hz);
+  return fmt::format(
+      "seed {}: {} boxes{}, {} receivers, depth {}{}{}{}{}, {} reflections after{}{}{}{}, {} Hz", drawn.seed,
+      drawn.boxes.size(), drawn.ground ? " on a ground" : "", drawn.receivers.size(), drawn.depth,
+      drawn.transmission ? ", transmission" : "", drawn.diffraction ? ", diffraction" : "",
+      drawn.scattering ? ", scattering" : "", drawn.dispersion ? ", dispersion" : "", drawn.reflections_after,
+      drawn.every_tick ? ", searched every tick" : "", drawn.rays > 0 ? ", rays" : "",
+      drawn.transmitter_moves ? ", the transmitter moves" : "",
+      drawn.receivers_move ? ", the receivers move" : "", drawn.carrier_hz);
 }
 
 }  // namespace greatx::property

@@ -36,18 +36,24 @@ struct DrawnCase {
   dvec3 transmitter{0.0};
   std::vector<dvec3> receivers;  ///< at least one
   uint32_t depth = 2;
-  bool transmission = true, diffraction = false;
+  bool transmission = true, diffraction = false, scattering = false, dispersion = false;
+  uint32_t reflections_after = 0;  ///< max_reflections_after
+  bool every_tick = false;         ///< search: every_tick
+  uint32_t rays = 0;               ///< of `candidates: rays`; 0: beams
+  bool transmitter_moves = false, receivers_move = false;
   double carrier_hz = 3.5e9;
 };
 
 /// Changes that must not change the links.
 struct Form {
-  dvec3 shift{0.0};            ///< of the world: the scene and all nodes, metres
-  double turn_deg = 0.0;       ///< of the world about z, before the shift
-  bool split = false;          ///< each triangle into four
-  bool reversed = false;       ///< materials, objects, triangles, corners and nodes in the other order
-  double unit_m = 1.0;         ///< length of the file's unit, made good by the scale of its nodes
-  bool swapped = false;        ///< the first receiver sends and the transmitter receives
+  dvec3 shift{0.0};       ///< of the world: the scene and all nodes, metres
+  double turn_deg = 0.0;  ///< of the world about z, before the shift
+  bool split = false;     ///< each triangle into four
+  bool reversed = false;  ///< materials, objects, triangles, corners and nodes in the other order
+  double unit_m = 1.0;    ///< length of the file's unit, made good by the scale of its nodes
+  bool swapped = false;   ///< the receivers send and the transmitter receives
+  bool slant = false;     ///< antennas have two polarizations
+  uint32_t ticks = 1;
   std::vector<uint32_t> only;  ///< indices of the receivers that are there; empty: all
 };
 

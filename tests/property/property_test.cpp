@@ -1,12 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Checks properties that hold in any scene, from files to records. GREATX_PROPERTY_SCENES sets the number of
-// scenes of each property (default 4), GREATX_PROPERTY_FIRST the first seed (default 1), and
-// GREATX_PROPERTY_FOLDER where a failing case is kept (default: the folder for temporary files).
+// Checks properties that hold in any scene, from files to records (check_scenes.h says how to run more).
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <sched.h>
 
@@ -16,22 +13,11 @@
 #include "core/units.h"
 #include "sim/experiment/experiment.h"
 #include "sim/scenario/parse/load_scenario.h"
-#include "tests/property/shrink.h"
+#include "tests/property/check_scenes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace greatx::property {
 namespace {
-
-uint64_t number_of(const char* variable, uint64_t otherwise) {
-  const char* text = std::getenv(variable);
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
-
-std::filesystem::path failures() {
-  const char* folder = std::getenv("GREATX_PROPERTY_FOLDER");
-  return folder != nullptr ? std::filesystem::path(folder)
-                           : std::filesystem::temp_directory_path() / "greatx_property_failures";
-}
 
 /// Lengths may differ by `length_m`. Amplitudes are complex64: 2^-23 each, and more where the phase follows a
 /// length that has changed.
@@ -65,26 +51,13 @@ std::optional<std::string> difference(const Links& a, const Links& b, const Draw
   return std::nullopt;
 }
 
-/// Draws the scenes of a property and checks each.
-void check(const std::string& name, const Verdict& verdict, const std::vector<Form>& forms,
-           const std::function<void(DrawnCase&)>& prepare = {}) {
-  const uint64_t first = number_of("GREATX_PROPERTY_FIRST", 1),
-                 count = number_of("GREATX_PROPERTY_SCENES", 4);
-  for (uint64_t seed = first; seed < first + count; ++seed) {
-    DrawnCase drawn = draw_case(seed);
-    if (prepare) prepare(drawn);
-    const std::optional<std::string> message = check_case(drawn, name, verdict, forms, failures());
-    EXPECT_FALSE(message) << *message;
-  }
-}
-
 /// Checks that the links are the same in another form.
 void check_form(const std::string& name, const Form& form, const Tolerance& tolerance = {}) {
-  check(name,
-        [&](const DrawnCase& drawn) {
-          return difference(run_case(drawn), run_case(drawn, form), drawn, tolerance);
-        },
-        {Form{}, form});
+  check_scenes(name,
+               [&](const DrawnCase& drawn) {
+                 return difference(run_case(drawn), run_case(drawn, form), drawn, tolerance);
+               },
+               {Form{}, form});
 }
 
 TEST(Property, ScenesHavePathsToCompare) {
@@ -95,28 +68,8 @@ TEST(Property, ScenesHavePathsToCompare) {
   EXPECT_GT(paths, 40u);
 }
 
-TEST(Property, BothDirectionsHaveTheSamePaths) {
-  // Vertical isotropic antennas and isotropic media: H is symmetric. Luebbers' diffraction is not.
-  check(
-      "reciprocity",
-      [](const DrawnCase& drawn) {
-        Form forward, back;
-        forward.only = back.only = {0};
-        back.swapped = true;
-        return difference(run_case(drawn, forward), run_case(drawn, back), drawn);
-      },
-      {Form{},
-       [] {
-         Form back;
-         back.swapped = true;
-         back.only = {0};
-         return back;
-       }()},
-      [](DrawnCase& drawn) { drawn.diffraction = false; });
-}
-
 TEST(Property, NoPathGainsEnergy) {
-  check(
+  check_scenes(
       "energy",
       [](const DrawnCase& drawn) -> std::optional<std::string> {
         for (const Link& link : run_case(drawn))
@@ -165,33 +118,34 @@ TEST(Property, UnitsChangeNothing) {
 TEST(Property, AReceiverDoesNotDependOnTheOthers) {
   Form alone;
   alone.only = {1};
-  check("subset",
-        [&](const DrawnCase& drawn) -> std::optional<std::string> {
-          if (drawn.receivers.size() < 2) return std::nullopt;
-          const Links all = run_case(drawn), one = run_case(drawn, alone);
-          if (all[1].cfr == one[0].cfr) return std::nullopt;
-          return "the frequency response of rx1 has other bits if it is alone";
-        },
-        {Form{}, alone});
+  check_scenes("subset",
+               [&](const DrawnCase& drawn) -> std::optional<std::string> {
+                 if (drawn.receivers.size() < 2) return std::nullopt;
+                 const Links all = run_case(drawn), one = run_case(drawn, alone);
+                 if (all[1].cfr == one[0].cfr) return std::nullopt;
+                 return "the frequency response of rx1 has other bits if it is alone";
+               },
+               {Form{}, alone});
 }
 
 TEST(Property, ThreadsChangeNoBit) {
-  check("threads",
-        [](const DrawnCase& drawn) -> std::optional<std::string> {
-          cpu_set_t all, one;
-          sched_getaffinity(0, sizeof(all), &all);
-          const Links many = run_case(drawn);
-          CPU_ZERO(&one);
-          for (int cpu = 0; cpu < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++cpu)
-            if (CPU_ISSET(cpu, &all)) CPU_SET(cpu, &one);
-          sched_setaffinity(0, sizeof(one), &one);
-          const Links single = run_case(drawn);
-          sched_setaffinity(0, sizeof(all), &all);
-          for (size_t r = 0; r < many.size(); ++r)
-            if (many[r].cfr != single[r].cfr) return fmt::format("link {} has other bits on one core", r);
-          return std::nullopt;
-        },
-        {Form{}});
+  check_scenes("threads",
+               [](const DrawnCase& drawn) -> std::optional<std::string> {
+                 cpu_set_t all, one;
+                 sched_getaffinity(0, sizeof(all), &all);
+                 const Links many = run_case(drawn);
+                 CPU_ZERO(&one);
+                 for (int cpu = 0; cpu < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++cpu)
+                   if (CPU_ISSET(cpu, &all)) CPU_SET(cpu, &one);
+                 sched_setaffinity(0, sizeof(one), &one);
+                 const Links single = run_case(drawn);
+                 sched_setaffinity(0, sizeof(all), &all);
+                 for (size_t r = 0; r < many.size(); ++r)
+                   if (many[r].cfr != single[r].cfr)
+                     return fmt::format("link {} has other bits on one core", r);
+                 return std::nullopt;
+               },
+               {Form{}});
 }
 
 /// The property "no scene has two boxes of brick and two reflections" is false. Its smallest counter-example

@@ -55,6 +55,9 @@ bool same(const DrawnBox& a, const DrawnBox& b) {
 bool same(const DrawnCase& a, const DrawnCase& b) {
   return a.ground == b.ground && a.transmitter == b.transmitter && a.receivers == b.receivers &&
          a.depth == b.depth && a.transmission == b.transmission && a.diffraction == b.diffraction &&
+         a.scattering == b.scattering && a.dispersion == b.dispersion &&
+         a.reflections_after == b.reflections_after && a.every_tick == b.every_tick && a.rays == b.rays &&
+         a.transmitter_moves == b.transmitter_moves && a.receivers_move == b.receivers_move &&
          a.carrier_hz == b.carrier_hz && a.boxes.size() == b.boxes.size() &&
          std::equal(a.boxes.begin(), a.boxes.end(), b.boxes.begin(),
                     [](const DrawnBox& p, const DrawnBox& q) { return same(p, q); });
@@ -75,6 +78,13 @@ std::vector<DrawnCase> smaller(const DrawnCase& drawn) {
   if (drawn.depth > 0) add([](DrawnCase& c) { --c.depth; });
   if (drawn.transmission) add([](DrawnCase& c) { c.transmission = false; });
   if (drawn.diffraction) add([](DrawnCase& c) { c.diffraction = false; });
+  if (drawn.scattering) add([](DrawnCase& c) { c.scattering = false; });
+  if (drawn.dispersion) add([](DrawnCase& c) { c.dispersion = false; });
+  if (drawn.reflections_after > 0) add([](DrawnCase& c) { --c.reflections_after; });
+  if (drawn.rays > 0) add([](DrawnCase& c) { c.rays = 0; });
+  if (drawn.every_tick) add([](DrawnCase& c) { c.every_tick = false; });
+  if (drawn.transmitter_moves) add([](DrawnCase& c) { c.transmitter_moves = false; });
+  if (drawn.receivers_move) add([](DrawnCase& c) { c.receivers_move = false; });
   for (size_t i = 0; i < drawn.boxes.size(); ++i) {
     add([&](DrawnCase& c) { c.boxes[i].material = 3; });
     add([&](DrawnCase& c) {

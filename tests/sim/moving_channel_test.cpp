@@ -8,6 +8,7 @@
 
 #include "rf/channel/dispersion.h"
 #include "sim/channel/channel_snapshot.h"
+#include "sim/channel/ends.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/kept_run.h"
@@ -140,6 +141,38 @@ TEST(MovingChannel, DiffractionWithMovingReflectorsSearchesWholeAndSaysSo) {
   const KeptRun r = keep_run(street("tx: bs/antenna, rx: [uav/antenna]", ", diffraction: on"));
   EXPECT_THAT(r.note("csi.search"), ::testing::StartsWith("every tick, from the transmitter"));
   EXPECT_THAT(r.note("csi.reuse"), ::testing::StartsWith("none"));
+}
+
+/// Each rule decides where those before it leave a tie, whichever end transmits.
+TEST(SearchedFrom, TheOrderOfTheEndsDecidesWhicheverTransmits) {
+  const auto end = [](const char* name, bool rests, uint32_t elements, int64_t height_mm) {
+    ChannelEnd made;
+    made.name = name;
+    made.rests = rests;
+    made.elements = elements;
+    made.height_mm = height_mm;
+    return made;
+  };
+  const ChannelEnd pairs[][2] = {{end("z/a", true, 1, 0), end("a/a", false, 64, 0)},
+                                 {end("z/a", true, 4, 1500), end("a/a", true, 2, 25000)},
+                                 {end("z/a", false, 4, 0), end("a/a", false, 2, 0)},
+                                 {end("z/a", true, 4, 1501), end("a/a", true, 4, 1500)},
+                                 {end("a/a", true, 4, 1500), end("a/b", true, 4, 1500)}};
+  for (const auto& [first, second] : pairs) {
+    EXPECT_EQ(searched_from(first, second), rf::Source::transmitter) << first.name << ' ' << second.name;
+    EXPECT_EQ(searched_from(second, first), rf::Source::receiver) << first.name << ' ' << second.name;
+  }
+}
+
+TEST(SearchedFrom, TheNoteSaysSoAndReflectionsAloneNeedNoOrder) {
+  const std::string links = "tx: uav/antenna, rx: [car/antenna, bs/antenna]";
+  std::string yaml = street(links, ", diffraction: on");
+  EXPECT_EQ(keep_run(yaml).note("csi.search"),
+            "from one end of each link, the same in both directions; every tick");
+  yaml.replace(yaml.find("moving_reflectors: on"), 21, "moving_reflectors: off");
+  EXPECT_EQ(keep_run(yaml).note("csi.search"),
+            "from one end of each link, the same in both directions; once if it rests, else every tick");
+  EXPECT_EQ(keep_run(street(links, "")).note("csi.search"), "every tick, from both ends");
 }
 
 }  // namespace
