@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <unordered_map>
 
 #include "core/error.h"
@@ -29,21 +30,39 @@ bool same_polyline(const GeometricPath& a, const GeometricPath& b) {
   return true;
 }
 
+bool lexicographically_less(const dvec3& a, const dvec3& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
 }  // namespace
 
 void keep_distinct(std::vector<GeometricPath>& paths) {
-  std::sort(paths.begin(), paths.end(), [](const GeometricPath& a, const GeometricPath& b) {
+  const auto less = [](const GeometricPath& a, const GeometricPath& b) {
     return interactions_less(a.interactions, b.interactions);
-  });
+  };
+  const auto less_backwards = [](const GeometricPath& a, const GeometricPath& b) {
+    return interactions_less(std::vector(a.interactions.rbegin(), a.interactions.rend()),
+                             std::vector(b.interactions.rbegin(), b.interactions.rend()));
+  };
+  std::sort(paths.begin(), paths.end(), less);
+  const bool backwards =
+      !paths.empty() && lexicographically_less(paths.front().vertices.back(), paths.front().vertices.front());
+  bool exchanged = false;
   size_t kept = 0;
   for (size_t i = 0; i < paths.size(); ++i) {
     const auto known = [&](const GeometricPath& other) { return same_polyline(other, paths[i]); };
     const auto end = paths.begin() + static_cast<ptrdiff_t>(kept);
-    if (std::find_if(paths.begin(), end, known) != end) continue;
+    if (const auto same = std::find_if(paths.begin(), end, known); same != end) {
+      if (!backwards || !less_backwards(paths[i], *same)) continue;
+      *same = std::move(paths[i]);
+      exchanged = true;
+      continue;
+    }
     if (kept != i) paths[kept] = std::move(paths[i]);
     ++kept;
   }
   paths.resize(kept);
+  if (exchanged) std::sort(paths.begin(), paths.end(), less);
 }
 
 ImageTree::ImageTree(const FacetWorld& world, const dvec3& source, const CandidateList& candidates,

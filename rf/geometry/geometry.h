@@ -104,8 +104,9 @@ class ImageTree {
   std::vector<uint32_t> filtered_;          ///< the candidate node of each index of the filter
 };
 
-/// Sorts paths into canonical order and keeps the first of the paths with the same polyline, as solve() does,
-/// for paths of several trees.
+/// Sorts the paths of a link into canonical order and keeps one of the paths with the same polyline, as
+/// solve() does, for paths of several trees. It keeps the first in canonical order as seen from the end with
+/// the smaller coordinates (x, then y, then z), so that both directions of a link keep the same.
 void keep_distinct(std::vector<GeometricPath>& paths);
 
 }  // namespace greatx::rf

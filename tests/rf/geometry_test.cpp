@@ -229,6 +229,9 @@ TEST(ImageMethodHardCase, N20_CornerTie) {
   }
   // With exactly representable coordinates both orders are equal to the bit, and the first one is kept.
   const auto exact = solve_paths(world, {1, 1, 2}, {3, 3, 6}, exhaustive_candidates(2, 2));
+  const auto back = solve_paths(world, {3, 3, 6}, {1, 1, 2}, exhaustive_candidates(2, 2));
+  ASSERT_EQ(back.size(), 4u);
+  EXPECT_EQ(back[3].facets(), (FacetSequence{1, 0})) << "the same in the other direction";
   ASSERT_EQ(exact.size(), 4u);
   EXPECT_EQ(exact[3].facets(), (FacetSequence{0, 1}));
   // Beside the tie exactly one order exists.
