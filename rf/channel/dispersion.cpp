@@ -18,7 +18,7 @@ Dispersion::Dispersion(const scene::Scene& scene, const FieldModel& carrier, con
   GREATX_CHECK(carrier.world != nullptr && carrier.world->facet_count() == scene.facets.size(),
                "the field model is of another scene");
   const FieldEffects& on = carrier.effects;
-  // Like the carrier's model (RadioModel::field_model), a channel outside the range of an effect goes without.
+  // Like the carrier's model (RadioModel::field_model), a channel outside an effect's range goes without it.
   const double hz = grid.carrier_hz;
   const WeatherEffects effects{on.gas && gas_model_covers(hz), on.rain && rain_model_covers(hz),
                                on.fog && fog_model_covers(hz)};
