@@ -94,6 +94,16 @@ function(greatx_room ROOM)
   endif()
 endfunction()
 
+# greatx_built_effects(ROOM...): tells the files of these rooms by core/built_effects.h which effects of radio
+# the program has (GREATX_EFFECTS).
+function(greatx_built_effects)
+  foreach(room ${ARGN})
+    greatx_target(library ${room})
+    target_compile_definitions(${library} PRIVATE
+                               GREATX_BUILDS_ALL_EFFECTS=$<STREQUAL:${GREATX_EFFECTS},all>)
+  endforeach()
+endfunction()
+
 # greatx_compile_fast(TARGET): compiles a test with little optimization. Tests are compiled more often than
 # they run, and a run spends its time in the rooms that it tests.
 function(greatx_compile_fast TARGET)

@@ -16,6 +16,7 @@
 #include "apps/bench/radio_bench.h"
 #include "apps/bench/recall.h"
 #include "apps/bench/rig_bench.h"
+#include "apps/bench/sight_bench.h"
 #include "apps/bench/view_bench.h"
 #include "apps/console/command_line.h"
 #include "apps/console/json_text.h"
@@ -49,6 +50,8 @@ struct Options {
   RadioBenchOptions radio_options;
   bool rig = false;
   RigBenchOptions rig_options;
+  bool sight = false;
+  SightBenchOptions sight_options;
   bool view = false;
   ViewBenchOptions view_options;
 };
@@ -155,6 +158,25 @@ void run_rows(const Options& options, BenchOptions bench_options,
   std::cout << (options.json ? json_text(result) + "\n" : text(result));
 }
 
+void add_sight_options(CLI::App& command, Options& options) {
+  command.add_flag(
+      "--line-of-sight", options.sight,
+      "time the first channel with no other effect than the line of sight instead: the tick, many "
+      "receivers in one call");
+  SightBenchOptions& sight = options.sight_options;
+  command
+      .add_option("--against", sight.against,
+                  "of --line-of-sight: another program greatx, built with GREATX_EFFECTS=line_of_sight, that "
+                  "runs in turns with this one [none]")
+      ->check(CLI::ExistingFile);
+  command.add_option("--pairs", sight.pairs, "of --line-of-sight --against: runs of each program")
+      ->capture_default_str()
+      ->check(integer_of(1, 1000));
+  command.add_option("--calls", sight.repeats, "of --line-of-sight: measured calls for all receivers")
+      ->capture_default_str()
+      ->check(integer_of(1, 1'000'000));
+}
+
 void add_view_options(CLI::App& command, Options& options) {
   command.add_flag("--view", options.view,
                    "measure the viewer instead: orbit, drag to picture, slow-down of a live run, start, "
@@ -235,7 +257,9 @@ void add_bench(CLI::App& app) {
       "--radio", options->radio,
       "time the first channel alone instead, stage by stage: first CIR, search, ticks without and "
       "with diffraction and scattering, many receivers in one call");
-  command->add_option("--many", options->radio_options.receivers, "of --radio: receivers in one call")
+  command
+      ->add_option("--many", options->radio_options.receivers,
+                   "of --radio and --line-of-sight: receivers in one call")
       ->capture_default_str()
       ->check(integer_of(1, 1'000'000));
   command
@@ -244,7 +268,7 @@ void add_bench(CLI::App& app) {
       ->check(integer_of(1, 2000));
   command
       ->add_option("--row-seconds", options->radio_options.seconds,
-                   "of --radio: a row of ticks ends after so long")
+                   "of --radio and --line-of-sight: a row of ticks ends after so long")
       ->capture_default_str()
       ->check(number_of(1e-3, 1e6));
   command->add_flag("--rig", options->rig,
@@ -256,8 +280,10 @@ void add_bench(CLI::App& app) {
   command->add_option("--block", options->rig_options.block, "of --rig: ticks of a round")
       ->capture_default_str()
       ->check(integer_of(1, 1'000'000));
+  add_sight_options(*command, *options);
   add_view_options(*command, *options);
-  const char* const modes[] = {"--recall", "--camera", "--lidar", "--radar", "--radio", "--rig", "--view"};
+  const char* const modes[] = {"--recall", "--camera", "--lidar",         "--radar",
+                               "--radio",  "--rig",    "--line-of-sight", "--view"};
   for (const char* a : modes)
     for (const char* b : modes)
       if (a != b) command->get_option(a)->excludes(command->get_option(b));
@@ -266,6 +292,11 @@ void add_bench(CLI::App& app) {
     if (options->lidar) return run_rows(*options, options->lidar_options, lidar_bench, lidar_bench_text);
     if (options->radar) return run_rows(*options, options->radar_options, radar_bench, radar_bench_text);
     if (options->radio) return run_rows(*options, options->radio_options, radio_bench, radio_bench_text);
+    if (options->sight) {
+      options->sight_options.receivers = options->radio_options.receivers;
+      options->sight_options.seconds = options->radio_options.seconds;
+      return run_rows(*options, options->sight_options, sight_bench, sight_bench_text);
+    }
     if (options->rig) return run_rows(*options, options->rig_options, rig_bench, rig_bench_text);
     if (options->view) return run_rows(*options, options->view_options, view_bench, view_bench_text);
     if (!options->recall) return run(*options);

@@ -98,6 +98,35 @@ nlohmann::json in_own_process(const std::function<nlohmann::json()>& row) {
   return result;
 }
 
+std::string output_of(const std::vector<std::string>& command) {
+  int pipe_ends[2];
+  if (::pipe(pipe_ends) != 0) throw std::runtime_error("bench: no pipe to another program");
+  std::vector<char*> arguments;
+  for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  std::cout.flush();
+  std::fflush(nullptr);
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("bench: cannot start another program");
+  if (child == 0) {
+    ::dup2(pipe_ends[1], STDOUT_FILENO);
+    ::close(pipe_ends[0]);
+    ::close(pipe_ends[1]);
+    ::execvp(arguments[0], arguments.data());
+    ::_exit(127);
+  }
+  ::close(pipe_ends[1]);
+  std::string text = read_all(pipe_ends[0]);
+  ::close(pipe_ends[0]);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw_user_error("bench: expected '{}' to run and to end with exit code 0, found {}", command[0],
+                     WIFEXITED(status) ? fmt::format("exit code {}", WEXITSTATUS(status))
+                                       : fmt::format("status {}", status));
+  return text;
+}
+
 double process_age_s() {
   std::ifstream file("/proc/self/stat");
   std::string stat((std::istreambuf_iterator<char>(file)), {});

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <functional>
+#include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -15,6 +17,10 @@ namespace greatx::apps {
 /// process has a device or a thread. Throws UserError if `row` throws one, and runtime_error if the process
 /// fails in any other way.
 nlohmann::json in_own_process(const std::function<nlohmann::json()>& row);
+
+/// Runs a program with arguments, `command[0]` being the program, and returns what it prints to the standard
+/// output. Throws UserError naming the program if it cannot be started or fails.
+std::string output_of(const std::vector<std::string>& command);
 
 /// Returns the seconds since this process was started, to 10 ms. They include the loading of libraries and
 /// the parsing of the command line.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/built_effects.h"
 #include "core/error.h"
 #include "core/units.h"
 #include "rf/antenna/field_vector.h"
@@ -196,11 +197,9 @@ Complex reflection_weight(const GeometricPath& path, const FieldModel& model, si
                                   2.0 * pi / model.surfaces->wavelength_m(), path.edges_diffract >> i & 1u);
 }
 
-/// Sets `transfer` to the images of the two unit fields at the transmitter, including the spreading.
-void set_transfer(const GeometricPath& path, const FieldModel& model, const Runs& runs,
-                  Complex (&transfer)[4]) {
+/// Takes the field along the path, through the air and every interaction.
+void travel(const GeometricPath& path, const FieldModel& model, const Runs& runs, Travelling& field) {
   const FacetWorld& world = *model.world;
-  Travelling field(model, runs.directions.front());
   size_t run = 0;
   double before_m = 0.0;  // since the transmitter or the bend
   for (size_t i = 0; i <= path.interactions.size(); ++i) {
@@ -232,8 +231,17 @@ void set_transfer(const GeometricPath& path, const FieldModel& model, const Runs
         GREATX_CHECK(false, "interaction {} is none", i);
     }
   }
+}
+
+/// Sets `transfer` to the images of the two unit fields at the transmitter, including the spreading.
+void set_transfer(const GeometricPath& path, const FieldModel& model, const Runs& runs,
+                  Complex (&transfer)[4]) {
+  Travelling field(model, runs.directions.front());
   double spreading = runs.scattered ? 1.0 / (runs.before_m * runs.after_m) : 1.0 / path.length_m;
-  spreading *= foliage_amplitude(model, path.foliage_m);
+  if constexpr (all_effects_built) {
+    travel(path, model, runs, field);
+    spreading *= foliage_amplitude(model, path.foliage_m);
+  }
   const dvec3 arrival = -runs.directions.back(), theta = theta_hat(arrival), phi = phi_hat(arrival);
   for (int column = 0; column < 2; ++column) {
     transfer[column] = field.column(column).along(theta) * spreading;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "core/built_effects.h"
 #include "core/error.h"
 #include "core/watch.h"
 
@@ -61,10 +62,12 @@ bool insert_walls(const FacetWorld& world, const GeometricPath& path, std::span<
   for (size_t i = 0; i < crossings.size(); ++i) {
     const Crossing& crossing = crossings[i];
     if (crossing.blocked) return false;
-    full.foliage_m += crossing.foliage_m;
-    for (const Passage& wall : passages(world, crossing.walls, path.vertices[i], path.vertices[i + 1])) {
-      full.interactions.push_back({InteractionType::transmission, wall.facet});
-      full.vertices.push_back(wall.point);
+    if constexpr (all_effects_built) {
+      full.foliage_m += crossing.foliage_m;
+      for (const Passage& wall : passages(world, crossing.walls, path.vertices[i], path.vertices[i + 1])) {
+        full.interactions.push_back({InteractionType::transmission, wall.facet});
+        full.vertices.push_back(wall.point);
+      }
     }
     if (i < path.interactions.size()) full.interactions.push_back(path.interactions[i]);
     full.vertices.push_back(path.vertices[i + 1]);
@@ -160,7 +163,7 @@ LinkGeometry PathSolver::geometry(const EndState& end) const {
     std::erase_if(link.paths, [](const GeometricPath& path) { return path.interactions.empty(); });
   if (!model_->effects.reflection)
     std::erase_if(link.paths, [](const GeometricPath& path) { return !path.interactions.empty(); });
-  if (midpoints_) {
+  if (all_effects_built && midpoints_) {
     link.searched = midpoints_->solve(*tree_, target, end.body, link.paths);
     std::sort(link.paths.begin(), link.paths.end(), less);
   }
@@ -169,7 +172,8 @@ LinkGeometry PathSolver::geometry(const EndState& end) const {
 }
 
 uint32_t PathSolver::walls_allowed(const GeometricPath& path) const {
-  if (!model_->effects.transmission || path.interactions.size() >= limits_.max_depth) return 0;
+  if (!all_effects_built || !model_->effects.transmission || path.interactions.size() >= limits_.max_depth)
+    return 0;
   const uint32_t left = limits_.max_depth - static_cast<uint32_t>(path.interactions.size());
   return std::min({left, limits_.max_transmissions, shared::crossings_max});
 }
@@ -178,7 +182,9 @@ uint32_t PathSolver::walls_allowed(const GeometricPath& path) const {
 /// the reflection in the sequence. It is found if the reflections between it and the target are not too many,
 /// and if the path has no other bend.
 uint32_t PathSolver::edges_diffract(const GeometricPath& path) const {
-  if (!field_.reflectors || !model_->effects.diffraction || !model_->effects.diffraction_lit_region) return 0;
+  if (!all_effects_built || !field_.reflectors || !model_->effects.diffraction ||
+      !model_->effects.diffraction_lit_region)
+    return 0;
   if (bend_of(path)) return 0;
   const auto reflections = static_cast<uint32_t>(path.facets().size());
   const bool from_transmitter = !tree_ || tree_->end() == Source::transmitter;
@@ -213,7 +219,9 @@ void PathSolver::add_segments(std::span<const GeometricPath> paths, const EndSta
       if (i == count) segment.body_b = body_or_none(receiver.body);
       segments.push_back(segment);
     }
-    if (const std::optional<size_t> bend = bend_of(path)) hang_on_one(path, *bend, first, segments, straight);
+    if constexpr (all_effects_built)
+      if (const std::optional<size_t> bend = bend_of(path))
+        hang_on_one(path, *bend, first, segments, straight);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "core/built_effects.h"
 #include "core/units.h"
 #include "rf/search/search_cache.h"
 #include "rf/search/search_key.h"
@@ -59,7 +60,7 @@ ChannelSearch::ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& m
 
 void ChannelSearch::choose(const EffectPlan& plan, const ChannelEnds& ends) {
   const bool bounces = plan.reflection.on || plan.diffraction.on || plan.scattering.on;
-  if (!bounces || config_.limits.max_depth == 0) return;
+  if (!all_effects_built || !bounces || config_.limits.max_depth == 0) return;
   // Diffraction, scattering and rays need everything that the transmitter reaches, not only sequences that
   // lead to the receivers.
   const bool whole =
@@ -244,6 +245,7 @@ void ChannelSearch::take(size_t index, rf::CandidateList list, const rf::LeftOut
 void ChannelSearch::renew(int64_t tick, const dvec3& transmitter, std::span<const dvec3> receivers,
                           std::span<const Pose> bodies) {
   if (fixed_.empty()) start(transmitter, receivers, bodies);  // set_points() has changed the sources
+  if constexpr (!all_effects_built) return fixed_[0].move_source(transmitter);
   if (!moving_searches_.empty()) seams_.emplace(moving_searches_[0].seams());
   if (way_ == Way::between_ends) return renew_between(transmitter, receivers);
   if (once()) return renew_moving(transmitter, receivers);
@@ -281,6 +283,7 @@ void ChannelSearch::renew_moving(const dvec3& transmitter, std::span<const dvec3
 
 rf::LinkGeometry ChannelSearch::geometry(size_t index, const rf::EndState& transmitter,
                                          const rf::EndState& receiver) const {
+  if constexpr (!all_effects_built) return fixed_[0].geometry(receiver);
   const size_t source = source_of(index);
   const rf::Source end = sources_[source].end;
   const bool from_receiver = end == rf::Source::receiver;

@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include "core/budget.h"
+#include "core/built_effects.h"
 #include "core/units.h"
 #include "sim/plan/antennas.h"
 #include "sim/plan/array_plan.h"
@@ -47,10 +48,10 @@ ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& cross
                                                     channel_ends(experiment, channel, t)));
   grid_ = {config_.carrier_hz, config_.subcarrier_spacing_hz, config_.subcarriers, config_.time_samples,
            doppler_ ? config_.time_spacing_s : 0.0};
-  if (experiment.plan.dispersion.on)
+  if (all_effects_built && experiment.plan.dispersion.on)
     dispersion_.emplace(experiment.scene(), radio_->model().field_model(), radio_->model().effects.weather,
                         grid_);
-  if (experiment.plan.every_element.on) find_near_links();
+  if (all_effects_built && experiment.plan.every_element.on) find_near_links();
   describe();
 }
 

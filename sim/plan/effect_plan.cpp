@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/built_effects.h"
 #include "core/units.h"
 #include "sim/plan/camera_plan.h"
 #include "sim/plan/effect_planner.h"
@@ -27,6 +28,24 @@ void plan_rays(EffectPlan& plan, Planner& planner, const Offers& offers) {
   planner.decide(plan.scene_motion, offers.moving_triangles,
                  offers.moving_triangles ? "a mesh follows a moving node: refitted when it moved"
                                          : "no mesh moves: built once, never refitted");
+}
+
+/// Throws UserError if the plan has effects of radio that this program was built without.
+void require_built(const EffectPlan& plan, const Scenario& scenario) {
+#define GREATX_POINTER(name, switchable, passed, documentation) &plan.name,
+  const std::vector<const Effect*> radio{GREATX_RADIO_EFFECTS(GREATX_POINTER)};
+#undef GREATX_POINTER
+  std::vector<std::string> names;
+  for (const Effect* effect : radio)
+    if (effect->on && effect != &plan.channel && effect != &plan.line_of_sight) names.push_back(effect->name);
+  if (names.empty()) return;
+  throw_user_error(
+      "{}: effects: found {} on, but this program was built with GREATX_EFFECTS=line_of_sight and has no "
+      "other "
+      "effect of a channel; expected them to be off (effects: {{{}: off}}), or a program built with "
+      "GREATX_EFFECTS=all",
+      scenario.file.empty() ? scenario.name : scenario.file.string(), fmt::join(names, ", "),
+      fmt::join(names, ": off, "));
 }
 
 }  // namespace
@@ -71,6 +90,7 @@ EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene,
                      scenario.file.empty() ? scenario.name : scenario.file.string(), name,
                      fmt::join(names, ", "));
   }
+  if constexpr (!all_effects_built) require_built(plan, scenario);
   return plan;
 }
 

@@ -38,7 +38,8 @@ struct EffectPlan {
 
 /// Decides every effect. Bodies other than 0 count as moving. `points` is a box, world coordinates, around
 /// receivers that the scenario does not contain (`--receivers`, the cells of a map, points given in Python);
-/// empty: none. Throws UserError if a name under `effects:` is not an effect, or cannot be switched.
+/// empty: none. Throws UserError if a name under `effects:` is not an effect, or cannot be switched, and
+/// if the program was built without an effect that is on (core/built_effects.h).
 EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene,
                             const scene::Bounds& points = {});
 
