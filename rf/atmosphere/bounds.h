@@ -7,8 +7,6 @@
 // fog_model_covers tell this in advance.
 #pragma once
 
-#include "core/band.h"
-#include "rf/atmosphere/path_attenuation.h"
 #include "rf/atmosphere/weather.h"
 
 namespace greatx::rf {
@@ -21,11 +19,5 @@ double most_gas_db(const Weather& weather, double frequency_hz, double distance_
 double most_rain_db(const Weather& weather, double frequency_hz, double distance_m);
 /// Returns the attenuation by fog over `distance_m`, dB. The value is exact.
 double most_fog_db(const Weather& weather, double frequency_hz, double distance_m);
-
-/// Returns the largest difference between the attenuation by the selected effects over `distance_m` at a
-/// frequency of the band and at the carrier, dB, for a path of any direction and polarization. The band is
-/// sampled at least every 50 MHz, up to 400 times; lines of gases near the ground are about 1 GHz wide.
-double most_air_change_db(const Weather& weather, const WeatherEffects& effects, const Band& band,
-                          double distance_m);
 
 }  // namespace greatx::rf

@@ -5,10 +5,6 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "core/parallel.h"
-#include "rf/atmosphere/fog.h"
-#include "rf/atmosphere/gas.h"
-#include "rf/atmosphere/rain.h"
 
 namespace greatx::rf {
 
@@ -18,10 +14,6 @@ Dispersion::Dispersion(const scene::Scene& scene, const FieldModel& carrier, con
   GREATX_CHECK(carrier.world != nullptr && carrier.world->facet_count() == scene.facets.size(),
                "the field model is of another scene");
   const FieldEffects& on = carrier.effects;
-  // Like the carrier's model (RadioModel::field_model), a channel outside an effect's range goes without it.
-  const double hz = grid.carrier_hz;
-  const WeatherEffects effects{on.gas && gas_model_covers(hz), on.rain && rain_model_covers(hz),
-                               on.fog && fog_model_covers(hz)};
   subcarriers_.reserve(grid.subcarriers);
   for (uint32_t k = 0; k < grid.subcarriers; ++k) {
     const double frequency_hz = grid.carrier_hz + grid.subcarrier_number(k) * grid.subcarrier_spacing_hz;
@@ -29,7 +21,8 @@ Dispersion::Dispersion(const scene::Scene& scene, const FieldModel& carrier, con
       throw_user_error("subcarrier {} of {}: expected a frequency above 0 Hz, found {}", k, grid.subcarriers,
                        frequency_hz);
     subcarriers_.push_back(
-        {RadioSurfaces(scene, frequency_hz), path_attenuation(weather, frequency_hz, effects)});
+        {RadioSurfaces(scene, frequency_hz),
+         path_attenuation(weather, frequency_hz, {.gas = on.gas, .rain = on.rain, .fog = on.fog})});
   }
 }
 
@@ -37,11 +30,6 @@ TransferSpectrum Dispersion::spectrum(const Path& path, const FacetWorld& world)
   const GeometricPath geometry{path.interactions,  path.vertices,       path.length_m,     path.foliage_m,
                                path.patch_area_m2, path.edges_diffract, path.from_receiver};
   TransferSpectrum spectrum(subcarriers_.size());
-  // The line of sight in air that attenuates nothing is the same at every frequency.
-  if (path.interactions.empty() && path.foliage_m == 0.0 && carrier_.attenuation.none()) {
-    for (auto& transfer : spectrum) std::copy_n(path.transfer, 4, transfer.begin());
-    return spectrum;
-  }
   FieldModel model = carrier_;
   model.world = &world;
   for (size_t k = 0; k < subcarriers_.size(); ++k) {
@@ -56,8 +44,9 @@ TransferSpectrum Dispersion::spectrum(const Path& path, const FacetWorld& world)
 
 std::vector<TransferSpectrum> Dispersion::spectra(std::span<const Path> paths,
                                                   const FacetWorld& world) const {
-  std::vector<TransferSpectrum> result(paths.size());
-  parallel_for(paths.size(), 0, [&](size_t i) { result[i] = spectrum(paths[i], world); });
+  std::vector<TransferSpectrum> result;
+  result.reserve(paths.size());
+  for (const Path& path : paths) result.push_back(spectrum(path, world));
   return result;
 }
 

@@ -18,7 +18,6 @@
 #include "rf/surface/roughness.h"
 #include "sim/plan/antennas.h"
 #include "sim/plan/array_plan.h"
-#include "sim/plan/dispersion_plan.h"
 #include "sim/plan/effect_planner.h"
 #include "sim/plan/trajectory_bounds.h"
 
@@ -218,6 +217,8 @@ void plan_on_request(EffectPlan& plan, const Radio& radio) {
                        radio.why(rough ? "not asked for (effects: {scattering: on})"
                                        : "no material has a scattering coefficient"));
   if (plan.scattering.on && !rough) deny(plan.scattering);
+  radio.planner.decide(plan.dispersion, false,
+                       radio.why("not asked for (effects: {dispersion: on}): materials as at the carrier"));
 }
 
 /// Describes the largest attenuation by the air on any path of any channel.
@@ -362,7 +363,6 @@ void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenar
   const double longest_m = longest_path_m(scenario, scene, asks.max_depth, plan.moving_reflectors.on, points);
   plan_attenuation(plan, radio, scenario, longest_m);
   plan_finite_reflectors(plan, radio, scenario, scene, longest_m);
-  plan_dispersion(plan, planner, scenario, scene, longest_m);
   plan_doppler(plan, radio);
   plan_arrays(plan, planner, scenario);
 }

@@ -293,30 +293,6 @@ TEST(Bounds, AreTheMostThatCanBe) {
   }
 }
 
-TEST(Bounds, TheAirChangesOverABandByTheMostOfAnyDirection) {
-  const WeatherEffects all;
-  for (const auto& [carrier, width] : {std::pair(28e9, 2e9), std::pair(57e9, 1e9), std::pair(183e9, 8e9)}) {
-    const Band band{carrier, carrier - 0.5 * width, carrier + 0.5 * width};
-    const double bound = most_air_change_db(storm, all, band, 500.0);
-    const PathAttenuation here = path_attenuation(storm, carrier, all);
-    double most = 0.0;
-    for (int i = 0; i <= 200; ++i) {
-      const PathAttenuation there = path_attenuation(storm, band.sample_hz(i, 200), all);
-      for (int e = 0; e <= 90; e += 3) {
-        const dvec3 k(std::cos(radians(e)), 0.0, std::sin(radians(e)));
-        const PolarizedAmplitude a = here.of(k, 500.0), b = there.of(k, 500.0);
-        most = std::max({most, std::abs(20.0 * std::log10(a.theta / b.theta)),
-                         std::abs(20.0 * std::log10(a.phi / b.phi))});
-      }
-    }
-    EXPECT_LE(most, bound * 1.01) << carrier;
-    EXPECT_GE(most, bound * 0.99) << carrier;
-  }
-  const Band oxygen{57e9, 56.5e9, 57.5e9};
-  EXPECT_NEAR(most_air_change_db(standard, {true, false, false}, oxygen, 1000.0), 1.35, 0.3);
-  EXPECT_EQ(most_air_change_db(storm, {false, false, false}, oxygen, 1e6), 0.0);
-}
-
 // --------------------------------------------------------------------------------------------------- foliage
 
 TEST(Foliage, Weissberger) {
