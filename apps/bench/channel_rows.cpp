@@ -8,6 +8,7 @@
 #include "apps/bench/recall_scene.h"
 #include "apps/paths/cfr.h"
 #include "io/dataset/dataset_writer.h"
+#include "sim/channel/blocks.h"
 #include "sim/dataset/dataset_info.h"
 #include "sim/plan/antennas.h"
 #include "sim/run/simulator.h"
@@ -50,8 +51,7 @@ nlohmann::json response_row(const ScenarioOptions& scenario_options, const RunOp
   const sim::ChannelConfig& config = scenario.channels[0];
   const rf::ArrayPose transmitter{sim::antenna_array(scenario, config.transmitters[0], config.carrier_hz)},
       receiver{sim::antenna_array(scenario, config.receivers[0], config.carrier_hz)};
-  const rf::ChannelGrid grid{config.carrier_hz, config.subcarrier_spacing_hz, config.subcarriers,
-                             config.time_samples, config.time_spacing_s};
+  const rf::ChannelGrid grid = sim::channel_grid(config, experiment.plan);
   std::vector<std::complex<float>> h(rf::response_size(transmitter, receiver, grid));
   std::vector<double> samples;
   for (int i = 0; i < 200; ++i) {

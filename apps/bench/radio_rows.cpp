@@ -14,6 +14,7 @@
 #include "core/units.h"
 #include "rf/channel/frequency_response.h"
 #include "rf/search/beam_search.h"
+#include "sim/channel/blocks.h"
 #include "sim/channel/channel_snapshot.h"
 #include "sim/plan/antennas.h"
 #include "sim/plan/plan_options.h"
@@ -77,8 +78,7 @@ nlohmann::json staged(gpu::Device& device, const sim::Experiment& experiment,
   for (const std::string& name : config.receivers)
     receivers.push_back(sim::antenna_array(scenario, name, config.carrier_hz));
   const sim::Courses courses = sim::make_courses(scenario, world, 0);
-  const rf::ChannelGrid grid{config.carrier_hz, config.subcarrier_spacing_hz, config.subcarriers,
-                             config.time_samples, config.time_spacing_s};
+  const rf::ChannelGrid grid = sim::channel_grid(config, experiment.plan);
   std::vector<double> stages[4];
   const Until until(options);
   for (int64_t tick = 0; tick < scenario.ticks && !until.enough(stages[0].size()); ++tick) {

@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include "io/formats/npy.h"
+#include "sim/channel/blocks.h"
 #include "sim/plan/antennas.h"
 #include "sim/plan/array_plan.h"
 
@@ -27,8 +28,7 @@ CfrFile::CfrFile(const std::filesystem::path& file, const sim::ChannelSnapshot& 
       throw_user_error("--cfr: channel '{}': expected receivers with one number of ports, found {} and {}",
                        config_.name, receivers_[0].port_count(), receiver.port_count());
   count_ = points.value_or(receivers_.size());
-  grid_ = {config_.carrier_hz, config_.subcarrier_spacing_hz, config_.subcarriers, config_.time_samples,
-           experiment.plan.doppler.on ? config_.time_spacing_s : 0.0};
+  grid_ = sim::channel_grid(config_, experiment.plan);
   if (experiment.plan.dispersion.on) {
     const rf::RadioModel& model = snapshot.model();
     dispersion_.emplace(experiment.scene(), model.field_model(), model.effects.weather, grid_);

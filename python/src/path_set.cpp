@@ -51,14 +51,17 @@ void check_count(const char* name, uint32_t count) {
     throw_user_error("{}: expected an integer from 1 to {}, found {}", name, most_samples, count);
 }
 
-rf::ChannelGrid grid_of(const ResponseRequest& request, const sim::ChannelConfig& config, bool doppler) {
+rf::ChannelGrid grid_of(const ResponseRequest& request, const sim::ChannelConfig& config,
+                        const sim::EffectPlan& plan) {
   // A caller that asks for time samples wants their phases to turn with time, even if the scenario's own
   // samples do not.
-  const bool turns = doppler || request.time_samples || request.time_spacing_s;
-  const rf::ChannelGrid grid{
-      config.carrier_hz, request.subcarrier_spacing_hz.value_or(config.subcarrier_spacing_hz),
-      request.subcarriers.value_or(config.subcarriers), request.time_samples.value_or(config.time_samples),
-      turns ? request.time_spacing_s.value_or(config.time_spacing_s) : 0.0};
+  const bool turns = plan.doppler.on || request.time_samples || request.time_spacing_s;
+  const rf::ChannelGrid grid{config.carrier_hz,
+                             request.subcarrier_spacing_hz.value_or(config.subcarrier_spacing_hz),
+                             request.subcarriers.value_or(config.subcarriers),
+                             request.time_samples.value_or(config.time_samples),
+                             turns ? request.time_spacing_s.value_or(config.time_spacing_s) : 0.0,
+                             plan.beam_squint.on};
   check_above_0("subcarrier_spacing_hz", grid.subcarrier_spacing_hz);
   check_count("subcarriers", grid.subcarriers);
   check_count("time_samples", grid.time_samples);
@@ -245,7 +248,7 @@ Array PathSet::blocks(std::vector<int64_t> columns, const GoOn& go_on,
 }
 
 Array PathSet::response(const ResponseRequest& request, const GoOn& go_on) const {
-  const rf::ChannelGrid grid = grid_of(request, config_, experiment_->plan.doppler.on);
+  const rf::ChannelGrid grid = grid_of(request, config_, experiment_->plan);
   std::optional<rf::Dispersion> dispersion;
   if (radio_)
     dispersion.emplace(experiment_->scene(), radio_->model().field_model(), radio_->model().effects.weather,
@@ -265,8 +268,13 @@ NamedArrays PathSet::taps(const TapsRequest& request, const GoOn& go_on) const {
   check_above_0("time_spacing_s", request.time_spacing_s);
   check_count("taps", request.taps);
   check_count("time_samples", request.time_samples);
-  const rf::TapGrid grid{config_.carrier_hz, request.bandwidth_hz, request.first,
-                         request.taps,       request.time_samples, request.time_spacing_s};
+  const rf::TapGrid grid{config_.carrier_hz,
+                         request.bandwidth_hz,
+                         request.first,
+                         request.taps,
+                         request.time_samples,
+                         request.time_spacing_s,
+                         experiment_->plan.beam_squint.on};
   NamedArrays arrays;
   arrays.push_back(
       {"taps", "1", "[rx, rx_ant, tx, tx_ant, time, tap]",

@@ -14,20 +14,38 @@ void check_count(std::span<const Path> paths, std::span<const TransferSpectrum> 
   GREATX_CHECK(spectra.size() == paths.size(), "{} spectra of {} paths", spectra.size(), paths.size());
 }
 
-/// Sets e^{-j 2 pi f tau} at all subcarriers. The phasor of a subcarrier is the product of the phasor of its
-/// block's first subcarrier and of its place in the block. Both come from exactly reduced turns, so that no
-/// recurrence accumulates error.
+constexpr size_t group = 8;  ///< blocks that share a phasor
+
+/// Sets out[i] = e^{-j 2 pi i step delay} for i below 8, as products of the phasors at 1, 2 and 4.
+void set_eight(double step_hz, double delay_s, Complex* out) {
+  out[0] = 1.0;
+  for (size_t power = 1; power < 8; power *= 2) {
+    out[power] = unit_phasor(-turns_of(static_cast<double>(power), step_hz, delay_s));
+    for (size_t i = 1; i < power; ++i) out[power + i] = out[power] * out[i];
+  }
+}
+
+/// Sets e^{-j 2 pi f tau} at all subcarriers. The phasor of a subcarrier is the product of three: of the first
+/// subcarrier of its group of blocks, of its block in the group, and of its place in the block. All come from
+/// exactly reduced turns and at most six products, so that no error accumulates along the band.
 void set_phasors(const ChannelGrid& grid, double delay_s, size_t term, ColumnFactors& factors) {
-  Complex place[sum_lanes];
+  static_assert(sum_lanes == 8 && group == 8);
+  Complex places[sum_lanes], steps[group], start;
+  set_eight(grid.subcarrier_spacing_hz, delay_s, places);
+  set_eight(sum_lanes * grid.subcarrier_spacing_hz, delay_s, steps);
+  double re[sum_lanes], im[sum_lanes];
   for (size_t lane = 0; lane < sum_lanes; ++lane)
-    place[lane] = unit_phasor(-turns_of(static_cast<double>(lane), grid.subcarrier_spacing_hz, delay_s));
+    re[lane] = places[lane].real(), im[lane] = places[lane].imag();
   for (size_t block = 0; block < factors.blocks(); ++block) {
-    const double number = grid.subcarrier_number(static_cast<uint32_t>(block * sum_lanes));
-    const Complex first = unit_phasor(-turns_of(number, grid.subcarrier_spacing_hz, delay_s));
+    if (block % group == 0) {
+      const double number = grid.subcarrier_number(static_cast<uint32_t>(block * sum_lanes));
+      start = unit_phasor(-turns_of(number, grid.subcarrier_spacing_hz, delay_s));
+    }
+    const Complex first = start * steps[block % group];
     double* out = factors.at(block, term);
     for (size_t lane = 0; lane < sum_lanes; ++lane) {
-      out[lane] = first.real() * place[lane].real() - first.imag() * place[lane].imag();
-      out[sum_lanes + lane] = first.real() * place[lane].imag() + first.imag() * place[lane].real();
+      out[lane] = first.real() * re[lane] - first.imag() * im[lane];
+      out[sum_lanes + lane] = first.real() * im[lane] + first.imag() * re[lane];
     }
   }
 }
@@ -39,11 +57,11 @@ LinkSum response_sum(std::span<const Path> paths, std::span<const TransferSpectr
           spectra,
           transmitter,
           receiver,
-          {grid.carrier_hz, grid.time_samples, grid.time_spacing_s},
+          {grid.carrier_hz, grid.time_samples, grid.time_spacing_s, grid.beam_squint},
           grid.subcarriers,
           selection,
-          [grid](const Path& path, size_t term, ColumnFactors& factors) {
-            set_phasors(grid, path.delay_s, term, factors);
+          [grid](double delay_s, size_t term, ColumnFactors& factors) {
+            set_phasors(grid, delay_s, term, factors);
           }};
 }
 

@@ -74,8 +74,8 @@ void LinkSum::write(std::complex<Part>* out) {
   size_t summed = 0;
   for (const uint32_t index : order_) {
     load(index);
-    if (loaded_ < chunk_ && summed + loaded_ < terms_) continue;
-    summed += loaded_;
+    if (loaded_.size() < chunk_ && summed + loaded_.size() < terms_) continue;
+    summed += loaded_.size();
     add(summed == terms_ ? out : nullptr);
   }
 }
@@ -85,24 +85,19 @@ template void LinkSum::write(std::complex<double>*);
 /// Puts the terms of a path into the next places of the chunk: one term, or with a spectrum one term for each
 /// entry of the transfer.
 void LinkSum::load(uint32_t index) {
-  const Path& path = paths_[index];
-  if (spectra_.empty()) return load(path, path.transfer);
-  for (size_t entry = 0; entry < 4; ++entry) {
+  if (spectra_.empty()) return load({index, 0}, paths_[index].transfer);
+  for (uint32_t entry = 0; entry < 4; ++entry) {
     Complex unit[4]{};
     unit[entry] = 1.0;
-    load(path, unit);
-    for (size_t column = 0; column < columns_; ++column) {
-      double* factor = factors_.at(column / sum_lanes, loaded_ - 1) + column % sum_lanes;
-      const Complex value = Complex(factor[0], factor[sum_lanes]) * spectra_[index][column][entry];
-      factor[0] = value.real();
-      factor[sum_lanes] = value.imag();
-    }
+    load({index, entry}, unit);
   }
 }
 
-void LinkSum::load(const Path& path, const Complex* transfer) {
-  const size_t place = loaded_++;
-  set_factors_(path, place, factors_);
+void LinkSum::load(Term term, const Complex* transfer) {
+  const Path& path = paths_[term.path];
+  const size_t place = loaded_.size();
+  loaded_.push_back(term);
+  if (!times_.beam_squint) set_factors(place, path.delay_s);
   amplitudes_of_(path, transfer, pair_.data());
   const Complex carrier = unit_phasor(-turns_of(times_.carrier_hz, path.delay_s));
   for (uint32_t m = 0; m < times_.samples; ++m) {
@@ -113,21 +108,61 @@ void LinkSum::load(const Path& path, const Complex* transfer) {
   }
 }
 
+void LinkSum::set_factors(size_t place, double delay_s) {
+  set_factors_(delay_s, place, factors_);
+  if (spectra_.empty()) return;
+  const auto [path, entry] = loaded_[place];
+  for (size_t column = 0; column < columns_; ++column) {
+    double* factor = factors_.at(column / sum_lanes, place) + column % sum_lanes;
+    const Complex value = Complex(factor[0], factor[sum_lanes]) * spectra_[path][column][entry];
+    factor[0] = value.real();
+    factor[sum_lanes] = value.imag();
+  }
+}
+
+/// Sets the factors of the chunk for the delays between two elements.
+void LinkSum::set_factors_of_elements(size_t rx, size_t tx) {
+  for (size_t place = 0; place < loaded_.size(); ++place) {
+    const Path& path = paths_[loaded_[place].path];
+    set_factors(place, path.delay_s - (amplitudes_of_.rx().lead_s(path.arrival, rx) +
+                                       amplitudes_of_.tx().lead_s(path.departure, tx)));
+  }
+}
+
 /// Adds the chunk to the sums, and writes the sums to `out` unless it is null.
 template <typename Part>
 void LinkSum::add(std::complex<Part>* out) {
+  if (times_.beam_squint) {
+    const Ports &rx = amplitudes_of_.rx(), &tx = amplitudes_of_.tx();
+    const size_t rx_ports = rx.count() / rx.elements(), tx_ports = tx.count() / tx.elements();
+    for (size_t u = 0; u < rx.elements(); ++u)
+      for (size_t s = 0; s < tx.elements(); ++s) {
+        set_factors_of_elements(u, s);
+        for (size_t port = u * rx_ports; port < (u + 1) * rx_ports; ++port) {
+          const size_t pair = port * tx.count() + s * tx_ports;
+          add_rows_from(pair * times_.samples, (pair + tx_ports) * times_.samples, out);
+        }
+      }
+  } else {
+    add_rows_from(0, rows_, out);
+  }
+  loaded_.clear();
+}
+
+template <typename Part>
+void LinkSum::add_rows_from(size_t begin, size_t end, std::complex<Part>* out) {
   const AddRows add_chunk = add_rows();
   double tile[row_tile * 2 * sum_lanes];
-  for (size_t first = 0; first < rows_; first += row_tile)
+  for (size_t first = begin; first < end; first += row_tile)
     for (size_t block = 0; block < factors_.blocks(); ++block) {
-      const size_t count = std::min(row_tile, rows_ - first);
+      const size_t count = std::min(row_tile, end - first);
       double* sums = sums_.empty() ? tile : sums_.data() + (block * rows_ + first) * 2 * sum_lanes;
       if (sums_.empty()) std::fill_n(tile, count * 2 * sum_lanes, 0.0);
-      add_chunk(amplitudes_.data() + first * chunk_, chunk_, count, factors_.block(block), loaded_, sums);
+      add_chunk(amplitudes_.data() + first * chunk_, chunk_, count, factors_.block(block), loaded_.size(),
+                sums);
       for (size_t row = 0; out != nullptr && row < count; ++row)
         store(sums + row * 2 * sum_lanes, block * sum_lanes, columns_, out + (first + row) * columns_);
     }
-  loaded_ = 0;
 }
 
 }  // namespace greatx::rf

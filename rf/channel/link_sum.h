@@ -42,14 +42,15 @@ struct RowTimes {
   double carrier_hz = 0.0;
   uint32_t samples = 1;
   double spacing_s = 0.0;
+  bool beam_squint = false;  ///< the factors of a path depend on the pair of elements
 };
 
 /// Computes the sum over paths of (pair amplitude) e^{-j 2 pi f_c tau} e^{j 2 pi nu t_m} (factor at the
 /// column), in fp64 and in summing_order(). Each link has its own object, so that threads share nothing.
 class LinkSum {
  public:
-  /// Writes the factors of a path at all columns into the place of the term.
-  using SetFactors = std::function<void(const Path& path, size_t term, ColumnFactors& factors)>;
+  /// Writes the factors of a delay at all columns into the place of the term.
+  using SetFactors = std::function<void(double delay_s, size_t term, ColumnFactors& factors)>;
 
   /// `spectra`: [paths], each with one transfer per column, or empty for the paths' own transfers. The paths
   /// and spectra must outlive this object.
@@ -65,10 +66,18 @@ class LinkSum {
  private:
   size_t terms_per_path() const { return spectra_.empty() ? 1 : 4; }
   void check_spectra() const;
+  /// A path, or with spectra one entry of a path's transfer.
+  struct Term {
+    uint32_t path, entry;
+  };
   void load(uint32_t index);
-  void load(const Path& path, const Complex* transfer);
+  void load(Term term, const Complex* transfer);
+  void set_factors(size_t place, double delay_s);
+  void set_factors_of_elements(size_t rx, size_t tx);
   template <typename Part>
   void add(std::complex<Part>* out);
+  template <typename Part>
+  void add_rows_from(size_t first, size_t end, std::complex<Part>* out);
 
   std::span<const Path> paths_;
   std::span<const TransferSpectrum> spectra_;
@@ -80,7 +89,8 @@ class LinkSum {
   /// Number of all terms, and of terms per chunk, which is a multiple of terms_per_path().
   size_t terms_, chunk_;
   ColumnFactors factors_;
-  size_t rows_, loaded_ = 0;
+  size_t rows_;
+  std::vector<Term> loaded_;                ///< of the chunk
   std::vector<Complex> amplitudes_, pair_;  ///< [rows, chunk]; [pairs]
   std::vector<double> sums_;  ///< [blocks, rows, (re, im), lanes]; empty if one chunk holds all terms
 };

@@ -27,7 +27,9 @@ void check_link(std::span<const Path> paths, const ArrayPose& transmitter, const
 double wavelength_factor(double carrier_hz) { return speed_of_light / carrier_hz / (4.0 * pi); }
 
 Ports::Ports(const ArrayPose& end, double carrier_hz)
-    : element_(end.array.turned_element(end.orientation)), count_(end.array.port_count()) {
+    : element_(end.array.turned_element(end.orientation)),
+      count_(end.array.port_count()),
+      carrier_hz_(carrier_hz) {
   const double per_wavelength = carrier_hz / speed_of_light;
   for (uint32_t port = 0; port < count_; port += end.array.polarization_count())
     positions_.push_back(end.orientation * end.array.element_position(port) * per_wavelength);

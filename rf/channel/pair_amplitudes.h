@@ -35,10 +35,17 @@ class Ports {
   void fields(const dvec3& direction, std::vector<Jones>& out) const;
   /// Returns e^{j 2 pi direction . d/lambda} of the port at d.
   Complex phase(const dvec3& direction, uint32_t port) const;
+  size_t elements() const { return positions_.size(); }
+  /// Returns direction . d/c of an element, seconds: so much earlier than the origin of the array it meets a
+  /// wave from that direction, or a wave that it sends there leaves.
+  double lead_s(const dvec3& direction, size_t element) const {
+    return glm::dot(direction, positions_[element]) / carrier_hz_;
+  }
 
  private:
   TurnedElement element_;
   uint32_t count_;
+  double carrier_hz_;
   std::vector<dvec3> positions_;  ///< [elements], in carrier wavelengths, along local axes
 };
 
@@ -54,6 +61,8 @@ class PairAmplitudes {
   /// Returns the mean of |out|^2 over all pairs. All elements of an array have the same patterns and the
   /// array phases have modulus 1, so that one element at each end gives the mean.
   double mean_power(const Path& path);
+  const Ports& tx() const { return tx_; }
+  const Ports& rx() const { return rx_; }
 
  private:
   Ports tx_, rx_;

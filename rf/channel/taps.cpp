@@ -48,8 +48,8 @@ class Sinc {
 LinkSum tap_sum(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
                 const TapGrid& grid) {
   check_grid(grid);
-  const auto set_factors = [grid](const Path& path, size_t term, ColumnFactors& factors) {
-    const Sinc sinc(grid.bandwidth_hz, path.delay_s);
+  const auto set_factors = [grid](double delay_s, size_t term, ColumnFactors& factors) {
+    const Sinc sinc(grid.bandwidth_hz, delay_s);
     for (size_t column = 0; column < grid.taps; ++column) {
       double* factor = factors.at(column / sum_lanes, term) + column % sum_lanes;
       factor[0] = sinc(static_cast<double>(grid.first) + static_cast<double>(column));
@@ -60,7 +60,7 @@ LinkSum tap_sum(std::span<const Path> paths, const ArrayPose& transmitter, const
           {},
           transmitter,
           receiver,
-          {grid.carrier_hz, grid.time_samples, grid.time_spacing_s},
+          {grid.carrier_hz, grid.time_samples, grid.time_spacing_s, grid.beam_squint},
           grid.taps,
           PathSelection::all,
           set_factors};

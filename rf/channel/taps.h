@@ -25,6 +25,7 @@ struct TapGrid {
   uint32_t taps = 64;  ///< above 0
   uint32_t time_samples = 1;
   double time_spacing_s = 1e-3;
+  bool beam_squint = false;  ///< as ChannelGrid::beam_squint: tau below is the delay of the pair of elements
 };
 
 /// Describes the power and paths outside a window of taps. An ideal low-pass has no end: even a window that

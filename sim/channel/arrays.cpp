@@ -135,6 +135,8 @@ std::string ChannelSensor::metadata() const {
   metadata["receivers"] = describe_ends(receiver_arrays_, paths_[0]->receivers());
   metadata["pattern_tables"] = describe_pattern_tables({transmitter_arrays_, receiver_arrays_});
   metadata["doppler_in_time_samples"] = doppler_;  // off: all time samples are equal
+  // Off: the phases of the elements are those of the carrier at every subcarrier.
+  metadata["beam_squint"] = grid_.beam_squint;
   // Off: walls and air have their values at the carrier for every subcarrier.
   metadata["dispersion"] = dispersion_.has_value();
   metadata["walls"] = describe_walls(experiment_.scene(), radio_->model().surfaces);

@@ -19,9 +19,19 @@ PortBlock response_block(const char* name, const char* description, const rf::Ch
 
 }  // namespace
 
+rf::ChannelGrid channel_grid(const ChannelConfig& config, const EffectPlan& plan) {
+  return {config.carrier_hz,
+          config.subcarrier_spacing_hz,
+          config.subcarriers,
+          config.time_samples,
+          plan.doppler.on ? config.time_spacing_s : 0.0,
+          plan.beam_squint.on};
+}
+
 rf::TapGrid tap_grid(const ChannelConfig& config, const rf::ChannelGrid& grid) {
   const ChannelConfig::Taps& taps = config.taps.value();
-  return {grid.carrier_hz, taps.bandwidth_hz, taps.first, taps.count, grid.time_samples, grid.time_spacing_s};
+  return {grid.carrier_hz,   taps.bandwidth_hz,   taps.first,      taps.count,
+          grid.time_samples, grid.time_spacing_s, grid.beam_squint};
 }
 
 std::vector<PortBlock> port_blocks(const ChannelConfig& config, const rf::ChannelGrid& grid,

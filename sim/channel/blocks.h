@@ -15,6 +15,7 @@
 #include "rf/channel/dispersion.h"
 #include "rf/channel/frequency_response.h"
 #include "rf/channel/taps.h"
+#include "sim/plan/effect_plan.h"
 #include "sim/scenario/scenario.h"
 
 namespace greatx::sim {
@@ -37,6 +38,9 @@ struct PortBlock {
 /// values at the carrier.
 std::vector<PortBlock> port_blocks(const ChannelConfig& config, const rf::ChannelGrid& grid,
                                    const rf::Dispersion* dispersion);
+
+/// Returns the subcarriers and times of a channel, with what the plan says of them.
+rf::ChannelGrid channel_grid(const ChannelConfig& config, const EffectPlan& plan);
 
 /// Returns the window of a channel's taps. The channel must have taps.
 rf::TapGrid tap_grid(const ChannelConfig& config, const rf::ChannelGrid& grid);

@@ -46,8 +46,7 @@ ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& cross
   for (uint32_t t = 0; t < config_.transmitters.size(); ++t)
     paths_.push_back(std::make_unique<ChannelPaths>(gpu_scene, crossings, experiment, radio_, channel,
                                                     channel_ends(experiment, channel, t)));
-  grid_ = {config_.carrier_hz, config_.subcarrier_spacing_hz, config_.subcarriers, config_.time_samples,
-           doppler_ ? config_.time_spacing_s : 0.0};
+  grid_ = channel_grid(config_, experiment.plan);
   if (all_effects_built && experiment.plan.dispersion.on)
     dispersion_.emplace(experiment.scene(), radio_->model().field_model(), radio_->model().effects.weather,
                         grid_);

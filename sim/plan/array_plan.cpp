@@ -3,6 +3,7 @@
 #include "sim/plan/array_plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/units.h"
@@ -58,6 +59,46 @@ Nearest nearest_of(const Scenario& scenario) {
   return nearest;
 }
 
+/// Describes the link whose array phases change most over the band.
+struct Squint {
+  double phase_rad = 0.0, band_hz = 0.0, reach_m = 0.0;
+  std::string transmitter, receiver;
+  /// Of the field of one path at an element on the edge, dB: |e^{j phase} - 1| beside 1.
+  double bound_db() const { return 2.0 * decibels(1.0 + 2.0 * std::sin(0.5 * std::min(phase_rad, pi))); }
+};
+
+Squint squint_of(const Scenario& scenario) {
+  Squint most;
+  for (const ChannelConfig& channel : scenario.channels) {
+    const double sampled_hz = channel.subcarriers / 2 * channel.subcarrier_spacing_hz;
+    const double half_hz = std::max(sampled_hz, channel.taps ? 0.5 * channel.taps->bandwidth_hz : 0.0);
+    for (const std::string& transmitter : channel.transmitters)
+      for (const std::string& receiver : channel.receivers) {
+        const double reach_m = antenna_array(scenario, transmitter, channel.carrier_hz).reach() +
+                               antenna_array(scenario, receiver, channel.carrier_hz).reach();
+        const double phase_rad = 2.0 * pi * half_hz * reach_m / speed_of_light;
+        if (phase_rad > most.phase_rad) most = {phase_rad, 2.0 * half_hz, reach_m, transmitter, receiver};
+      }
+  }
+  return most;
+}
+
+void plan_squint(EffectPlan& plan, const Planner& planner, const Scenario& scenario) {
+  const Squint squint = squint_of(scenario);
+  const bool any = squint.phase_rad > 0.0, needed = any && squint.bound_db() > scenario.tolerance_db;
+  planner.decide(plan.beam_squint, needed,
+                 scenario.channels.empty() ? "no channel"
+                 : !any                    ? "no antenna has more than one element, or one subcarrier"
+                 : needed                  ? "more than the tolerance"
+                                           : "within the tolerance",
+                 any ? fmt::format("at most {:.3g} rad, {:.3g} dB of a path, at the edges of the arrays ({}, "
+                                   "{}: {:.3g} m) and of a band of {:.4g} MHz; tolerance {:.3g} dB",
+                                   squint.phase_rad, squint.bound_db(), squint.transmitter, squint.receiver,
+                                   squint.reach_m, squint.band_hz * 1e-6, scenario.tolerance_db)
+                     : "");
+  if (!any) plan.beam_squint.on = false;
+}
+
 }  // namespace
 
 bool may_be_near(const Scenario& scenario, const ChannelConfig& channel, size_t transmitter,
@@ -81,6 +122,7 @@ double every_element_within_m(const Scenario& scenario, const ChannelConfig& cha
 }
 
 void plan_arrays(EffectPlan& plan, const Planner& planner, const Scenario& scenario) {
+  plan_squint(plan, planner, scenario);
   const Nearest nearest = nearest_of(scenario);
   const bool rays = std::any_of(
       scenario.channels.begin(), scenario.channels.end(),
@@ -98,7 +140,7 @@ void plan_arrays(EffectPlan& plan, const Planner& planner, const Scenario& scena
       nearest.far_m == 0.0
           ? ""
           : fmt::format("far field from 2 (D_tx + D_rx)^2/lambda = {:.3g} m ({}, {}); beyond it "
-                        "phases at the edges are off by pi/8 at most",
+                        "phases at the edges are off by pi/8 at most at the carrier",
                         nearest.far_m, nearest.transmitter, nearest.receiver));
   if (!plan.every_element.on) return;
   if (rays) throw_user_error("effects: every_element: expected auto or off with candidates: rays, found on");

@@ -24,7 +24,7 @@ double every_element_within_m(const Scenario& scenario, const ChannelConfig& cha
                               const rf::AntennaArray& transmitter, const rf::AntennaArray& receiver);
 
 /// Decides EffectPlan::every_element: on if the ends of some link between arrays may be nearer than their far
-/// field.
+/// field; and EffectPlan::beam_squint by its bound.
 void plan_arrays(EffectPlan& plan, const Planner& planner, const Scenario& scenario);
 
 }  // namespace greatx::sim
