@@ -49,8 +49,13 @@ nlohmann::json response_row(const ScenarioOptions& scenario_options, const RunOp
       some_paths(snapshot, draw_receivers(experiment.scene(), experiment.scenario.seed, 100), response_paths);
   const sim::Scenario& scenario = experiment.scenario;
   const sim::ChannelConfig& config = scenario.channels[0];
-  const rf::ArrayPose transmitter{sim::antenna_array(scenario, config.transmitters[0], config.carrier_hz)},
-      receiver{sim::antenna_array(scenario, config.receivers[0], config.carrier_hz)};
+  const rf::Wavefront wavefront = sim::wavefront(experiment.plan);
+  const rf::ArrayPose transmitter{sim::antenna_array(scenario, config.transmitters[0], config.carrier_hz),
+                                  {1.0, 0.0, 0.0, 0.0},
+                                  wavefront},
+      receiver{sim::antenna_array(scenario, config.receivers[0], config.carrier_hz),
+               {1.0, 0.0, 0.0, 0.0},
+               wavefront};
   const rf::ChannelGrid grid = sim::channel_grid(config, experiment.plan);
   std::vector<std::complex<float>> h(rf::response_size(transmitter, receiver, grid));
   std::vector<double> samples;

@@ -29,6 +29,7 @@ CfrFile::CfrFile(const std::filesystem::path& file, const sim::ChannelSnapshot& 
                        config_.name, receivers_[0].port_count(), receiver.port_count());
   count_ = points.value_or(receivers_.size());
   grid_ = sim::channel_grid(config_, experiment.plan);
+  wavefront_ = sim::wavefront(experiment.plan);
   if (experiment.plan.dispersion.on) {
     const rf::RadioModel& model = snapshot.model();
     dispersion_.emplace(experiment.scene(), model.field_model(), model.effects.weather, grid_);
@@ -48,8 +49,9 @@ CfrFile::~CfrFile() {
 }
 
 void CfrFile::add(const sim::ChannelSnapshot::Link& link) {
-  const rf::ArrayPose transmitter{transmitter_, link.transmitter_state.orientation},
-      receiver{receivers_[receivers_.size() == 1 ? 0 : link.receiver], link.receiver_state.orientation};
+  const rf::ArrayPose transmitter{transmitter_, link.transmitter_state.orientation, wavefront_},
+      receiver{receivers_[receivers_.size() == 1 ? 0 : link.receiver], link.receiver_state.orientation,
+               wavefront_};
   response_.resize(rf::response_size(transmitter, receiver, grid_));
   std::vector<rf::TransferSpectrum> spectra;
   if (dispersion_) spectra = dispersion_->spectra(link.paths, *link.world);

@@ -102,12 +102,13 @@ void PathSet::finish(const sim::ChannelSnapshot& snapshot, const std::map<std::s
 }
 
 rf::ArrayPose PathSet::transmitter(const Link& link) const {
-  return {transmitters_[link.solved.transmitter], link.solved.transmitter_state.orientation};
+  return {transmitters_[link.solved.transmitter], link.solved.transmitter_state.orientation,
+          sim::wavefront(experiment_->plan)};
 }
 
 rf::ArrayPose PathSet::receiver(const Link& link) const {
   return {receivers_.size() == 1 ? receivers_[0] : receivers_[link.solved.receiver],
-          link.solved.receiver_state.orientation};
+          link.solved.receiver_state.orientation, sim::wavefront(experiment_->plan)};
 }
 
 std::vector<double> PathSet::powers(const Link& link) const {

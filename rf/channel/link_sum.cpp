@@ -54,6 +54,7 @@ LinkSum::LinkSum(std::span<const Path> paths, std::span<const TransferSpectrum> 
   check_spectra();
   amplitudes_.resize(rows_ * chunk_);
   pair_.resize(amplitudes_of_.pairs());
+  if (times_.beam_squint) leads_s_.resize(chunk_ * amplitudes_of_.leads().pairs());
 }
 
 void LinkSum::check_spectra() const {
@@ -97,7 +98,10 @@ void LinkSum::load(Term term, const Complex* transfer) {
   const Path& path = paths_[term.path];
   const size_t place = loaded_.size();
   loaded_.push_back(term);
-  if (!times_.beam_squint) set_factors(place, path.delay_s);
+  if (times_.beam_squint)
+    amplitudes_of_.leads()(path, leads_s_.data() + place * amplitudes_of_.leads().pairs());
+  else
+    set_factors(place, path.delay_s);
   amplitudes_of_(path, transfer, pair_.data());
   const Complex carrier = unit_phasor(-turns_of(times_.carrier_hz, path.delay_s));
   for (uint32_t m = 0; m < times_.samples; ++m) {
@@ -121,28 +125,27 @@ void LinkSum::set_factors(size_t place, double delay_s) {
 }
 
 /// Sets the factors of the chunk for the delays between two elements.
-void LinkSum::set_factors_of_elements(size_t rx, size_t tx) {
-  for (size_t place = 0; place < loaded_.size(); ++place) {
-    const Path& path = paths_[loaded_[place].path];
-    set_factors(place, path.delay_s - (amplitudes_of_.rx().lead_s(path.arrival, rx) +
-                                       amplitudes_of_.tx().lead_s(path.departure, tx)));
-  }
+void LinkSum::set_factors_of_elements(size_t pair) {
+  const size_t pairs = amplitudes_of_.leads().pairs();
+  for (size_t place = 0; place < loaded_.size(); ++place)
+    set_factors(place, paths_[loaded_[place].path].delay_s - leads_s_[place * pairs + pair]);
 }
 
 /// Adds the chunk to the sums, and writes the sums to `out` unless it is null.
 template <typename Part>
 void LinkSum::add(std::complex<Part>* out) {
   if (times_.beam_squint) {
-    const Ports &rx = amplitudes_of_.rx(), &tx = amplitudes_of_.tx();
-    const size_t rx_ports = rx.count() / rx.elements(), tx_ports = tx.count() / tx.elements();
-    for (size_t u = 0; u < rx.elements(); ++u)
-      for (size_t s = 0; s < tx.elements(); ++s) {
-        set_factors_of_elements(u, s);
-        for (size_t port = u * rx_ports; port < (u + 1) * rx_ports; ++port) {
-          const size_t pair = port * tx.count() + s * tx_ports;
-          add_rows_from(pair * times_.samples, (pair + tx_ports) * times_.samples, out);
-        }
+    const size_t rx_ports = amplitudes_of_.rx().polarizations(),
+                 tx_ports = amplitudes_of_.tx().polarizations();
+    const size_t tx_elements = amplitudes_of_.leads().tx_elements();
+    for (size_t elements = 0; elements < amplitudes_of_.leads().pairs(); ++elements) {
+      const size_t u = elements / tx_elements, s = elements % tx_elements;
+      set_factors_of_elements(elements);
+      for (size_t port = u * rx_ports; port < (u + 1) * rx_ports; ++port) {
+        const size_t pair = port * amplitudes_of_.tx().count() + s * tx_ports;
+        add_rows_from(pair * times_.samples, (pair + tx_ports) * times_.samples, out);
       }
+    }
   } else {
     add_rows_from(0, rows_, out);
   }

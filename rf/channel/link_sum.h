@@ -73,7 +73,7 @@ class LinkSum {
   void load(uint32_t index);
   void load(Term term, const Complex* transfer);
   void set_factors(size_t place, double delay_s);
-  void set_factors_of_elements(size_t rx, size_t tx);
+  void set_factors_of_elements(size_t pair);
   template <typename Part>
   void add(std::complex<Part>* out);
   template <typename Part>
@@ -91,6 +91,7 @@ class LinkSum {
   ColumnFactors factors_;
   size_t rows_;
   std::vector<Term> loaded_;                ///< of the chunk
+  std::vector<double> leads_s_;             ///< [chunk, pairs of elements]; empty without squint
   std::vector<Complex> amplitudes_, pair_;  ///< [rows, chunk]; [pairs]
   std::vector<double> sums_;  ///< [blocks, rows, (re, im), lanes]; empty if one chunk holds all terms
 };

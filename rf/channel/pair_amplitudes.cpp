@@ -27,9 +27,7 @@ void check_link(std::span<const Path> paths, const ArrayPose& transmitter, const
 double wavelength_factor(double carrier_hz) { return speed_of_light / carrier_hz / (4.0 * pi); }
 
 Ports::Ports(const ArrayPose& end, double carrier_hz)
-    : element_(end.array.turned_element(end.orientation)),
-      count_(end.array.port_count()),
-      carrier_hz_(carrier_hz) {
+    : element_(end.array.turned_element(end.orientation)), count_(end.array.port_count()) {
   const double per_wavelength = carrier_hz / speed_of_light;
   for (uint32_t port = 0; port < count_; port += end.array.polarization_count())
     positions_.push_back(end.orientation * end.array.element_position(port) * per_wavelength);
@@ -57,9 +55,32 @@ Complex Ports::phase(const dvec3& direction, uint32_t port) const {
 }
 
 PairAmplitudes::PairAmplitudes(const ArrayPose& transmitter, const ArrayPose& receiver, double carrier_hz)
-    : tx_(transmitter, carrier_hz), rx_(receiver, carrier_hz), scale_(wavelength_factor(carrier_hz)) {}
+    : tx_(transmitter, carrier_hz),
+      rx_(receiver, carrier_hz),
+      leads_(transmitter, receiver),
+      carrier_hz_(carrier_hz),
+      scale_(wavelength_factor(carrier_hz)),
+      leads_s_(leads_.curved() ? leads_.pairs() : 0) {}
+
+/// The fields of one element at each end give the amplitudes; the phase depends on the pair of elements.
+void PairAmplitudes::of_curved(const Path& path, const Complex* t, Complex* out) {
+  tx_.fields(path.departure, tx_response_);
+  rx_.fields(path.arrival, rx_response_);
+  leads_(path, leads_s_.data());
+  std::vector<Complex> turns;
+  for (const double lead_s : leads_s_) turns.push_back(unit_phasor(turns_of(carrier_hz_, lead_s)));
+  for (size_t u = 0; u < leads_.rx_elements(); ++u)
+    for (const Jones& rx : rx_response_) {
+      const Complex to_theta = scale_ * (rx.theta * t[0] + rx.phi * t[2]);
+      const Complex to_phi = scale_ * (rx.theta * t[1] + rx.phi * t[3]);
+      for (size_t s = 0; s < leads_.tx_elements(); ++s)
+        for (const Jones& tx : tx_response_)
+          *out++ = (to_theta * tx.theta + to_phi * tx.phi) * turns[u * leads_.tx_elements() + s];
+    }
+}
 
 void PairAmplitudes::operator()(const Path& path, const Complex* t, Complex* out) {
+  if (leads_.curved()) return of_curved(path, t, out);
   tx_.respond(path.departure, tx_response_);
   rx_.respond(path.arrival, rx_response_);
   for (const Jones& rx : rx_response_) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rf/channel/frequency_response.h"
+#include "rf/channel/wavefront.h"
 #include "rf/geometry/path.h"
 
 namespace greatx::rf {
@@ -35,17 +36,11 @@ class Ports {
   void fields(const dvec3& direction, std::vector<Jones>& out) const;
   /// Returns e^{j 2 pi direction . d/lambda} of the port at d.
   Complex phase(const dvec3& direction, uint32_t port) const;
-  size_t elements() const { return positions_.size(); }
-  /// Returns direction . d/c of an element, seconds: so much earlier than the origin of the array it meets a
-  /// wave from that direction, or a wave that it sends there leaves.
-  double lead_s(const dvec3& direction, size_t element) const {
-    return glm::dot(direction, positions_[element]) / carrier_hz_;
-  }
+  size_t polarizations() const { return element_.polarization_count(); }
 
  private:
   TurnedElement element_;
   uint32_t count_;
-  double carrier_hz_;
   std::vector<dvec3> positions_;  ///< [elements], in carrier wavelengths, along local axes
 };
 
@@ -63,11 +58,16 @@ class PairAmplitudes {
   double mean_power(const Path& path);
   const Ports& tx() const { return tx_; }
   const Ports& rx() const { return rx_; }
+  Leads& leads() { return leads_; }
 
  private:
+  void of_curved(const Path& path, const Complex* t, Complex* out);
+
   Ports tx_, rx_;
-  double scale_;
+  Leads leads_;
+  double carrier_hz_, scale_;
   std::vector<Jones> tx_response_, rx_response_;
+  std::vector<double> leads_s_;
 };
 
 }  // namespace greatx::rf

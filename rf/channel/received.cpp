@@ -8,6 +8,7 @@
 #include "core/phase.h"
 #include "rf/channel/pair_amplitudes.h"
 #include "rf/channel/summing_order.h"
+#include "rf/channel/wavefront.h"
 
 namespace greatx::rf {
 namespace {
@@ -28,25 +29,29 @@ class PortPair {
   PortPair(const ArrayPose& transmitter, const ArrayPose& receiver, const RadioLink& link)
       : tx_(transmitter, link.carrier_hz),
         rx_(receiver, link.carrier_hz),
+        leads_(transmitter, receiver),
+        leads_s_(leads_.pairs()),
         link_(link),
         field_scale_(std::sqrt(vacuum_impedance_ohm * link.transmit_power_w / (4.0 * pi))),
         voltage_scale_(std::sqrt(4.0 * link.resistance_ohm * link.transmit_power_w)) {}
 
   ReceivedPath operator()(const Path& path) {
-    tx_.respond(path.departure, tx_response_);
-    rx_.respond(path.arrival, rx_response_);
-    const Jones& sent = tx_response_[link_.transmit_port];
-    const Jones& taken = rx_response_[link_.receive_port];
-    const Complex carrier = unit_phasor(-turns_of(link_.carrier_hz, path.delay_s));
+    tx_.fields(path.departure, tx_fields_);
+    rx_.fields(path.arrival, rx_fields_);
+    leads_(path, leads_s_.data());
+    const Jones& sent = tx_fields_[link_.transmit_port % tx_.polarizations()];
+    const Jones& taken = rx_fields_[link_.receive_port % rx_.polarizations()];
+    // The phase of the wave between the elements of the ports.
+    const size_t u = link_.receive_port / rx_.polarizations(), s = link_.transmit_port / tx_.polarizations();
+    const Complex carrier = unit_phasor(-turns_of(link_.carrier_hz, path.delay_s)) *
+                            unit_phasor(turns_of(link_.carrier_hz, leads_s_[u * leads_.tx_elements() + s]));
     const Complex* t = path.transfer;
     const Jones arriving{(t[0] * sent.theta + t[1] * sent.phi) * carrier,
                          (t[2] * sent.theta + t[3] * sent.phi) * carrier};
     ReceivedPath result;
     result.amplitude =
         wavelength_factor(link_.carrier_hz) * (taken.theta * arriving.theta + taken.phi * arriving.phi);
-    // The phase of the plane wave at the element of the port.
-    const Complex place = rx_.phase(path.arrival, link_.receive_port);
-    result.field_v_per_m = {field_scale_ * arriving.theta * place, field_scale_ * arriving.phi * place};
+    result.field_v_per_m = {field_scale_ * arriving.theta, field_scale_ * arriving.phi};
     result.power_w = link_.transmit_power_w * std::norm(result.amplitude);
     result.open_circuit_v = voltage_scale_ * result.amplitude;
     return result;
@@ -54,9 +59,11 @@ class PortPair {
 
  private:
   Ports tx_, rx_;
+  Leads leads_;
+  std::vector<double> leads_s_;
   RadioLink link_;
   double field_scale_, voltage_scale_;
-  std::vector<Jones> tx_response_, rx_response_;
+  std::vector<Jones> tx_fields_, rx_fields_;
 };
 
 }  // namespace
@@ -87,16 +94,22 @@ void arriving_fields(std::span<const Path> paths, const ArrayPose& transmitter, 
   GREATX_CHECK(out.size() == paths.size() * ports * 2, "{} values for {} paths and {} ports", out.size(),
                paths.size(), ports);
   const Ports from(transmitter, carrier_hz);
+  Leads leads(transmitter, ArrayPose{.wavefront = transmitter.wavefront});
+  std::vector<double> leads_s(leads.pairs());
   const double scale = std::sqrt(vacuum_impedance_ohm * power_w / (4.0 * pi));
   std::vector<Jones> sent;
   size_t next = 0;
   for (const Path& path : paths) {
-    from.respond(path.departure, sent);
+    from.fields(path.departure, sent);
+    leads(path, leads_s.data());
     const Complex carrier = scale * unit_phasor(-turns_of(carrier_hz, path.delay_s));
     const Complex* t = path.transfer;
-    for (const Jones& field : sent) {
-      out[next++] = std::complex<float>((t[0] * field.theta + t[1] * field.phi) * carrier);
-      out[next++] = std::complex<float>((t[2] * field.theta + t[3] * field.phi) * carrier);
+    for (const double lead_s : leads_s) {
+      const Complex turned = carrier * unit_phasor(turns_of(carrier_hz, lead_s));
+      for (const Jones& field : sent) {
+        out[next++] = std::complex<float>((t[0] * field.theta + t[1] * field.phi) * turned);
+        out[next++] = std::complex<float>((t[2] * field.theta + t[3] * field.phi) * turned);
+      }
     }
   }
 }

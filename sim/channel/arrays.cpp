@@ -135,6 +135,8 @@ std::string ChannelSensor::metadata() const {
   metadata["receivers"] = describe_ends(receiver_arrays_, paths_[0]->receivers());
   metadata["pattern_tables"] = describe_pattern_tables({transmitter_arrays_, receiver_arrays_});
   metadata["doppler_in_time_samples"] = doppler_;  // off: all time samples are equal
+  // Off: a plane wave passes over each array.
+  metadata["wave_curvature"] = wavefront(experiment_.plan) == rf::Wavefront::curved;
   // Off: the phases of the elements are those of the carrier at every subcarrier.
   metadata["beam_squint"] = grid_.beam_squint;
   // Off: walls and air have their values at the carrier for every subcarrier.
@@ -147,11 +149,13 @@ std::string ChannelSensor::metadata() const {
 }
 
 rf::ArrayPose ChannelSensor::transmitter_pose(const Results& results, size_t transmitter) const {
-  return {transmitter_arrays_[transmitter], results[transmitter].transmitter.orientation};
+  return {transmitter_arrays_[transmitter], results[transmitter].transmitter.orientation,
+          wavefront(experiment_.plan)};
 }
 
 rf::ArrayPose ChannelSensor::receiver_pose(const Results& results, size_t receiver) const {
-  return {receiver_arrays_[receiver], results[0].links[receiver].receiver.orientation};
+  return {receiver_arrays_[receiver], results[0].links[receiver].receiver.orientation,
+          wavefront(experiment_.plan)};
 }
 
 /// Returns a block for all links, [rx, rx_ant, tx, tx_ant, time, last].

@@ -28,6 +28,10 @@ rf::ChannelGrid channel_grid(const ChannelConfig& config, const EffectPlan& plan
           plan.beam_squint.on};
 }
 
+rf::Wavefront wavefront(const EffectPlan& plan) {
+  return plan.wave_curvature.on ? rf::Wavefront::curved : rf::Wavefront::plane;
+}
+
 rf::TapGrid tap_grid(const ChannelConfig& config, const rf::ChannelGrid& grid) {
   const ChannelConfig::Taps& taps = config.taps.value();
   return {grid.carrier_hz,   taps.bandwidth_hz,   taps.first,      taps.count,

@@ -59,12 +59,15 @@ Nearest nearest_of(const Scenario& scenario) {
   return nearest;
 }
 
+/// Returns the largest change of a path by a phase, dB: |e^{j phase} - 1| beside 1.
+double change_db(double phase_rad) {
+  return 2.0 * decibels(1.0 + 2.0 * std::sin(0.5 * std::min(phase_rad, pi)));
+}
+
 /// Describes the link whose array phases change most over the band.
 struct Squint {
   double phase_rad = 0.0, band_hz = 0.0, reach_m = 0.0;
   std::string transmitter, receiver;
-  /// Of the field of one path at an element on the edge, dB: |e^{j phase} - 1| beside 1.
-  double bound_db() const { return 2.0 * decibels(1.0 + 2.0 * std::sin(0.5 * std::min(phase_rad, pi))); }
 };
 
 Squint squint_of(const Scenario& scenario) {
@@ -85,18 +88,63 @@ Squint squint_of(const Scenario& scenario) {
 
 void plan_squint(EffectPlan& plan, const Planner& planner, const Scenario& scenario) {
   const Squint squint = squint_of(scenario);
-  const bool any = squint.phase_rad > 0.0, needed = any && squint.bound_db() > scenario.tolerance_db;
-  planner.decide(plan.beam_squint, needed,
-                 scenario.channels.empty() ? "no channel"
-                 : !any                    ? "no antenna has more than one element, or one subcarrier"
-                 : needed                  ? "more than the tolerance"
-                                           : "within the tolerance",
-                 any ? fmt::format("at most {:.3g} rad, {:.3g} dB of a path, at the edges of the arrays ({}, "
-                                   "{}: {:.3g} m) and of a band of {:.4g} MHz; tolerance {:.3g} dB",
-                                   squint.phase_rad, squint.bound_db(), squint.transmitter, squint.receiver,
-                                   squint.reach_m, squint.band_hz * 1e-6, scenario.tolerance_db)
-                     : "");
+  const bool any = squint.phase_rad > 0.0,
+             needed = any && change_db(squint.phase_rad) > scenario.tolerance_db;
+  planner.decide(
+      plan.beam_squint, needed,
+      scenario.channels.empty() ? "no channel"
+      : !any                    ? "no antenna has more than one element, or one subcarrier"
+      : needed                  ? "more than the tolerance"
+                                : "within the tolerance",
+      any ? fmt::format("at most {:.3g} rad, {:.3g} dB of a path, at the edges of the arrays ({}, "
+                        "{}: {:.3g} m) and of a band of {:.4g} MHz; tolerance {:.3g} dB",
+                        squint.phase_rad, change_db(squint.phase_rad), squint.transmitter, squint.receiver,
+                        squint.reach_m, squint.band_hz * 1e-6, scenario.tolerance_db)
+          : "");
   if (!any) plan.beam_squint.on = false;
+}
+
+/// Describes the link whose waves are curved most over its arrays.
+struct Curvature {
+  double phase_rad = 0.0, distance_m = 0.0, reach_m = 0.0;
+  std::string transmitter, receiver;
+};
+
+Curvature curvature_of(const Scenario& scenario) {
+  Curvature most;
+  for (const ChannelConfig& channel : scenario.channels)
+    for (size_t t = 0; t < channel.transmitters.size(); ++t)
+      for (size_t r = 0; r < channel.receivers.size(); ++r) {
+        const std::string &transmitter = channel.transmitters[t], &receiver = channel.receivers[r];
+        const double reach_m = antenna_array(scenario, transmitter, channel.carrier_hz).reach() +
+                               antenna_array(scenario, receiver, channel.carrier_hz).reach();
+        if (reach_m == 0.0) continue;
+        const double distance_m = distance(reach_of(scenario, transmitter), reach_of(scenario, receiver));
+        // L - |L u - d| is between u . d - d^2/2L and u . d.
+        const double phase_rad =
+            pi * reach_m * reach_m * channel.carrier_hz / (speed_of_light * std::max(distance_m, 1e-9));
+        if (phase_rad > most.phase_rad) most = {phase_rad, distance_m, reach_m, transmitter, receiver};
+      }
+  return most;
+}
+
+void plan_curvature(EffectPlan& plan, const Planner& planner, const Scenario& scenario) {
+  const Curvature curvature = curvature_of(scenario);
+  const bool any = curvature.phase_rad > 0.0,
+             needed = any && change_db(curvature.phase_rad) > scenario.tolerance_db;
+  planner.decide(
+      plan.wave_curvature, needed,
+      scenario.channels.empty() ? "no channel"
+      : !any                    ? "no antenna has more than one element"
+      : needed                  ? "more than the tolerance"
+                                : "within the tolerance",
+      any ? fmt::format("at most {:.3g} rad, {:.3g} dB of a path, over {:.3g} m of arrays {:.3g} m "
+                        "away ({}, {}); tolerance {:.3g} dB",
+                        std::min(curvature.phase_rad, pi), change_db(curvature.phase_rad), curvature.reach_m,
+                        curvature.distance_m, curvature.transmitter, curvature.receiver,
+                        scenario.tolerance_db)
+          : "");
+  if (!any) plan.wave_curvature.on = false;
 }
 
 }  // namespace
@@ -122,6 +170,7 @@ double every_element_within_m(const Scenario& scenario, const ChannelConfig& cha
 }
 
 void plan_arrays(EffectPlan& plan, const Planner& planner, const Scenario& scenario) {
+  plan_curvature(plan, planner, scenario);
   plan_squint(plan, planner, scenario);
   const Nearest nearest = nearest_of(scenario);
   const bool rays = std::any_of(

@@ -24,7 +24,8 @@ double every_element_within_m(const Scenario& scenario, const ChannelConfig& cha
                               const rf::AntennaArray& transmitter, const rf::AntennaArray& receiver);
 
 /// Decides EffectPlan::every_element: on if the ends of some link between arrays may be nearer than their far
-/// field; and EffectPlan::beam_squint by its bound.
+/// field; and wave_curvature and
+/// beam_squint by their bounds.
 void plan_arrays(EffectPlan& plan, const Planner& planner, const Scenario& scenario);
 
 }  // namespace greatx::sim

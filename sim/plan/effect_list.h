@@ -87,6 +87,7 @@
   X(foliage, true, field, "attenuation by crowns of trees") \
   X(dispersion, true, none, "materials and air at the frequency of every subcarrier") \
   X(doppler, true, none, "time samples turn with the Doppler shift of each path") \
+  X(wave_curvature, true, none, "a wave passes an array as a sphere, not as a plane") \
   X(beam_squint, true, none, "a wave reaches each element of an array at its own delay over the band") \
   X(every_element, true, none, "paths between every two elements of arrays that are near each other")
 

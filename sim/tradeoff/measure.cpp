@@ -155,57 +155,118 @@ MeasurePlan plan_blocks(const Scenario& scenario, int64_t blocks, int64_t ticks)
   return plan;
 }
 
-std::vector<SettingResult> measure_settings(gpu::Device& device, const std::vector<Experiment>& settings,
-                                            size_t reference, std::string_view kind, const MeasurePlan& given,
-                                            const std::function<void(double)>& progress) {
-  GREATX_CHECK(reference < settings.size(), "reference {} of {}", reference, settings.size());
-  std::vector<std::unique_ptr<Runner>> runners;
-  std::vector<SettingResult> results(settings.size());
-  std::vector<Judge> judges, tick_judges;
-  MeasurePlan plan = given;
-  for (size_t i = 0; i < settings.size(); ++i) {
-    runners.push_back(std::make_unique<Runner>(device, settings[i]));
-    results[i].build_ms = runners[i]->build_ms();
-    results[i].specs = runners[i]->simulator().sensors();
-    if (runners[i]->simulator().remembers()) plan.starts = {0};
-    progress(0.3 * static_cast<double>(i + 1) / static_cast<double>(settings.size()));
+namespace {
+
+/// Where the records come from that the others are compared with.
+struct ReferenceSource {
+  size_t setting = 0;                           ///< one of those that are run
+  const RecordedReference* recorded = nullptr;  ///< unless it is null
+};
+
+/// Runs settings, which outlive it, tick by tick, each tick under all of them in turns.
+class Turns {
+ public:
+  Turns(gpu::Device& device, const std::vector<Experiment>& settings, MeasurePlan plan,
+        std::function<void(double)> progress)
+      : plan_(std::move(plan)), progress_(std::move(progress)), results_(settings.size()) {
+    for (size_t i = 0; i < settings.size(); ++i) {
+      runners_.push_back(std::make_unique<Runner>(device, settings[i]));
+      results_[i].build_ms = runners_[i]->build_ms();
+      results_[i].specs = runners_[i]->simulator().sensors();
+      if (runners_[i]->simulator().remembers()) plan_.starts = {0};
+      progress_(0.3 * static_cast<double>(i + 1) / static_cast<double>(settings.size()));
+    }
   }
-  for (const SettingResult& result : results) {
-    judges.emplace_back(results[reference].specs, result.specs, kind);
-    tick_judges.emplace_back(results[reference].specs, result.specs, kind);
-  }
-  const int64_t length = plan.warm_up + plan.ticks;
-  for (size_t block = 0; block < plan.starts.size(); ++block) {
-    for (size_t i = 0; i < runners.size(); ++i) runners[i]->start(plan.starts[block], results[i]);
-    for (int64_t tick = 0; tick < length; ++tick) {
-      const bool counts = tick >= plan.warm_up;
-      bool ran = true;
-      // Every second tick goes backwards, so that no setting always follows the same one.
-      for (size_t k = 0; k < runners.size(); ++k) {
-        const size_t i = tick % 2 == 0 ? k : runners.size() - 1 - k;
-        ran &= runners[i]->step(counts ? &results[i] : nullptr);
-        progress(0.3 +
-                 0.7 *
-                     (static_cast<double>(block) +
-                      (static_cast<double>(tick) + static_cast<double>(k + 1) / double(runners.size())) /
-                          static_cast<double>(length)) /
-                     static_cast<double>(plan.starts.size()));
-      }
-      if (!ran) break;
-      for (size_t i = 0; counts && i < runners.size(); ++i) {
-        judges[i].add(runners[reference]->packet(), runners[i]->packet(), results[i]);
-        if (!plan.each_tick) continue;
-        tick_judges[i].restart();
-        tick_judges[i].add(runners[reference]->packet(), runners[i]->packet(), results[i]);
-        results[i].tick_errors.push_back(tick_judges[i].errors());
+  /// Calls `timed` after each timed tick, when the packets of all settings are there.
+  void run(const std::function<void()>& timed) {
+    const int64_t length = plan_.warm_up + plan_.ticks;
+    for (size_t block = 0; block < plan_.starts.size(); ++block) {
+      for (size_t i = 0; i < runners_.size(); ++i) runners_[i]->start(plan_.starts[block], results_[i]);
+      for (int64_t tick = 0; tick < length; ++tick) {
+        if (!step(block, tick)) break;
+        if (tick >= plan_.warm_up) timed();
       }
     }
   }
-  for (size_t i = 0; i < runners.size(); ++i) {
-    results[i].errors = judges[i].errors();
-    results[i].last = std::move(runners[i]->packet());
+  const MeasurePlan& plan() const { return plan_; }
+  Packet& packet(size_t setting) { return runners_[setting]->packet(); }
+  std::vector<SettingResult>& results() { return results_; }
+
+ private:
+  /// Returns false if a sequence has ended.
+  bool step(size_t block, int64_t tick) {
+    bool ran = true;
+    const auto length = static_cast<double>(plan_.warm_up + plan_.ticks);
+    // Every second tick goes backwards, so that no setting always follows the same one.
+    for (size_t k = 0; k < runners_.size(); ++k) {
+      const size_t i = tick % 2 == 0 ? k : runners_.size() - 1 - k;
+      ran &= runners_[i]->step(tick >= plan_.warm_up ? &results_[i] : nullptr);
+      const double ticks = static_cast<double>(tick) + static_cast<double>(k + 1) / double(runners_.size());
+      progress_(0.3 + 0.7 * (static_cast<double>(block) + ticks / length) / double(plan_.starts.size()));
+    }
+    return ran;
   }
-  return results;
+
+  MeasurePlan plan_;
+  const std::function<void(double)> progress_;
+  std::vector<std::unique_ptr<Runner>> runners_;
+  std::vector<SettingResult> results_;
+};
+
+std::vector<SettingResult> measure(gpu::Device& device, const std::vector<Experiment>& settings,
+                                   const ReferenceSource& source, std::string_view kind,
+                                   const MeasurePlan& plan, const std::function<void(double)>& progress) {
+  Turns turns(device, settings, plan, progress);
+  std::vector<SettingResult>& results = turns.results();
+  const std::vector<SensorSpec>& specs =
+      source.recorded ? source.recorded->specs : results[source.setting].specs;
+  std::vector<Judge> judges, tick_judges;
+  for (const SettingResult& result : results) {
+    judges.emplace_back(specs, result.specs, kind);
+    tick_judges.emplace_back(specs, result.specs, kind);
+  }
+  size_t ticks = 0;
+  turns.run([&] {
+    const Packet& reference =
+        source.recorded ? source.recorded->packets.at(ticks++) : turns.packet(source.setting);
+    for (size_t i = 0; i < results.size(); ++i) {
+      judges[i].add(reference, turns.packet(i), results[i]);
+      if (!plan.each_tick) continue;
+      tick_judges[i].restart();
+      tick_judges[i].add(reference, turns.packet(i), results[i]);
+      results[i].tick_errors.push_back(tick_judges[i].errors());
+    }
+  });
+  for (size_t i = 0; i < results.size(); ++i) {
+    results[i].errors = judges[i].errors();
+    results[i].last = std::move(turns.packet(i));
+  }
+  return std::move(results);
+}
+
+}  // namespace
+
+std::vector<SettingResult> measure_settings(gpu::Device& device, const std::vector<Experiment>& settings,
+                                            size_t reference, std::string_view kind, const MeasurePlan& plan,
+                                            const std::function<void(double)>& progress) {
+  GREATX_CHECK(reference < settings.size(), "reference {} of {}", reference, settings.size());
+  return measure(device, settings, {reference}, kind, plan, progress);
+}
+
+RecordedReference record_reference(gpu::Device& device, const Experiment& reference, const MeasurePlan& plan,
+                                   const std::function<void(double)>& progress) {
+  const std::vector<Experiment> settings{reference};
+  Turns turns(device, settings, plan, progress);
+  RecordedReference recorded{turns.plan(), turns.results()[0].specs, {}, {}};
+  turns.run([&] { recorded.packets.push_back(std::move(turns.packet(0))); });
+  recorded.wall_ms = turns.results()[0].wall_ms;
+  return recorded;
+}
+
+std::vector<SettingResult> measure_settings(gpu::Device& device, const std::vector<Experiment>& settings,
+                                            const RecordedReference& reference, std::string_view kind,
+                                            const std::function<void(double)>& progress) {
+  return measure(device, settings, {0, &reference}, kind, reference.plan, progress);
 }
 
 Experiment experiment_with(const Experiment& experiment, const std::vector<YamlChange>& changes,

@@ -58,6 +58,20 @@ std::vector<SettingResult> measure_settings(gpu::Device& device, const std::vect
                                             size_t reference, std::string_view kind, const MeasurePlan& plan,
                                             const std::function<void(double)>& progress);
 
+/// The records of a reference that is run once, because it takes long, and compared with many settings.
+struct RecordedReference {
+  MeasurePlan plan;
+  std::vector<SensorSpec> specs;
+  std::vector<Packet> packets;  ///< of each timed tick
+  std::vector<double> wall_ms;  ///< of each timed tick
+};
+RecordedReference record_reference(gpu::Device& device, const Experiment& reference, const MeasurePlan& plan,
+                                   const std::function<void(double)>& progress);
+/// Compares `settings` with the reference at its ticks.
+std::vector<SettingResult> measure_settings(gpu::Device& device, const std::vector<Experiment>& settings,
+                                            const RecordedReference& reference, std::string_view kind,
+                                            const std::function<void(double)>& progress);
+
 /// The settings of one knob as they were measured.
 struct KnobResult {
   std::vector<SettingResult> results;  ///< [setting], without those that were refused

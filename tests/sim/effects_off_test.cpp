@@ -275,6 +275,8 @@ const std::map<std::string, Tried> tried{
     {"foliage", {channel_sensor, {}}},
     {"dispersion", {channel_sensor, {"reflection"}}},
     {"doppler", {channel_sensor, {}}},
+    {"wave_curvature", {channel_sensor, {}}},
+    {"beam_squint", {channel_sensor, {}}},
     {"every_element", {channel_sensor, {}}},
 };
 

@@ -17,24 +17,12 @@ namespace greatx::sim {
 namespace {
 
 constexpr double margin = 0.5;            ///< of the allowed power that the choice may take: 3 dB
-constexpr double dropped_share = 0.1;     ///< of the allowed power that effects may take which go first
 constexpr double converged_share = 0.02;  ///< of the allowed power: a knob's own setting is fine enough
-constexpr double least_saving = 0.03;     ///< of a tick; below that, times count as equal
-constexpr double slow_ms = 500.0;         ///< of a tick: then the calibration has one tick
 constexpr double most_factor = 10.0;  ///< settings that take longer than so many times the default are out
-constexpr double round_factor = 4.0;  ///< of power between the joint settings of a round
-constexpr size_t rounds = 3, of_a_round = 3;
+constexpr double most_reference_ms = 60e3;  ///< of a tick: knobs that make the reference slower stay
+constexpr double round_factor = 4.0;        ///< of power between the joint settings of a round
+constexpr size_t rounds = 3, of_a_round = 3, slow_rounds = 6;
 
-double median_ms(const SettingResult& result) { return spread_of(result.wall_ms).median; }
-
-YamlChange switched(const std::string& effect, bool on) {
-  return {YamlChange::Kind::set, {"effects", effect}, on ? "on" : "off"};
-}
-bool is_on(const Experiment& experiment, const std::string& effect) {
-  for (const Effect* known : experiment.plan.all())
-    if (known->name == effect) return known->on;
-  return false;
-}
 void append(std::vector<YamlChange>& changes, const std::vector<YamlChange>& more) {
   changes.insert(changes.end(), more.begin(), more.end());
 }
@@ -61,26 +49,9 @@ Experiment PartCalibration::with(const std::vector<YamlChange>& changes) const {
 
 std::vector<SettingResult> PartCalibration::measure(const std::vector<Experiment>& settings, size_t reference,
                                                     Effort effort) const {
-  if (own_ms_ > slow_ms) effort = effort == Effort::joint ? Effort::singles : Effort::slow;
+  if (own_ms_ > slow_tick_ms) effort = Effort::slow;
   return measure_settings(run_.device, settings, reference, kind_of(modality_),
                           calibration_ticks(base_.scenario, effort), [this](double) { run_.say({}); });
-}
-
-void PartCalibration::find_knobs() {
-  std::vector<YamlChange> on;
-  for (const Knob& knob : knobs_of(base_, modality_, modality_ != Modality::events)) {
-    const std::string why = why_kept(knob, base_, run_.whole.scenario, modality_);
-    if (!why.empty()) {
-      kept_.push_back({knob.name, why});
-      continue;
-    }
-    if (!is_effect(knob)) continue;
-    effects_.push_back(knob);
-    on.push_back(switched(knob.name, true));
-  }
-  // What is switched on in vain has nothing to act on.
-  const Experiment open = with(on);
-  std::erase_if(effects_, [&](const Knob& knob) { return !is_on(open, knob.name); });
 }
 
 double PartCalibration::worst(const std::vector<SensorError>& errors, const AccuracyTarget& target) const {
@@ -105,6 +76,7 @@ void PartCalibration::measure_knobs() {
   run_.say(fmt::format("{}: {} effects, one by one", name_of(modality_), effects_.size()));
   measure_effects();
   measure_numbers();
+  limit_reference();
   std::vector<FrontKnob> knobs;
   for (const Free& free : free_) knobs.push_back(free.front);
   front_ = front_of(own_ms_, knobs);
@@ -112,66 +84,7 @@ void PartCalibration::measure_knobs() {
   chosen_ = front_.back();
 }
 
-/// Each effect is switched by itself, from the scenario's own settings: on if it is off, and the other way
-/// round. With all of them on, some scenarios take a hundred times as long.
-void PartCalibration::measure_effects() {
-  std::vector<Experiment> settings{base_};
-  std::vector<Knob> able;
-  for (const Knob& knob : effects_) try {
-      settings.push_back(with({switched(knob.name, !is_on(base_, knob.name))}));
-      able.push_back(knob);
-    } catch (const UserError&) {  // another setting needs it as it is
-    }
-  effects_ = std::move(able);
-  const std::vector<SettingResult> results = measure(settings, 0, Effort::singles);
-  own_ms_ = median_ms(results[0]);
-  check_figures(results[0], targets_, run_.whole.scenario);
-  std::vector<FrontSetting> toggled;
-  for (size_t i = 0; i < effects_.size(); ++i)
-    toggled.push_back({median_ms(results[i + 1]), power_of(results[i + 1].errors)});
-  drop_effects(toggled);
-}
-
-/// Decides which effects may be on. Those that hardly matter go first, so that the knobs are measured without
-/// their time: an effect that is off stays off, and one that is on goes off if that saves time.
-void PartCalibration::drop_effects(const std::vector<FrontSetting>& toggled) {
-  std::vector<size_t> order(toggled.size());
-  for (size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::stable_sort(order, {}, [&](size_t i) { return toggled[i].power; });
-  const double base_ms = own_ms_;
-  std::vector<double> ratios;  // of a tick without the effect to one with it
-  for (const size_t i : order) {
-    const std::string& name = effects_[i].name;
-    const bool own_on = is_on(base_, name);
-    if (!own_on && toggled[i].ms > run_.most_ms) {
-      dropped_.push_back(name);
-      kept_.push_back({name, fmt::format("it alone takes {:.3g} ms", toggled[i].ms)});
-      continue;
-    }
-    const double ratio = own_on ? toggled[i].ms / base_ms : base_ms / toggled[i].ms;
-    const bool saves = ratio < 1.0 - least_saving;
-    if (dropped_power_ + toggled[i].power <= dropped_share && (saves || !own_on)) {
-      dropped_power_ += toggled[i].power;
-      dropped_.push_back(name);
-      if (own_on) own_ms_ *= ratio;
-      continue;
-    }
-    if (!own_on) own_ms_ /= std::min(ratio, 1.0);
-    if (!saves) continue;  // stays on for nothing
-    free_.push_back({effects_[i], {}, 1, 1});
-    free_.back().front.settings = {{0.0, toggled[i].power}, {0.0, 0.0}};
-    ratios.push_back(ratio);
-  }
-  for (size_t k = 0; k < free_.size(); ++k) {
-    free_[k].front.settings[0].ms = own_ms_ * ratios[k];
-    free_[k].front.settings[1].ms = own_ms_;
-  }
-}
-
 void PartCalibration::measure_numbers() {
-  std::vector<YamlChange> changes;
-  for (const Knob& effect : effects_) changes.push_back(switched(effect.name, !is_dropped(effect.name)));
-  open_ = with(changes);
   std::vector<Knob> numbers;
   for (const Knob& knob : knobs_of(open_, modality_, modality_ != Modality::events))
     if (!is_effect(knob) && why_kept(knob, base_, run_.whole.scenario, modality_).empty())
@@ -201,14 +114,14 @@ void PartCalibration::add_number(const Knob& given) {
     return;
   }
   if (*knob.standard >= measured.results.size()) return;
-  const double own = median_ms(measured.results[*knob.standard]);
+  const double own = median_of(measured.results[*knob.standard]);
   // Finer settings than the scenario's own one are out if its error is a small part of what is allowed.
   const bool converged = power_of(measured.results[*knob.standard].errors) <= converged_share;
   Free free{knob, {}, 0, 0};
   free.knob.settings.clear();
   bool matters = false;
   for (size_t i = 0; i < measured.results.size(); ++i) {
-    double ratio = median_ms(measured.results[i]) / own;
+    double ratio = median_of(measured.results[i]) / own;
     if (i != *knob.standard && ratio > (converged ? 1.0 : most_factor)) continue;
     if (i != *knob.standard && ratio > 1.0 && ratio * own > run_.most_ms) continue;
     if (std::abs(ratio - 1.0) < least_saving) ratio = 1.0;
@@ -256,32 +169,78 @@ void PartCalibration::take(double power) {
   }
 }
 
+/// Leaves finer settings of knobs out, the slowest first, until a tick of the reference is short enough.
+void PartCalibration::limit_reference() {
+  for (;;) {
+    double ms = own_ms_;
+    Free* slowest = nullptr;
+    double most = 1.0;
+    for (Free& free : free_) {
+      const double ratio = free.front.settings[free.reference].ms / own_ms_;
+      ms *= std::max(ratio, 1.0);
+      if (is_effect(free.knob) || ratio <= std::max(most, 1.0 + least_saving)) continue;
+      most = ratio;
+      slowest = &free;
+    }
+    reference_ms_ = ms;
+    if (ms <= most_reference_ms || slowest == nullptr) return;
+    kept_.push_back({slowest->knob.name, "settings finer than the scenario's own take too long together"});
+    slowest->keep_up_to_own(own_ms_);
+  }
+}
+
+void PartCalibration::Free::keep_up_to_own(double own_ms) {
+  std::vector<Setting> settings;
+  std::vector<FrontSetting> points;
+  for (size_t i = 0; i < front.settings.size(); ++i) {
+    if (i != *own && front.settings[i].ms > (1.0 + least_saving) * own_ms) continue;
+    if (i == *own) reference = settings.size();
+    settings.push_back(knob.settings[i]);
+    points.push_back(front.settings[i]);
+  }
+  own = reference;
+  knob.settings = std::move(settings);
+  front.settings = std::move(points);
+}
+
+RecordedReference PartCalibration::recorded(const MeasurePlan& plan) const {
+  return record_reference(run_.device, with(reference_changes()), plan, [this](double) { run_.say({}); });
+}
+
 void PartCalibration::choose_cheapest() {
-  const Experiment reference = with(reference_changes());
+  const bool slow = reference_ms_ > slow_reference_ms;
+  effort_ = slow ? Effort::slow : own_ms_ > slow_tick_ms ? Effort::singles : Effort::joint;
+  run_.say(fmt::format("{}: the reference", name_of(modality_)));
+  const RecordedReference reference = recorded(calibration_ticks(base_.scenario, effort_));
   double best_ms = std::numeric_limits<double>::infinity(), level = round_factor;
-  for (size_t round = 0; round < rounds; ++round) {
+  // Settings that take long are run one after the other, from the fastest one, until one meets the targets.
+  const size_t at_once = slow ? 1 : of_a_round, most_rounds = slow ? slow_rounds : rounds;
+  for (size_t round = 0; round < most_rounds; ++round) {
     run_.say(fmt::format("{}: joint settings, round {}", name_of(modality_), round + 1));
-    std::vector<Experiment> settings{reference};
+    std::vector<Experiment> settings;
     std::vector<FrontPoint> points;
-    for (size_t i = 0; i < of_a_round; ++i, level /= round_factor) {
+    for (size_t i = 0; i < at_once; ++i, level /= round_factor) {
       take(level);
-      if (!points.empty() && points.back().choice == chosen_.choice) continue;
+      if (tried_.contains(chosen_.choice)) continue;
       try {
         settings.push_back(with(changes_of(chosen_.choice)));
         points.push_back(chosen_);
+        tried_.insert(chosen_.choice);
       } catch (const UserError&) {  // settings that exclude each other
       }
     }
-    const std::vector<SettingResult> results = measure(settings, 0, Effort::joint);
+    if (points.empty()) continue;
+    const std::vector<SettingResult> results = measure_settings(
+        run_.device, settings, reference, kind_of(modality_), [this](double) { run_.say({}); });
     size_t met = 0;
     for (size_t i = 0; i < points.size(); ++i) {
-      const SettingResult& result = results[i + 1];
+      const SettingResult& result = results[i];
       const double power = power_of(result.errors);
       if (power > margin) continue;
       ++met;
       candidates_.push_back({points[i], power, result.errors});
-      if (median_ms(result) >= best_ms) continue;
-      best_ms = median_ms(result);
+      if (median_of(result) >= best_ms) continue;
+      best_ms = median_of(result);
       chosen_ = points[i];
       chosen_.ms = best_ms;
       chosen_power_ = power;
@@ -290,13 +249,12 @@ void PartCalibration::choose_cheapest() {
     }
     if (!std::isfinite(best_ms)) {
       finest_ = true;
-      calibrated_ = results[0].errors;
       continue;  // more accurate ones
     }
     if (round > 0 || met < points.size()) break;
     // All of them met it: cheaper ones may, too.
     const FrontPoint kept = chosen_;
-    level = std::pow(round_factor, double(of_a_round) + 1.0);
+    level = std::pow(round_factor, double(at_once) + 1.0);
     take(level);
     const bool cheaper = chosen_.choice != points.front().choice;
     chosen_ = kept;
@@ -335,7 +293,7 @@ CalibratedPart PartCalibration::checked() {
   }
 }
 
-CalibratedPart PartCalibration::check() const {
+CalibratedPart PartCalibration::check() {
   CalibratedPart part;
   part.modality = modality_;
   part.kept = kept_;
@@ -365,14 +323,16 @@ CalibratedPart PartCalibration::check() const {
 
   run_.say(fmt::format("{}: the choice on other ticks", name_of(modality_)));
   const std::vector<Experiment> settings{with(finest_ ? reference_changes() : changes_of(chosen_.choice)),
-                                         base_, with(reference_changes())};
-  const std::optional<MeasurePlan> others = check_ticks(base_.scenario, modality_ == Modality::events);
+                                         base_};
+  const std::optional<MeasurePlan> others =
+      check_ticks(base_.scenario, effort_, modality_ == Modality::events);
+  if (!check_reference_)
+    check_reference_ = recorded(others.value_or(calibration_ticks(base_.scenario, effort_)));
   const std::vector<SettingResult> results = measure_settings(
-      run_.device, settings, 2, kind_of(modality_),
-      others.value_or(calibration_ticks(base_.scenario, Effort::joint)), [this](double) { run_.say({}); });
+      run_.device, settings, *check_reference_, kind_of(modality_), [this](double) { run_.say({}); });
   part.chosen_ms = spread_of(results[0].wall_ms);
   part.own_ms = spread_of(results[1].wall_ms);
-  part.reference_ms = spread_of(results[2].wall_ms);
+  part.reference_ms = spread_of(check_reference_->wall_ms);
   for (const AccuracyTarget& target : targets_)
     part.outcomes.push_back(
         {target, worst(calibrated_, target),

@@ -6,12 +6,27 @@
 
 #include <limits>
 #include <map>
+#include <set>
 
 #include "sim/tradeoff/calibration/calibration.h"
 #include "sim/tradeoff/calibration/ticks.h"
 #include "sim/tradeoff/front.h"
 
 namespace greatx::sim {
+
+inline constexpr double slow_tick_ms = 500.0;        ///< then few ticks are run
+inline constexpr double slow_reference_ms = 5000.0;  ///< then few ticks of the reference are run
+inline constexpr double least_saving = 0.03;         ///< of a tick; below that, times count as equal
+
+inline double median_of(const SettingResult& result) { return spread_of(result.wall_ms).median; }
+inline YamlChange switched(const std::string& effect, bool on) {
+  return {YamlChange::Kind::set, {"effects", effect}, on ? "on" : "off"};
+}
+inline bool is_on(const Experiment& experiment, const std::string& effect) {
+  for (const Effect* known : experiment.plan.all())
+    if (known->name == effect) return known->on;
+  return false;
+}
 
 /// What all modalities have in common.
 struct CalibrationRun {
@@ -49,6 +64,8 @@ class PartCalibration {
     FrontKnob front;
     size_t reference = 0;
     std::optional<size_t> own;
+    /// Leaves out what takes longer than the scenario's own setting, which becomes the reference.
+    void keep_up_to_own(double own_ms);
   };
 
   /// A joint setting that met the targets on the ticks of the calibration.
@@ -58,14 +75,18 @@ class PartCalibration {
     std::vector<SensorError> errors;
   };
 
-  CalibratedPart check() const;
+  CalibratedPart check();
   bool take_more_accurate();
   void find_knobs();
   void measure_effects();
-  void drop_effects(const std::vector<FrontSetting>& toggled);
+  void drop_effects(const std::vector<FrontSetting>& toggled, const std::vector<double>& ratios);
+  void open_up(const std::vector<FrontSetting>& toggled, std::vector<double>& ratios);
+  double one_tick_ms(const Experiment& experiment) const;
   bool is_dropped(const std::string& effect) const;
   void measure_numbers();
   void add_number(const Knob& knob);
+  void limit_reference();
+  RecordedReference recorded(const MeasurePlan& plan) const;
   /// Runs settings on the ticks of the calibration.
   std::vector<SettingResult> measure(const std::vector<Experiment>& settings, size_t reference,
                                      Effort effort) const;
@@ -80,13 +101,18 @@ class PartCalibration {
   const Modality modality_;
   const std::vector<AccuracyTarget> targets_;
   Experiment base_;  ///< of the modality alone, as the scenario is
-  Experiment open_;  ///< the same with the effects on that may matter
+  Experiment open_;  ///< the same with the effects on that may matter, but for the late ones
   std::vector<Knob> effects_;
   std::vector<std::string> dropped_;  ///< effects that are off in any choice
+  std::vector<std::string> late_;     ///< effects that are too slow to be on while knobs are measured
   double dropped_power_ = 0.0;
   std::vector<KeptKnob> kept_;
   std::vector<Free> free_;
-  double own_ms_ = 0.0;  ///< of the base of the front: open_ without dropped effects
+  double own_ms_ = 0.0;        ///< of a tick of open_, the base of the front
+  double reference_ms_ = 0.0;  ///< of a tick of the reference, predicted
+  Effort effort_ = Effort::joint;
+  std::set<std::vector<size_t>> tried_;
+  std::optional<RecordedReference> check_reference_;  ///< on the ticks that check the choice
   std::vector<FrontPoint> front_;
   FrontPoint chosen_;
   bool finest_ = false;        ///< the choice is the reference

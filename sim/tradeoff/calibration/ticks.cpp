@@ -17,12 +17,16 @@ int64_t records_of(const Scenario& scenario) { return scenario.ticks / ticks_bet
 }  // namespace
 
 MeasurePlan calibration_ticks(const Scenario& scenario, Effort effort) {
-  if (effort == Effort::slow) return plan_blocks(scenario, 1, 1);
+  if (effort == Effort::slow) {
+    MeasurePlan plan = plan_blocks(scenario, 2, 1);
+    plan.warm_up = 0;
+    return plan;
+  }
   const bool four = effort == Effort::joint && records_of(scenario) >= long_records;
   return plan_blocks(scenario, four ? 4 : 2, block_length - 1);
 }
 
-std::optional<MeasurePlan> check_ticks(const Scenario& scenario, bool remembers) {
+std::optional<MeasurePlan> check_ticks(const Scenario& scenario, Effort effort, bool remembers) {
   MeasurePlan plan;
   plan.each_tick = true;
   plan.ticks = block_length - 1;
@@ -33,7 +37,7 @@ std::optional<MeasurePlan> check_ticks(const Scenario& scenario, bool remembers)
   }
   const int64_t stride = ticks_between_records(scenario);
   const MeasurePlan chosen = calibration_ticks(scenario, Effort::joint);
-  const int64_t most = chosen.starts.size() > 2 ? 2 : 4;  // of blocks in a gap
+  const int64_t most = effort == Effort::slow || chosen.starts.size() > 2 ? 2 : 4;  // of blocks in a gap
   plan.starts.clear();
   for (size_t i = 0; i + 1 < chosen.starts.size(); ++i) {
     const int64_t begin = chosen.starts[i] / stride + block_length;
@@ -41,7 +45,14 @@ std::optional<MeasurePlan> check_ticks(const Scenario& scenario, bool remembers)
     for (int64_t b = 0; b < blocks; ++b)
       plan.starts.push_back(stride * (begin + b * gap / blocks + (gap / blocks - block_length) / 2));
   }
-  return plan.starts.empty() ? std::nullopt : std::optional(plan);
+  if (plan.starts.empty()) return std::nullopt;
+  if (effort == Effort::slow) {
+    plan.starts = {plan.starts.front(), plan.starts.back()};
+    plan.starts.resize(plan.starts.front() == plan.starts.back() ? 1 : 2);
+    plan.warm_up = 0;
+    plan.ticks = 1;
+  }
+  return plan;
 }
 
 }  // namespace greatx::sim
