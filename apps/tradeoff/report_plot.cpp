@@ -260,18 +260,17 @@ std::string overview_plot(const nlohmann::json& report) {
         fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="end" fill='var(--ink, #1c2430)'>{}</text>)",
                     name_room - 10.0, y + 4.0, escaped(rows[r].name));
     for (const auto& [factor, setting] : rows[r].places)
-      svg += fmt::format(
-          R"(<circle cx="{:.1f}" cy="{:.1f}" r="5" fill="{}" stroke='var(--mark, #175cd3)'>)"
-          R"(<title>{}: {:.3g} of the time, {}</title></circle>)",
-          name_room + scale.at(factor) * span, y,
-          (*setting)["exact"].get<bool>() ? "var(--mark, #175cd3)" : "var(--panel, #ffffff)",
-          escaped((*setting)["label"].get<std::string>()), factor, escaped(error_text(Point(*setting))));
+      svg += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="5" fill="{}" stroke='var(--mark, #175cd3)'>)"
+                         R"(<title>{}: {:.3g} of the time, {}</title></circle>)",
+                         name_room + scale.at(factor) * span, y,
+                         (*setting)["exact"].get<bool>() ? "var(--mark, #175cd3)" : "var(--panel, #ffffff)",
+                         escaped((*setting)["label"].get<std::string>()), factor,
+                         escaped(error_text(Point(*setting))));
   }
-  svg += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle" fill='var(--dim, #667085)' >
-                         time of a tick over that of the default;
-                     filled
-                     : the reference's own records</text></svg>)",
-                     name_room + 0.5 * span, total - 8.0);
+  svg +=
+      fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle" fill='var(--dim, #667085)'>)"
+                  "time of a tick over that of the default; filled: the reference's own records</text></svg>",
+                  name_room + 0.5 * span, total - 8.0);
   return svg + "\n";
 }
 

@@ -10,6 +10,11 @@
 
 namespace greatx::apps {
 
+std::string short_number(double value) {
+  return std::abs(value) >= 999.5 && std::abs(value) < 1e9 ? fmt::format("{:.0f}", value)
+                                                           : fmt::format("{:.3g}", value);
+}
+
 Point::Point(const nlohmann::json& setting)
     : label(setting["label"]),
       ms(setting["tick_ms"]["median"]),
@@ -39,7 +44,7 @@ std::string error_text(const Point& point) {
   if (point.exact) return "exact";
   if (point.figure.empty()) return "not compared";
   if (!point.error) return "no error of that figure";
-  return fmt::format("{:.3g}{}{}", *point.error, point.unit == "1" ? "" : " ",
+  return fmt::format("{}{}{}", short_number(*point.error), point.unit == "1" ? "" : " ",
                      point.unit == "1" ? "" : point.unit);
 }
 
@@ -55,8 +60,10 @@ double badness(const Point& point) {
 }
 
 std::string versus(const Point& point, const Point& own) {
+  const double factor = point.ms / own.ms;
   return fmt::format(
-      "{} takes {:.2g} of the time ({:.3g} ms), {}", point.label, point.ms / own.ms, point.ms,
+      "{} takes {:.2g} {} ({} ms), {}", point.label, factor, factor < 1.0 ? "of the time" : "times as long",
+      short_number(point.ms),
       point.exact ? "with the same records as the reference" : "and its error is " + error_text(point));
 }
 
@@ -75,9 +82,9 @@ std::string words_of_knob(const nlohmann::json& knob) {
   if (still) said.push_back("The time of a tick does not change by more than its spread.");
   if (own == points.end()) {
     if (!still)
-      said.push_back(fmt::format(
-          "The scenario's own value is none of these settings. {}, the reference, takes {:.3g} ms.",
-          reference->label, reference->ms));
+      said.push_back(
+          fmt::format("The scenario's own value is none of these settings. {}, the reference, takes {} ms.",
+                      reference->label, short_number(reference->ms)));
     for (const Point& point : points)
       if (!point.reference && !still && apart(point, *reference))
         said.push_back(versus(point, *reference) + ".");
