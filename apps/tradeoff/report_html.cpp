@@ -44,6 +44,7 @@ th:first-child, td:first-child { text-align: left; } .own td { color: var(--own)
 .pictures { display: flex; flex-wrap: wrap; gap: 12px; margin-top: 12px; }
 figure { margin: 0; flex: 1 1 240px; max-width: 420px; } figure img { width: 100%; border-radius: 6px;
   image-rendering: auto; } figcaption { font-size: 13px; color: var(--dim); }
+.maps figure { flex: 0 1 200px; } .maps img { image-rendering: pixelated; }
 )";
 
 /// RFC 4648, section 4.
@@ -93,7 +94,7 @@ class Page {
         "<title>greatx tradeoff: {}</title><style>{}</style></head><body>\n",
         escaped(text_of(report_, "scenario")), style);
     head();
-    for (const char* const modality : {"csi", "camera", "events", "lidar", "radar"}) part(modality);
+    for (const char* const modality : {"csi", "map", "camera", "events", "lidar", "radar"}) part(modality);
     absent();
     html_ += "</body></html>\n";
     return std::move(html_);
@@ -142,15 +143,16 @@ class Page {
     if (!knob["settings"].empty()) {
       html_ += in_scroller(plot_of_knob(knob, device_line(report_)));
       table(knob);
-      pictures(knob);
+      timed_of(knob) == "map" ? maps(knob) : pictures(knob);
     }
     html_ += "</section>\n";
   }
 
   void table(const Json& knob) {
-    html_ +=
-        "<div class=\"scroll\"><table><tr><th>setting</th><th>tick, ms</th><th>quartiles</th>"
-        "<th>processor, ms</th><th>start, ms</th>";
+    html_ += fmt::format(
+        "<div class=\"scroll\"><table><tr><th>setting</th><th>{}, ms</th><th>quartiles</th>"
+        "<th>processor, ms</th><th>start, ms</th>",
+        timed_of(knob));
     const Json* widest = nullptr;
     for (const Json& setting : knob["settings"])
       if (widest == nullptr || setting["errors"].size() > (*widest)["errors"].size()) widest = &setting;
@@ -206,6 +208,17 @@ class Page {
         html_ += picture_tag(io::encode_png(difference), label + " less the reference, four times as strong");
     }
     html_ += "</div>\n";
+  }
+
+  /// All maps side by side, from coarse to fine.
+  void maps(const Json& knob) {
+    html_ += "<div class=\"pictures maps\">";
+    for (const Json& setting : knob["settings"])
+      if (const std::string name = text_of(setting, "picture"); !name.empty())
+        html_ +=
+            picture_tag(file(name), text_of(setting, "label") +
+                                        (setting["label"] == knob["reference"] ? ", the reference" : ""));
+    html_ += fmt::format("</div><p class=\"dim\">{}</p>\n", escaped(knob.value("legend", "")));
   }
 
   void add_front(const Json& front) {

@@ -11,9 +11,12 @@
 namespace greatx::apps {
 
 std::string short_number(double value) {
+  if (std::abs(value) < 1e-12) return "0";
   return std::abs(value) >= 999.5 && std::abs(value) < 1e9 ? fmt::format("{:.0f}", value)
                                                            : fmt::format("{:.3g}", value);
 }
+
+std::string timed_of(const nlohmann::json& knob) { return knob.value("timed", "tick"); }
 
 Point::Point(const nlohmann::json& setting)
     : label(setting["label"]),
@@ -79,7 +82,8 @@ std::string words_of_knob(const nlohmann::json& knob) {
   const auto own = std::ranges::find(points, true, &Point::standard);
   const auto reference = std::ranges::find(points, true, &Point::reference);
   const bool still = std::ranges::none_of(points, [&](const Point& p) { return apart(p, *reference); });
-  if (still) said.push_back("The time of a tick does not change by more than its spread.");
+  if (still)
+    said.push_back(fmt::format("The time of a {} does not change by more than its spread.", timed_of(knob)));
   if (own == points.end()) {
     if (!still)
       said.push_back(

@@ -75,7 +75,7 @@ class Table {
   }
 
   Knob& add(std::string name, std::string about, std::string unit = "") {
-    knobs_.push_back({std::move(name), std::move(about), std::move(unit), {}, {}, {}, 0, {}, {}});
+    knobs_.push_back({std::move(name), std::move(about), std::move(unit), {}, {}, {}, 0, {}, {}, "tick"});
     return knobs_.back();
   }
   /// Adds numbers of one field, the last of which is the reference.

@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """check_page.py PROGRAM BROWSER: loads the page of `greatx tradeoff` in headless Chromium.
 
-A small study of the program is made, and its index.html is loaded. The page must show every knob of
+Small studies of the program are made, and their index.html is loaded. The page must show every knob of
 tradeoff.json: its section, a row of the table for each setting, its plot, and its pictures. Nothing may come
-from outside of the page, nothing may fail or be reported on the console, and a screenshot must have every plot
-and every picture. Each check is then tried on pages that are spoilt on purpose. Without a browser (BROWSER is
-empty or ends in NOTFOUND) the exit code is 77, which ctest counts as skipped.
+from outside of the page, nothing may fail or be reported on the console, and a screenshot must have every
+plot and every picture. Each check is then tried on pages that are spoilt on purpose. Without a browser
+(BROWSER is empty or ends in NOTFOUND) the exit code is 77, which ctest counts as skipped.
 """
+
 import base64
 import html
 import json
@@ -19,7 +20,8 @@ import tempfile
 from dataclasses import dataclass, field
 
 SKIPPED = 77
-STUDY = ["tradeoff", "city", "--quick", "--only", "lidar", "--knob", "beam.rings", "--quiet"]
+# The first one is also spoilt.
+STUDIES = [["city", "--only", "lidar", "--knob", "beam.rings"], ["canyon", "--only", "map"]]
 WIDTH = 1160
 
 # Stands before everything else in the page, so that it sees every fault.
@@ -94,7 +96,7 @@ class Browser:
         done = self.run(page, "--dump-dom", *options)
         found = re.search(r'<pre id="greatx-probe">(.*?)</pre>', done.stdout, re.DOTALL)
         if found is None:
-            sys.exit(f"expected a rendered page of {self.program}, exit code {done.returncode}:\n{done.stderr}")
+            sys.exit(f"expected a rendered page, exit code {done.returncode}:\n{done.stderr}")
         console = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
         return json.loads(html.unescape(found[1])), console
 
@@ -104,7 +106,7 @@ class Browser:
         picture.unlink(missing_ok=True)
         done = self.run(page, f"--screenshot={picture}", f"--window-size={WIDTH},{height}")
         if not picture.exists():
-            sys.exit(f"expected a screenshot of {self.program}, exit code {done.returncode}:\n{done.stderr}")
+            sys.exit(f"expected a screenshot, exit code {done.returncode}:\n{done.stderr}")
         counter = COUNTER.format(png=base64.b64encode(picture.read_bytes()).decode(), boxes=json.dumps(boxes))
         return self.probe(counter)[0]
 
@@ -122,7 +124,8 @@ class Faults:
 
 def outside(page: str) -> list[str]:
     """Returns addresses in the text of the page that would be loaded and are not within the page."""
-    loaded = re.findall(r'<(?:[^a\s>][^\s>]*|a[^\s>]+)\s[^>]*?(?:src|href|srcset)\s*=\s*["\']?([^"\'\s>]+)', page)
+    attribute = r'(?:src|href|srcset)\s*=\s*["\']?([^"\'\s>]+)'
+    loaded = re.findall(r"<(?:[^a\s>][^\s>]*|a[^\s>]+)\s[^>]*?" + attribute, page)  # of all tags but <a>
     loaded += re.findall(r'url\(\s*["\']?([^"\')]+)', page) + re.findall(r'@import\s+["\']?([^"\';]+)', page)
     return [address for address in loaded if not address.startswith(("data:", "#"))]
 
@@ -156,7 +159,7 @@ def check_knob(knob: dict, report: dict, section: dict, faults: Faults) -> None:
 
 
 def faults_of(page: str, report: dict, browser: Browser, look: bool = True) -> list[str]:
-    """Returns in words what is wrong with the page; an empty list: nothing. `look` takes a screenshot, too."""
+    """Returns in words what is wrong with the page, or nothing. `look` takes a screenshot, too."""
     faults = Faults()
     for address in outside(page):
         faults.expect(False, f"expected nothing from outside of the page, found {address}")
@@ -217,18 +220,23 @@ def main(program: str, chromium: str) -> int:
         return SKIPPED
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as name:
         folder = pathlib.Path(name)
-        subprocess.run([program, *STUDY, "-o", folder / "study"], check=True)
-        page = (folder / "study/index.html").read_text()
-        report = json.loads((folder / "study/tradeoff.json").read_text())
         browser = Browser(chromium, folder)
-        wrong = [f"the study's page: {fault}" for fault in faults_of(page, report, browser)]
+        studies, wrong = [], []
+        for number, study in enumerate(STUDIES):
+            output = folder / str(number)
+            command = [program, "tradeoff", *study, "--quick", "--quiet", "-o", output]
+            subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+            page = (output / "index.html").read_text()
+            studies.append((page, json.loads((output / "tradeoff.json").read_text())))
+            wrong += [f"the page of {study}: {fault}" for fault in faults_of(*studies[-1], browser)]
+        page, report = studies[0]
         for what, changed, words in spoilt(page, report):
             found = faults_of(changed, report, browser, look=words == "blank")
             if changed == page or not any(words in fault for fault in found):
                 wrong.append(f"{what}: expected a fault with '{words}', found {found}")
     for words in wrong:
         print(words)
-    print(f"{len(report['knobs'])} knobs, {len(wrong)} faults")
+    print(f"{len(studies)} pages, {len(wrong)} faults")
     return 1 if wrong else 0
 
 
