@@ -63,10 +63,12 @@ double badness(const Point& point) {
 }
 
 std::string versus(const Point& point, const Point& own) {
-  const double factor = point.ms / own.ms;
+  const std::string factor = fmt::format("{:.2g}", point.ms / own.ms);
+  const std::string long_as = factor == "1"       ? "about as long"
+                              : point.ms < own.ms ? factor + " of the time"
+                                                  : factor + " times as long";
   return fmt::format(
-      "{} takes {:.2g} {} ({} ms), {}", point.label, factor, factor < 1.0 ? "of the time" : "times as long",
-      short_number(point.ms),
+      "{} takes {} ({} ms), {}", point.label, long_as, short_number(point.ms),
       point.exact ? "with the same records as the reference" : "and its error is " + error_text(point));
 }
 

@@ -23,6 +23,7 @@ SKIPPED = 77
 # The first one is also spoilt.
 STUDIES = [["city", "--only", "lidar", "--knob", "beam.rings"], ["canyon", "--only", "map"]]
 WIDTH = 1160
+HIGHEST = 16000  # pixels; beyond some height Chromium's screenshots are blank
 
 # Stands before everything else in the page, so that it sees every fault.
 LISTENER = """<script>
@@ -102,6 +103,8 @@ class Browser:
 
     def colours(self, page: str, boxes: list[list[int]], height: int) -> list[int]:
         """Returns how many colours each rectangle of a screenshot of the page has."""
+        if height > HIGHEST:
+            sys.exit(f"expected a page of at most {HIGHEST} pixels for a screenshot, found {height}")
         picture = self.folder / "shot.png"
         picture.unlink(missing_ok=True)
         done = self.run(page, f"--screenshot={picture}", f"--window-size={WIDTH},{height}")

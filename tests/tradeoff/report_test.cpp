@@ -76,6 +76,13 @@ TEST(TradeoffWords, SayThatTheDefaultIsBeaten) {
   EXPECT_THAT(words, HasSubstr("The default could be a: it takes 0.5 of the time and is not worse."));
 }
 
+TEST(TradeoffWords, SayHowMuchLongerASettingTakes) {
+  const std::string words = words_of_knob(
+      knob({setting("1", 1.0, -10.0), setting("2", 1.04, -10.5), setting("3", 15.0, {}, true)}, "1", "3"));
+  EXPECT_THAT(words, HasSubstr("2 takes about as long (1.04 ms), and its error is -10.5 dB."));
+  EXPECT_THAT(words, HasSubstr("3 takes 15 times as long (15 ms), with the same records"));
+}
+
 TEST(TradeoffWords, SayThatNothingChanges) {
   const std::string words =
       words_of_knob(knob({setting("off", 1.0, {}, true), setting("on", 1.001, {}, true)}, "on", "on"));
