@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -23,18 +24,19 @@ struct TradeoffOptions {
   RunOptions run;
   StudyOptions study;
   std::string output;
-  std::vector<std::string> only;
 };
 
-sim::Modality modality(const std::string& name) {
-  if (const std::optional<sim::Modality> found = sim::modality_of(name)) return *found;
+void check_parts(const std::vector<std::string>& only) {
   std::vector<std::string_view> names;
   for (const sim::Modality known : sim::all_modalities) names.push_back(sim::name_of(known));
-  throw_user_error("--only: expected {}, found '{}'", fmt::join(names, ", "), name);
+  names.push_back(map_part);
+  for (const std::string& name : only)
+    if (std::ranges::find(names, name) == names.end())
+      throw_user_error("--only: expected {}, found '{}'", fmt::join(names, ", "), name);
 }
 
 void run_tradeoff(TradeoffOptions options) {
-  for (const std::string& name : options.only) options.study.only.push_back(modality(name));
+  check_parts(options.study.only);
   if (options.study.quick) {
     options.study.blocks = 1;
     options.study.ticks = 2;
@@ -61,7 +63,7 @@ void add_tradeoff(CLI::App& app) {
       ->required();
   command->add_flag("--quick", options->study.quick,
                     "fewer ticks, and without settings that cost many times the default");
-  command->add_option("--only", options->only, "modalities: csi, camera, events, lidar, radar")
+  command->add_option("--only", options->study.only, "parts: csi, map, camera, events, lidar, radar")
       ->delimiter(',');
   command->add_option("--knob", options->study.knobs, "knobs by name, without joint settings")
       ->delimiter(',');

@@ -4,7 +4,8 @@
 // The report of `greatx tradeoff`. It is made from one JSON object:
 //
 //   {"scenario", "device", "driver", "cores", "greatx", "quick", "how", "minutes",
-//    "knobs": [{"name", "modality", "about", "context", "unit", "reference", "default", "skipped",
+//    "knobs": [{"name", "modality", "timed", "about", "context", "unit", "reference", "default", "skipped",
+//               "legend",
 //               "settings": [{"label", "value", "tick_ms", "cpu_ms", "start_ms", "exact", "picture",
 //                             "errors": [{"sensor", "name", "unit", "value", "meaning"}]}]}],
 //    "absent": [{"name", "why"}],
@@ -13,7 +14,8 @@
 // "error",
 //                            "default", "reference"}]}]}
 //
-// tick_ms and cpu_ms are {"median", "low", "high", "count"}, with the quartiles. `value` of an error is null
+// "timed" says what tick_ms and cpu_ms are of: "tick" (also if it is absent), or "map". They are
+// {"median", "low", "high", "count"}, with the quartiles. `value` of an error is null
 // for minus infinity dB. `default` is empty if the scenario's own value is none of the settings.
 #pragma once
 
@@ -39,7 +41,10 @@ std::string words_of_knob(const nlohmann::json& knob);
 std::string plot_of_knob(const nlohmann::json& knob, const std::string& device);
 
 /// Draws what a record shows, u8 [h, w, 3]: a camera's picture, events, the points of a LiDAR from above, the
-/// range-Doppler map of a radar. Empty for other kinds.
+/// range-Doppler map of a radar, the path gain of the strongest transmitter of a radio map. Empty for other
+/// kinds.
 Array picture_of(const SensorSpec& spec, const Record& record);
+/// Says what the colours of such pictures mean; empty where pictures speak for themselves.
+std::string legend_of(const SensorSpec& spec);
 
 }  // namespace greatx::apps

@@ -33,7 +33,8 @@ h1 { font-size: 28px; margin: 8px 0; } h2 { margin: 56px 0 8px; font-size: 22px;
 p { max-width: 78ch; } .dim { color: var(--dim); font-size: 14px; }
 section { background: var(--panel); border: 1px solid var(--grid); border-radius: 10px; padding: 18px;
   margin: 18px 0; }
-svg { max-width: 100%; height: auto; } nav { display: flex; flex-wrap: wrap; gap: 2px 14px; }
+svg { max-width: 100%; min-width: 480px; height: auto; }
+nav { display: flex; flex-wrap: wrap; gap: 2px 14px; }
 a { color: var(--mark); }
 .scroll { overflow-x: auto; } table { border-collapse: collapse; font-size: 14px; margin-top: 10px; }
 th, td { padding: 4px 12px 4px 0; text-align: right; white-space: nowrap;
@@ -43,6 +44,7 @@ th:first-child, td:first-child { text-align: left; } .own td { color: var(--own)
 .pictures { display: flex; flex-wrap: wrap; gap: 12px; margin-top: 12px; }
 figure { margin: 0; flex: 1 1 240px; max-width: 420px; } figure img { width: 100%; border-radius: 6px;
   image-rendering: auto; } figcaption { font-size: 13px; color: var(--dim); }
+.maps figure { flex: 0 1 200px; } .maps img { image-rendering: pixelated; }
 )";
 
 /// RFC 4648, section 4.
@@ -59,6 +61,9 @@ std::string base64(const Bytes& bytes) {
   }
   return text;
 }
+
+/// Lets a narrow window scroll what cannot become narrower.
+std::string in_scroller(const std::string& html) { return "<div class=\"scroll\">" + html + "</div>\n"; }
 
 std::string picture_tag(const Bytes& png, const std::string& caption) {
   return fmt::format(
@@ -89,7 +94,7 @@ class Page {
         "<title>greatx tradeoff: {}</title><style>{}</style></head><body>\n",
         escaped(text_of(report_, "scenario")), style);
     head();
-    for (const char* const modality : {"csi", "camera", "events", "lidar", "radar"}) part(modality);
+    for (const char* const modality : {"csi", "map", "camera", "events", "lidar", "radar"}) part(modality);
     absent();
     html_ += "</body></html>\n";
     return std::move(html_);
@@ -109,8 +114,7 @@ class Page {
     html_ += "<nav>";
     for (const Json& knob : report_["knobs"])
       html_ += fmt::format("<a href=\"#{0}\">{1}</a>", anchor(knob), escaped(text_of(knob, "name")));
-    html_ += "</nav>\n<section><h3>All knobs</h3><div class=\"scroll\">" + overview_plot(report_) +
-             "</div></section>\n";
+    html_ += "</nav>\n<section><h3>All knobs</h3>" + in_scroller(overview_plot(report_)) + "</section>\n";
   }
   static std::string anchor(const Json& knob) {
     std::string name = text_of(knob, "modality") + "-" + text_of(knob, "name");
@@ -137,17 +141,18 @@ class Page {
                              : escaped("; " + text_of(knob, "context")),
                          escaped(words_of_knob(knob)));
     if (!knob["settings"].empty()) {
-      html_ += plot_of_knob(knob, device_line(report_));
+      html_ += in_scroller(plot_of_knob(knob, device_line(report_)));
       table(knob);
-      pictures(knob);
+      timed_of(knob) == "map" ? maps(knob) : pictures(knob);
     }
     html_ += "</section>\n";
   }
 
   void table(const Json& knob) {
-    html_ +=
-        "<div class=\"scroll\"><table><tr><th>setting</th><th>tick, ms</th><th>quartiles</th>"
-        "<th>processor, ms</th><th>start, ms</th>";
+    html_ += fmt::format(
+        "<div class=\"scroll\"><table><tr><th>setting</th><th>{}, ms</th><th>quartiles</th>"
+        "<th>processor, ms</th><th>start, ms</th>",
+        timed_of(knob));
     const Json* widest = nullptr;
     for (const Json& setting : knob["settings"])
       if (widest == nullptr || setting["errors"].size() > (*widest)["errors"].size()) widest = &setting;
@@ -161,11 +166,10 @@ class Page {
       const char* const kind = setting["label"] == knob["default"]     ? " class=\"own\""
                                : setting["label"] == knob["reference"] ? " class=\"finest\""
                                                                        : "";
-      html_ += fmt::format(
-          "<tr{}><td>{}</td><td>{:.3g}</td><td>{:.3g} to {:.3g}</td><td>{:.3g}</td><td>{:.3g}</td>", kind,
-          escaped(text_of(setting, "label")), setting["tick_ms"]["median"].get<double>(),
-          setting["tick_ms"]["low"].get<double>(), setting["tick_ms"]["high"].get<double>(),
-          setting["cpu_ms"]["median"].get<double>(), setting["start_ms"].get<double>());
+      html_ += fmt::format("<tr{}><td>{}</td><td>{}</td><td>{} to {}</td><td>{}</td><td>{}</td>", kind,
+                           escaped(text_of(setting, "label")), short_number(setting["tick_ms"]["median"]),
+                           short_number(setting["tick_ms"]["low"]), short_number(setting["tick_ms"]["high"]),
+                           short_number(setting["cpu_ms"]["median"]), short_number(setting["start_ms"]));
       for (const Json& wanted : (*widest)["errors"]) html_ += "<td>" + cell(setting, wanted) + "</td>";
       html_ += "</tr>\n";
     }
@@ -175,8 +179,7 @@ class Page {
     if (setting["exact"].get<bool>()) return "exact";
     for (const Json& error : setting["errors"])
       if (error["name"] == wanted["name"] && error["sensor"] == wanted["sensor"])
-        return error["value"].is_null() ? "&minus;&infin;"
-                                        : fmt::format("{:.3g}", error["value"].get<double>());
+        return error["value"].is_null() ? "&minus;&infin;" : short_number(error["value"]);
     return "";
   }
 
@@ -207,10 +210,21 @@ class Page {
     html_ += "</div>\n";
   }
 
+  /// All maps side by side, from coarse to fine.
+  void maps(const Json& knob) {
+    html_ += "<div class=\"pictures maps\">";
+    for (const Json& setting : knob["settings"])
+      if (const std::string name = text_of(setting, "picture"); !name.empty())
+        html_ +=
+            picture_tag(file(name), text_of(setting, "label") +
+                                        (setting["label"] == knob["reference"] ? ", the reference" : ""));
+    html_ += fmt::format("</div><p class=\"dim\">{}</p>\n", escaped(knob.value("legend", "")));
+  }
+
   void add_front(const Json& front) {
     html_ += fmt::format("<section><h3>Joint settings of {}</h3><p>{}</p>\n",
                          escaped(text_of(front, "modality")), escaped(text_of(front, "how")));
-    html_ += plot_of_front(front, device_line(report_));
+    html_ += in_scroller(plot_of_front(front, device_line(report_)));
     html_ += fmt::format(
         "<div class=\"scroll\"><table><tr><th>point</th><th>tick, ms</th><th>predicted</th>"
         "<th>{}</th><th>predicted</th><th style=\"text-align:left\">other than the default</th></tr>\n",
@@ -221,15 +235,15 @@ class Page {
       for (const auto& [name, label] : point["settings"].items())
         other += (other.empty() ? "" : ", ") + name + ": " + label.get<std::string>();
       const auto value = [](const Json& json) {
-        return json.is_null() ? std::string("exact") : fmt::format("{:.3g}", json.get<double>());
+        return json.is_null() ? std::string("exact") : short_number(json);
       };
       html_ += fmt::format(
-          "<tr{}><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td><td>{}</td>"
+          "<tr{}><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
           "<td style=\"text-align:left;white-space:normal\">{}</td></tr>\n",
           point["default"].get<bool>()     ? " class=\"own\""
           : point["reference"].get<bool>() ? " class=\"finest\""
                                            : "",
-          ++number, point["tick_ms"]["median"].get<double>(), point["predicted_ms"].get<double>(),
+          ++number, short_number(point["tick_ms"]["median"]), short_number(point["predicted_ms"]),
           value(point["error"]), value(point["predicted_error"]), escaped(other));
     }
     html_ += "</table></div></section>\n";

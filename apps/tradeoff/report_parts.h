@@ -26,6 +26,12 @@ std::vector<Point> points_of(const nlohmann::json& knob);
 /// "-23.1 dB", "0.012", "exact".
 std::string error_text(const Point& point);
 
+/// Three significant digits, and all digits before the point: "0.0637", "1033".
+std::string short_number(double value);
+
+/// What the times of a knob are of: "tick" or "map".
+std::string timed_of(const nlohmann::json& knob);
+
 /// Replaces what has a meaning in HTML and SVG.
 std::string escaped(const std::string& text);
 /// A plot of all knobs: how much faster each setting is than the default, over its error.

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include "apps/tradeoff/report.h"
 #include "draw/canvas/plot.h"
 #include "draw/sheet/panels.h"
@@ -68,7 +71,46 @@ Array radar_picture(const Array& map) {
   return canvas.image();
 }
 
+/// The path gain of the strongest transmitter, north up. The colours of all maps of a study are those of the
+/// reference's range; cells with no path are grey, and cells without a value have the colour of the page.
+Array map_picture(const SensorSpec& spec, const Array& gain) {
+  const nlohmann::json metadata = nlohmann::json::parse(spec.metadata_json, nullptr, false);
+  if (gain.shape.size() != 3 || gain.shape[0] < 1 || !metadata.is_object() || !metadata.contains("range_db"))
+    return {};
+  constexpr int longer_side = 512;
+  constexpr io::Color no_path{110, 110, 110};
+  const double low_db = metadata["range_db"][0], high_db = metadata["range_db"][1];
+  const auto rows = static_cast<int>(gain.shape[1]), columns = static_cast<int>(gain.shape[2]);
+  const int longer = std::max(rows, columns), width = std::max(1, longer_side * columns / longer),
+            height = std::max(1, longer_side * rows / longer);
+  const std::span<const double> values = gain.as<double>();
+  const size_t cells = static_cast<size_t>(rows) * static_cast<size_t>(columns);
+  io::Canvas canvas(width, height, io::theme::page);
+  canvas.raster({0, 0, width, height}, columns, rows, [&](int x, int y) {
+    const auto cell = static_cast<size_t>((rows - 1 - y) * columns + x);
+    double strongest = values[cell];
+    for (size_t i = cell; i < values.size(); i += cells) strongest = std::max(strongest, values[i]);
+    if (std::isnan(strongest)) return io::theme::page;
+    if (!(strongest > 0.0)) return no_path;
+    const double db = 10.0 * std::log10(strongest);
+    return io::viridis(std::clamp((db - low_db) / (high_db - low_db), 0.0, 1.0));
+  });
+  return canvas.image();
+}
+
 }  // namespace
+
+std::string legend_of(const SensorSpec& spec) {
+  const nlohmann::json metadata = nlohmann::json::parse(spec.metadata_json, nullptr, false);
+  if (spec.kind != "map" || !metadata.is_object() || !metadata.contains("range_db")) return {};
+  return fmt::format(
+      "Path gain of the strongest transmitter, north up: {:.0f} dB and less are dark blue, {:.0f} dB and "
+      "more "
+      "are yellow. Grey: no path. Black: no value, because the middle of the cell is inside a solid or has "
+      "no "
+      "ground beneath.",
+      metadata["range_db"][0].get<double>(), metadata["range_db"][1].get<double>());
+}
 
 Array picture_of(const SensorSpec& spec, const Record& record) {
   constexpr int64_t widest = 400;
@@ -83,6 +125,10 @@ Array picture_of(const SensorSpec& spec, const Record& record) {
   if (spec.kind == "lidar") {
     const Array* const points = array_of(spec, record, "points", DType::f32);
     return points == nullptr ? Array() : lidar_picture(*points);
+  }
+  if (spec.kind == "map") {
+    const Array* const gain = array_of(spec, record, "path_gain", DType::f64);
+    return gain == nullptr ? Array() : map_picture(spec, *gain);
   }
   if (spec.kind == "radar") {
     const Array* const map = array_of(spec, record, "range_doppler", DType::f32);

@@ -93,12 +93,12 @@ class Plot {
     for (const double value : x_.scale.ticks(6)) {
       line(at_x(value), top, at_x(value), height - bottom, grid);
       if (at_x(value) < taken) continue;
-      text(at_x(value), height - bottom + 16, io::tick_text(value), dim, "middle");
+      text(at_x(value), height - bottom + 16, short_number(value), dim, "middle");
       taken = at_x(value) + 40.0;
     }
     for (const double value : y_.scale.ticks(6)) {
       line(left, at_y(value), width - right, at_y(value), grid);
-      text(left - 6, at_y(value) + 4, io::tick_text(value), dim, "end");
+      text(left - 6, at_y(value) + 4, short_number(value), dim, "end");
     }
     line(left, floor, width - right, floor, dim);
     text(left - 6, height - bottom - 4, "exact", dim, "end");
@@ -179,7 +179,7 @@ std::string plot_of_knob(const nlohmann::json& knob, const std::string& device) 
   }
   Plot plot(std::move(marks),
             fmt::format("{}: {}", knob["modality"].get<std::string>(), knob["name"].get<std::string>()),
-            "time of a tick, ms", with_unit(figure, unit), unit != "dB");
+            fmt::format("time of a {}, ms", timed_of(knob)), with_unit(figure, unit), unit != "dB");
   plot.note(fmt::format("{}; median and quartiles; red: default, green: reference {}", device,
                         knob["reference"].get<std::string>()));
   return plot.take();
@@ -252,7 +252,7 @@ std::string overview_plot(const nlohmann::json& report) {
     svg +=
         fmt::format(R"(<line x1="{0:.1f}" x2="{0:.1f}" y1="34" y2="{1:.1f}" stroke='var(--grid, #e4e7ec)'/>)"
                     R"(<text x="{0:.1f}" y="28" text-anchor="middle" fill='var(--dim, #667085)'>{2}</text>)",
-                    x, total - 24.0, io::tick_text(value));
+                    x, total - 24.0, short_number(value));
   }
   for (size_t r = 0; r < rows.size(); ++r) {
     const double y = 48.0 + row_height * static_cast<double>(r);
@@ -260,17 +260,15 @@ std::string overview_plot(const nlohmann::json& report) {
         fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="end" fill='var(--ink, #1c2430)'>{}</text>)",
                     name_room - 10.0, y + 4.0, escaped(rows[r].name));
     for (const auto& [factor, setting] : rows[r].places)
-      svg += fmt::format(
-          R"(<circle cx="{:.1f}" cy="{:.1f}" r="5" fill="{}" stroke='var(--mark, #175cd3)'>)"
-          R"(<title>{}: {:.3g} of the time, {}</title></circle>)",
-          name_room + scale.at(factor) * span, y,
-          (*setting)["exact"].get<bool>() ? "var(--mark, #175cd3)" : "var(--panel, #ffffff)",
-          escaped((*setting)["label"].get<std::string>()), factor, escaped(error_text(Point(*setting))));
+      svg += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="5" fill="{}" stroke='var(--mark, #175cd3)'>)"
+                         R"(<title>{}: {:.3g} of the time, {}</title></circle>)",
+                         name_room + scale.at(factor) * span, y,
+                         (*setting)["exact"].get<bool>() ? "var(--mark, #175cd3)" : "var(--panel, #ffffff)",
+                         escaped((*setting)["label"].get<std::string>()), factor,
+                         escaped(error_text(Point(*setting))));
   }
-  svg += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle" fill='var(--dim, #667085)' >
-                         time of a tick over that of the default;
-                     filled
-                     : the reference's own records</text></svg>)",
+  svg += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle" fill='var(--dim, #667085)'>)"
+                     "time over that of the default; filled: the reference's own records</text></svg>",
                      name_room + 0.5 * span, total - 8.0);
   return svg + "\n";
 }

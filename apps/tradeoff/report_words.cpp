@@ -10,6 +10,14 @@
 
 namespace greatx::apps {
 
+std::string short_number(double value) {
+  if (std::abs(value) < 1e-12) return "0";
+  return std::abs(value) >= 999.5 && std::abs(value) < 1e9 ? fmt::format("{:.0f}", value)
+                                                           : fmt::format("{:.3g}", value);
+}
+
+std::string timed_of(const nlohmann::json& knob) { return knob.value("timed", "tick"); }
+
 Point::Point(const nlohmann::json& setting)
     : label(setting["label"]),
       ms(setting["tick_ms"]["median"]),
@@ -39,7 +47,7 @@ std::string error_text(const Point& point) {
   if (point.exact) return "exact";
   if (point.figure.empty()) return "not compared";
   if (!point.error) return "no error of that figure";
-  return fmt::format("{:.3g}{}{}", *point.error, point.unit == "1" ? "" : " ",
+  return fmt::format("{}{}{}", short_number(*point.error), point.unit == "1" ? "" : " ",
                      point.unit == "1" ? "" : point.unit);
 }
 
@@ -55,8 +63,12 @@ double badness(const Point& point) {
 }
 
 std::string versus(const Point& point, const Point& own) {
+  const std::string factor = fmt::format("{:.2g}", point.ms / own.ms);
+  const std::string long_as = factor == "1"       ? "about as long"
+                              : point.ms < own.ms ? factor + " of the time"
+                                                  : factor + " times as long";
   return fmt::format(
-      "{} takes {:.2g} of the time ({:.3g} ms), {}", point.label, point.ms / own.ms, point.ms,
+      "{} takes {} ({} ms), {}", point.label, long_as, short_number(point.ms),
       point.exact ? "with the same records as the reference" : "and its error is " + error_text(point));
 }
 
@@ -72,12 +84,13 @@ std::string words_of_knob(const nlohmann::json& knob) {
   const auto own = std::ranges::find(points, true, &Point::standard);
   const auto reference = std::ranges::find(points, true, &Point::reference);
   const bool still = std::ranges::none_of(points, [&](const Point& p) { return apart(p, *reference); });
-  if (still) said.push_back("The time of a tick does not change by more than its spread.");
+  if (still)
+    said.push_back(fmt::format("The time of a {} does not change by more than its spread.", timed_of(knob)));
   if (own == points.end()) {
     if (!still)
-      said.push_back(fmt::format(
-          "The scenario's own value is none of these settings. {}, the reference, takes {:.3g} ms.",
-          reference->label, reference->ms));
+      said.push_back(
+          fmt::format("The scenario's own value is none of these settings. {}, the reference, takes {} ms.",
+                      reference->label, short_number(reference->ms)));
     for (const Point& point : points)
       if (!point.reference && !still && apart(point, *reference))
         said.push_back(versus(point, *reference) + ".");

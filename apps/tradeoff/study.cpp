@@ -141,32 +141,50 @@ void Study::keep() {
   io::write_file_atomically(folder_ / "tradeoff.json", json_text(report_));
 }
 
-bool Study::has_knob(sim::Modality modality, const std::string& name) const {
-  return std::ranges::any_of(report_["knobs"], [&](const Json& knob) {
-    return knob["modality"] == sim::name_of(modality) && knob["name"] == name;
-  });
+bool Study::has_knob(std::string_view part, const std::string& name) const {
+  return std::ranges::any_of(
+      report_["knobs"], [&](const Json& knob) { return knob["modality"] == part && knob["name"] == name; });
 }
 bool Study::has_front(sim::Modality modality) const {
   return std::ranges::any_of(report_["fronts"],
                              [&](const Json& front) { return front["modality"] == sim::name_of(modality); });
 }
 
+bool Study::wants_part(std::string_view part) const {
+  return options_.only.empty() || std::ranges::find(options_.only, part) != options_.only.end();
+}
+bool Study::wants_knob(const sim::Knob& knob) const {
+  return options_.knobs.empty() || std::ranges::find(options_.knobs, knob.name) != options_.knobs.end();
+}
+
+std::optional<sim::Scenario> Study::scenario_of(std::string_view part, sim::Modality modality) const {
+  if (!wants_part(part)) return {};
+  std::optional<sim::Scenario> scenario = sim::alone(whole_.scenario, modality, scenario_options_.assets);
+  if (!scenario && !options_.only.empty())
+    throw_user_error("{}: --only {}: the scenario has no {}", whole_.scenario.name, part,
+                     modality == sim::Modality::csi ? "channel" : "such sensor");
+  return scenario;
+}
+
 std::vector<Study::Part> Study::parts() const {
   std::vector<Part> parts;
   for (const sim::Modality modality : sim::all_modalities) {
-    if (!options_.only.empty() && std::ranges::find(options_.only, modality) == options_.only.end()) continue;
-    std::optional<sim::Scenario> scenario = sim::alone(whole_.scenario, modality, scenario_options_.assets);
-    if (!scenario) {
-      if (!options_.only.empty())
-        throw_user_error("{}: --only {}: the scenario has no such sensor", whole_.scenario.name,
-                         sim::name_of(modality));
-      continue;
-    }
+    std::optional<sim::Scenario> scenario = scenario_of(sim::name_of(modality), modality);
+    if (!scenario) continue;
     Part part{modality, sim::make_experiment(std::move(*scenario), whole_), {}};
     part.knobs = sim::knobs_of(part.experiment, modality, options_.quick);
     parts.push_back(std::move(part));
   }
   return parts;
+}
+
+std::optional<Study::MapPart> Study::maps() const {
+  std::optional<sim::Scenario> scenario = scenario_of(map_part, sim::Modality::csi);
+  if (!scenario) return {};
+  sim::Experiment experiment = sim::make_experiment(std::move(*scenario), whole_);
+  sim::MapStudy study = sim::plan_map_study(experiment, options_.quick);
+  sim::Knob knob = sim::map_knob(study);
+  return MapPart{std::move(experiment), std::move(study), std::move(knob)};
 }
 
 sim::MeasurePlan Study::plan_of(const Part& part) const {
@@ -195,10 +213,10 @@ std::vector<sim::SettingResult> Study::measure(const std::vector<sim::Experiment
   return results;
 }
 
-std::string Study::keep_picture(const sim::SettingResult& result, const Part& part,
+std::string Study::keep_picture(const sim::SettingResult& result, std::string_view kind,
                                 const std::string& name) const {
   for (size_t i = 0; i < result.specs.size(); ++i) {
-    if (result.specs[i].kind != sim::kind_of(part.modality)) continue;
+    if (result.specs[i].kind != kind) continue;
     const auto record = std::ranges::find(result.last.records, static_cast<uint32_t>(i), &Record::sensor);
     if (record == result.last.records.end()) return {};
     const Array picture = picture_of(result.specs[i], *record);
@@ -210,38 +228,38 @@ std::string Study::keep_picture(const sim::SettingResult& result, const Part& pa
   return {};
 }
 
-void Study::measure_knob(const Part& part, const sim::Knob& knob) {
+void Study::add_knob(std::string_view part, std::string_view kind, const sim::Knob& knob,
+                     const std::function<sim::KnobResult()>& measure) {
   Json json{{"name", knob.name},
-            {"modality", sim::name_of(part.modality)},
+            {"modality", part},
+            {"timed", knob.timed},
             {"about", knob.about},
             {"context", knob.context},
             {"unit", knob.unit},
-            {"reference", knob.settings[knob.reference].label},
+            {"reference", knob.settings.empty() ? "" : knob.settings[knob.reference].label},
             {"default", knob.standard ? knob.settings[*knob.standard].label : ""},
             {"skipped", knob.skipped},
             {"settings", Json::array()}};
   const auto begin = std::chrono::steady_clock::now();
   std::string words = knob.skipped;
   if (knob.skipped.empty()) try {
-      const sim::KnobResult measured = sim::measure_knob(
-          part.experiment, knob, whole_, scenario_options_.assets,
-          [&](const auto& settings, size_t reference) { return measure(settings, reference, part); });
+      const sim::KnobResult measured = measure();
       const std::vector<sim::SettingResult>& results = measured.results;
       if (!measured.refused.empty()) {
         json["reference"] = knob.settings[measured.reference].label;
         json["about"] = fmt::format("{} (without finer settings: {})", knob.about, measured.refused);
       }
       const bool differs = std::ranges::any_of(results, [](const auto& result) { return !result.exact; });
+      for (const SensorSpec& spec : results.front().specs)
+        if (spec.kind == kind) json["legend"] = legend_of(spec);
       std::vector<std::string> said;
       for (size_t i = 0; i < results.size(); ++i) {
         Json setting = json_of(results[i]);
         setting["label"] = knob.settings[i].label;
         setting["value"] = knob.settings[i].value ? Json(*knob.settings[i].value) : Json(nullptr);
         setting["picture"] =
-            differs
-                ? keep_picture(results[i], part,
-                               file_name(fmt::format("{}-{}-{}", sim::name_of(part.modality), knob.name, i)))
-                : "";
+            differs ? keep_picture(results[i], kind, file_name(fmt::format("{}-{}-{}", part, knob.name, i)))
+                    : "";
         said.push_back(
             fmt::format("{}: {:.1f} ms", knob.settings[i].label, setting["tick_ms"]["median"].get<double>()));
         if (!results[i].exact && !results[i].errors.empty())
@@ -258,34 +276,62 @@ void Study::measure_knob(const Part& part, const sim::Knob& knob) {
   keep();
   ++done_;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  say(fmt::format("{} {} ({:.1f} s): {}", sim::name_of(part.modality), knob.name, seconds, words));
+  say(fmt::format("{} {} ({:.1f} s): {}", part, knob.name, seconds, words));
+}
+
+void Study::measure_knob(const Part& part, const sim::Knob& knob) {
+  add_knob(sim::name_of(part.modality), sim::kind_of(part.modality), knob, [&] {
+    return sim::measure_knob(
+        part.experiment, knob, whole_, scenario_options_.assets,
+        [&](const auto& settings, size_t reference) { return measure(settings, reference, part); });
+  });
+}
+
+void Study::measure_maps(const MapPart& part) {
+  add_knob(map_part, map_part, part.knob, [&] {
+    sim::KnobResult result{
+        sim::measure_maps(device_, part.experiment, part.study, [] { return !interrupted(); }),
+        part.knob.reference,
+        {}};
+    if (result.results.empty()) throw Stopped();
+    check_validation(device_);
+    return result;
+  });
+}
+
+void Study::check_names(const std::vector<Part>& parts, const std::optional<MapPart>& maps) const {
+  std::vector<std::string> known;
+  for (const Part& part : parts)
+    for (const sim::Knob& knob : part.knobs) known.push_back(knob.name);
+  if (maps) known.push_back(maps->knob.name);
+  for (const std::string& name : options_.knobs)
+    if (std::ranges::find(known, name) == known.end())
+      throw_user_error("--knob: expected one of {}, found '{}'", fmt::join(known, ", "), name);
 }
 
 bool Study::run() {
   std::filesystem::create_directories(folder_ / "pictures");
   const std::vector<Part> all = parts();
-  for (const std::string& name : options_.knobs)
-    if (std::ranges::none_of(all, [&](const Part& part) {
-          return std::ranges::find(part.knobs, name, &sim::Knob::name) != part.knobs.end();
-        })) {
-      std::vector<std::string> names;
-      for (const Part& part : all)
-        for (const sim::Knob& knob : part.knobs) names.push_back(knob.name);
-      throw_user_error("--knob: expected one of {}, found '{}'", fmt::join(names, ", "), name);
-    }
-  const auto wanted = [&](const sim::Knob& knob) {
-    return options_.knobs.empty() || std::ranges::find(options_.knobs, knob.name) != options_.knobs.end();
+  const std::optional<MapPart> map = maps();
+  check_names(all, map);
+  const auto is_due = [&](std::string_view part, const sim::Knob& knob) {
+    return wants_knob(knob) && !has_knob(part, knob.name);
   };
-  all_ = 0;
+  const auto front_is_due = [&](const Part& part) {
+    return options_.knobs.empty() && !has_front(part.modality);
+  };
+  const bool map_is_due = map && is_due(map_part, map->knob);
+  all_ = map_is_due;
   for (const Part& part : all) {
-    for (const sim::Knob& knob : part.knobs) all_ += wanted(knob) && !has_knob(part.modality, knob.name);
-    all_ += options_.knobs.empty() && !has_front(part.modality);
+    for (const sim::Knob& knob : part.knobs) all_ += is_due(sim::name_of(part.modality), knob);
+    all_ += front_is_due(part);
   }
   try {
+    if (map_is_due) measure_maps(*map);
     for (const Part& part : all) {
       for (const sim::Knob& knob : part.knobs)
-        if (wanted(knob) && !has_knob(part.modality, knob.name)) measure_knob(part, knob);
-      if (options_.knobs.empty() && !has_front(part.modality)) measure_front(part);
+        if (is_due(sim::name_of(part.modality), knob)) measure_knob(part, knob);
+      if (front_is_due(part)) measure_front(part);
     }
   } catch (const Stopped&) {
     return false;

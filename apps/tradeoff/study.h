@@ -7,23 +7,30 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "apps/console/session.h"
 #include "sim/tradeoff/knob.h"
+#include "sim/tradeoff/map_study.h"
 #include "sim/tradeoff/measure.h"
 
 namespace greatx::apps {
 
+/// The part of a study with radio maps. The other parts have the names of modalities.
+inline constexpr std::string_view map_part = "map";
+
 struct StudyOptions {
-  bool quick = false;               ///< fewer ticks, no knobs that cost many times the default
-  std::vector<sim::Modality> only;  ///< empty: all
-  std::vector<std::string> knobs;   ///< by name; empty: all
-  int64_t blocks = 2, ticks = 4;    ///< timed: so many blocks of so many ticks
-  size_t joint = 8;                 ///< joint settings that are measured for each modality
+  bool quick = false;              ///< fewer ticks, no knobs that cost many times the default
+  std::vector<std::string> only;   ///< names of parts; empty: all that the scenario has
+  std::vector<std::string> knobs;  ///< by name; empty: all
+  int64_t blocks = 2, ticks = 4;   ///< timed: so many blocks of so many ticks
+  size_t joint = 8;                ///< joint settings that are measured for each modality
   /// Knobs whose reference costs more than so many times the default take no part in joint settings.
   double most_factor = 50.0;
   bool quiet = false;
@@ -48,18 +55,36 @@ class Study {
     sim::Experiment experiment;
     std::vector<sim::Knob> knobs;
   };
+  /// The maps of the first channel.
+  struct MapPart {
+    sim::Experiment experiment;
+    sim::MapStudy study;
+    sim::Knob knob;
+  };
+  bool wants_part(std::string_view part) const;
+  bool wants_knob(const sim::Knob& knob) const;
+  /// Returns the scenario with the sensors of one modality, if it is asked for. Throws UserError if it is
+  /// asked for by name and the scenario has none.
+  std::optional<sim::Scenario> scenario_of(std::string_view part, sim::Modality modality) const;
   std::vector<Part> parts() const;
+  std::optional<MapPart> maps() const;
+  void check_names(const std::vector<Part>& parts, const std::optional<MapPart>& maps) const;
   nlohmann::json fingerprint() const;
   void read();
   void keep();
-  bool has_knob(sim::Modality modality, const std::string& name) const;
+  bool has_knob(std::string_view part, const std::string& name) const;
   bool has_front(sim::Modality modality) const;
   sim::MeasurePlan plan_of(const Part& part) const;
   std::vector<sim::SettingResult> measure(const std::vector<sim::Experiment>& settings, size_t reference,
                                           const Part& part);
+  /// Measures a knob by `measure` and keeps its results. Pictures are those of sensors of `kind`.
+  void add_knob(std::string_view part, std::string_view kind, const sim::Knob& knob,
+                const std::function<sim::KnobResult()>& measure);
   void measure_knob(const Part& part, const sim::Knob& knob);
+  void measure_maps(const MapPart& part);
   void measure_front(const Part& part);
-  std::string keep_picture(const sim::SettingResult& result, const Part& part, const std::string& name) const;
+  std::string keep_picture(const sim::SettingResult& result, std::string_view kind,
+                           const std::string& name) const;
   void say(const std::string& text) const;
 
   const ScenarioOptions scenario_options_;

@@ -47,6 +47,7 @@ struct Knob {
   size_t reference = 0;            ///< index of the exhaustive or finest setting
   std::optional<size_t> standard;  ///< index of the scenario's own setting, if it is one of them
   std::string skipped;             ///< why it is not measured; empty: it is
+  std::string timed = "tick";      ///< what a time is of: "tick", or "map" (map_study.h)
 };
 
 /// Whether a knob switches one effect: its settings are off and on.

@@ -75,7 +75,7 @@ class Table {
   }
 
   Knob& add(std::string name, std::string about, std::string unit = "") {
-    knobs_.push_back({std::move(name), std::move(about), std::move(unit), {}, {}, {}, 0, {}, {}});
+    knobs_.push_back({std::move(name), std::move(about), std::move(unit), {}, {}, {}, 0, {}, {}, "tick"});
     return knobs_.back();
   }
   /// Adds numbers of one field, the last of which is the reference.
@@ -382,7 +382,7 @@ std::vector<AbsentKnob> absent_knobs() {
        "their size follows from the scene; only static_shadows and moving_shadows are switched"},
       {"LiDAR tracer", "the device decides: a tree of greatx's own on a CPU's driver, else its ray queries"},
       {"fp32 against fp64", "no precision can be chosen: fields and paths are in fp64, pictures in fp32"},
-      {"encoders", "files are lossless; `greatx bench --rig` measures the time of writing"}};
+      {"encoders", "files are lossless; the command greatx bench --rig measures the time of writing"}};
 }
 
 }  // namespace greatx::sim

@@ -3,29 +3,16 @@
 #include "sim/tradeoff/measure.h"
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
-#include <sys/resource.h>
 
 #include "core/error.h"
 #include "sim/run/simulator.h"
 #include "sim/scenario/sensor_kinds.h"
+#include "sim/tradeoff/stopwatch.h"
 
 namespace greatx::sim {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-double process_cpu_ms() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto of = [](const timeval& t) { return 1e3 * double(t.tv_sec) + 1e-3 * double(t.tv_usec); };
-  return of(usage.ru_utime) + of(usage.ru_stime);
-}
 
 /// Keeps the packet of the newest tick.
 class Newest : public RecordSink {
@@ -41,22 +28,21 @@ class Newest : public RecordSink {
 class Runner {
  public:
   Runner(gpu::Device& device, const Experiment& experiment)
-      : begin_(Clock::now()), simulator_(device, experiment), build_ms_(milliseconds_since(begin_)) {}
+      : simulator_(device, experiment), build_ms_(building_.wall_ms()) {}
 
   void start(int64_t tick, SettingResult& result) {
-    const Clock::time_point begin = Clock::now();
+    const Stopwatch watch;
     simulator_.start(0, tick);
-    result.start_ms.push_back(milliseconds_since(begin));
+    result.start_ms.push_back(watch.wall_ms());
   }
   /// Returns false if the sequence has ended.
   bool step(SettingResult* timed) {
-    const double cpu = process_cpu_ms();
-    const Clock::time_point begin = Clock::now();
+    const Stopwatch watch;
     const bool ran = simulator_.step(newest_);
     simulator_.drain(newest_);
     if (timed != nullptr && ran) {
-      timed->wall_ms.push_back(milliseconds_since(begin));
-      timed->cpu_ms.push_back(process_cpu_ms() - cpu);
+      timed->wall_ms.push_back(watch.wall_ms());
+      timed->cpu_ms.push_back(watch.cpu_ms());
     }
     return ran;
   }
@@ -65,7 +51,7 @@ class Runner {
   double build_ms() const { return build_ms_; }
 
  private:
-  const Clock::time_point begin_;
+  const Stopwatch building_;
   Simulator simulator_;
   const double build_ms_;
   Newest newest_;

@@ -4,6 +4,7 @@
 // The report of `greatx tradeoff` on crafted results, and the real program on a small scenario.
 #include "apps/tradeoff/report.h"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -73,6 +74,13 @@ TEST(TradeoffWords, SayThatTheDefaultIsBeaten) {
   const std::string words = words_of_knob(
       knob({setting("a", 1.0, -40.0), setting("b", 2.0, -30.0), setting("c", 4.0, {}, true)}, "b", "c"));
   EXPECT_THAT(words, HasSubstr("The default could be a: it takes 0.5 of the time and is not worse."));
+}
+
+TEST(TradeoffWords, SayHowMuchLongerASettingTakes) {
+  const std::string words = words_of_knob(
+      knob({setting("1", 1.0, -10.0), setting("2", 1.04, -10.5), setting("3", 15.0, {}, true)}, "1", "3"));
+  EXPECT_THAT(words, HasSubstr("2 takes about as long (1.04 ms), and its error is -10.5 dB."));
+  EXPECT_THAT(words, HasSubstr("3 takes 15 times as long (15 ms), with the same records"));
 }
 
 TEST(TradeoffWords, SayThatNothingChanges) {
@@ -150,6 +158,43 @@ TEST(TradeoffProgram, MeasuresKeepsAndGoesOn) {
   const test::Outcome other = test::greatx("tradeoff canyon --quick --only csi -o " + folder.path().string());
   EXPECT_EQ(other.code, 1);
   EXPECT_THAT(other.err, HasSubstr("results of another scenario"));
+}
+
+TEST(TradeoffWords, TimesOfMapsAreNotThoseOfTicks) {
+  json made = knob({setting("2 m", 1.0, 1.0), setting("1 m", 1.001, {}, true)}, "2 m", "1 m");
+  EXPECT_THAT(words_of_knob(made), HasSubstr("The time of a tick does not change"));
+  made["timed"] = "map";
+  EXPECT_THAT(words_of_knob(made), HasSubstr("The time of a map does not change"));
+  EXPECT_THAT(plot_of_knob(made, "cpu"), HasSubstr("time of a map, ms"));
+}
+
+TEST(TradeoffProgram, MeasuresTheCellsOfRadioMaps) {
+  const greatx::test::TemporaryFolder folder;
+  const test::Outcome outcome =
+      test::greatx("tradeoff canyon --quick --only map -o " + folder.path().string());
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("map cell"));
+  const json report = json::parse(io::read_text_file(folder.path() / "tradeoff.json"));
+  ASSERT_EQ(report["knobs"].size(), 1u);
+  const json& cell = report["knobs"][0];
+  EXPECT_EQ(cell["modality"], "map");
+  EXPECT_EQ(cell["timed"], "map");
+  ASSERT_EQ(cell["settings"].size(), 4u) << cell["skipped"];
+  for (const json& row : cell["settings"]) {
+    EXPECT_EQ(row["errors"].size(), 3u);
+    EXPECT_EQ(row["tick_ms"]["count"], 2);
+    EXPECT_EQ(row["exact"], row["label"] == cell["reference"]);
+    EXPECT_EQ(row["errors"][0]["value"] == 0.0, row["label"] == cell["reference"]) << row;
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / row["picture"].get<std::string>()));
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "plots/map-cell.svg"));
+  const std::string csv = io::read_text_file(folder.path() / "tradeoff.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4 * 3);
+  EXPECT_THAT(csv, HasSubstr(",coverage,%,"));
+  const std::string html = io::read_text_file(folder.path() / "index.html");
+  EXPECT_TRUE(balanced(html));
+  EXPECT_THAT(html, HasSubstr("<th>map, ms</th>"));
+  EXPECT_THAT(html, HasSubstr("Path gain of the strongest transmitter"));
 }
 
 TEST(TradeoffProgram, NamesWhatIsWrong) {

@@ -18,11 +18,8 @@ std::unique_ptr<ErrorSum> make_error_sum(const std::string& kind) {
   static constexpr struct {
     const char* kind;
     std::unique_ptr<ErrorSum> (*make)();
-  } rows[] = {{"csi", make_csi_error},
-              {"camera", make_camera_error},
-              {"event_camera", make_event_error},
-              {"lidar", make_lidar_error},
-              {"radar", make_radar_error}};
+  } rows[] = {{"csi", make_csi_error},     {"camera", make_camera_error}, {"event_camera", make_event_error},
+              {"lidar", make_lidar_error}, {"radar", make_radar_error},   {"map", make_map_error}};
   for (const auto& row : rows)
     if (kind == row.kind) return row.make();
   return nullptr;

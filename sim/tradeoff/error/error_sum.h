@@ -39,8 +39,8 @@ class ErrorSum {
   virtual std::vector<ErrorFigure> figures() const = 0;
 };
 
-/// Returns the sum for a sensor of this SensorSpec::kind. `camera`, `event_camera`, `lidar`, `radar` and
-/// `csi` have figures; null for others.
+/// Returns the sum for a sensor of this SensorSpec::kind. `camera`, `event_camera`, `lidar`, `radar`, `csi`
+/// and `map` have figures; null for others.
 ///
 /// - csi: `nmse` dB (sum |H - H_ref|^2 / sum |H_ref|^2 over all records); `path_gain` dB, `path_gain_p95` dB
 ///   and `path_gain_most` dB (median, 95th percentile and largest |difference| over links that have a path in
@@ -61,6 +61,10 @@ class ErrorSum {
 /// - radar: `map` dB (sum |P - P_ref| / sum P_ref over the range-Doppler map, 10 log10); `missed` % (of the
 ///   reference's detections, within a bin of range and of velocity); `false` % (detections without a partner,
 ///   of the reference's number); `power` dB (median of |difference| of the partners' received powers).
+/// - map (a radio map, map_study.h): `path_gain` dB and `path_gain_p95` dB (median and 95th percentile of
+///   |difference| at the centres of the reference's cells, against the cell of the other map that contains
+///   them, where both have a path); `coverage` % (of all cells of the reference, for each transmitter: a path
+///   in one of the two only; a cell without a value, for example inside a solid, has no path).
 std::unique_ptr<ErrorSum> make_error_sum(const std::string& kind);
 
 }  // namespace greatx::sim

@@ -57,5 +57,6 @@ std::unique_ptr<ErrorSum> make_camera_error();
 std::unique_ptr<ErrorSum> make_event_error();
 std::unique_ptr<ErrorSum> make_lidar_error();
 std::unique_ptr<ErrorSum> make_radar_error();
+std::unique_ptr<ErrorSum> make_map_error();
 
 }  // namespace greatx::sim
