@@ -68,7 +68,7 @@ void CfrFile::finish() {
   const bool forced = sim::every_element_asked(scenario_) == sim::Switch::on;
   if (near_ > 0)
     spdlog::warn(
-        "{}: {} of {} receivers {}: a plane wave passes over each array here; a run solves every element",
+        "{}: {} of {} receivers {}: one path stands for all elements here; a run solves every element",
         path_.string(), near_, count_,
         forced ? "have arrays and every_element is on"
                : "are nearer than the far field of the arrays, 2 D^2/lambda");

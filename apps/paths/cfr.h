@@ -31,7 +31,7 @@ class CfrFile {
   /// Writes the response of one link at the place of its receiver.
   void add(const sim::ChannelSnapshot::Link& link);
   /// Closes the file and gives it its name. Warns of receivers for which a run would solve every element of
-  /// the arrays, because the file assumes plane waves. Throws UserError if receivers are missing.
+  /// the arrays, because the file takes one path for all elements. Throws UserError if receivers are missing.
   void finish();
 
  private:

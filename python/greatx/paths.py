@@ -121,7 +121,7 @@ class Paths:
         tick on, in which the Doppler shift of each path turns its phase. `select` is "all", "line_of_sight"
         (only this path) or "others".
 
-        The response assumes a plane wave over each array. A warning gives the number of links that
+        The response takes one path for all elements of an array. A warning gives the number of links that
         Simulation.run() solves element by element (`every_element` of the scenario's effects).
         """
         if bandwidth_hz is not None:
@@ -141,7 +141,7 @@ class Paths:
             )
             warnings.warn(
                 f"{self.facts['near_links']} links of {self.channel} {why}: "
-                "cfr() takes a plane wave over each array, Simulation.run() solves every element",
+                "cfr() takes one path for all elements of an array, Simulation.run() solves every element",
                 stacklevel=2,
             )
         response = self._native.cfr(subcarrier_spacing_hz, subcarriers, time_samples, time_spacing_s, select)

@@ -15,6 +15,7 @@
 #include "rf/channel/dispersion.h"
 #include "rf/channel/received.h"
 #include "rf/channel/taps.h"
+#include "sim/channel/blocks.h"
 #include "sim/channel/columns.h"
 #include "sim/plan/antennas.h"
 #include "sim/plan/array_plan.h"

@@ -5,8 +5,17 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/parallel.h"
+#include "rf/atmosphere/fog.h"
+#include "rf/atmosphere/gas.h"
+#include "rf/atmosphere/rain.h"
 
 namespace greatx::rf {
+namespace {
+
+constexpr size_t many_paths = 256;
+
+}  // namespace
 
 Dispersion::Dispersion(const scene::Scene& scene, const FieldModel& carrier, const Weather& weather,
                        const ChannelGrid& grid)
@@ -14,6 +23,10 @@ Dispersion::Dispersion(const scene::Scene& scene, const FieldModel& carrier, con
   GREATX_CHECK(carrier.world != nullptr && carrier.world->facet_count() == scene.facets.size(),
                "the field model is of another scene");
   const FieldEffects& on = carrier.effects;
+  // As in the carrier's model (RadioModel::field_model), a channel outside an effect's range goes without.
+  const double hz = grid.carrier_hz;
+  const WeatherEffects effects{on.gas && gas_model_covers(hz), on.rain && rain_model_covers(hz),
+                               on.fog && fog_model_covers(hz)};
   subcarriers_.reserve(grid.subcarriers);
   for (uint32_t k = 0; k < grid.subcarriers; ++k) {
     const double frequency_hz = grid.carrier_hz + grid.subcarrier_number(k) * grid.subcarrier_spacing_hz;
@@ -21,8 +34,7 @@ Dispersion::Dispersion(const scene::Scene& scene, const FieldModel& carrier, con
       throw_user_error("subcarrier {} of {}: expected a frequency above 0 Hz, found {}", k, grid.subcarriers,
                        frequency_hz);
     subcarriers_.push_back(
-        {RadioSurfaces(scene, frequency_hz),
-         path_attenuation(weather, frequency_hz, {.gas = on.gas, .rain = on.rain, .fog = on.fog})});
+        {RadioSurfaces(scene, frequency_hz), path_attenuation(weather, frequency_hz, effects)});
   }
 }
 
@@ -30,6 +42,11 @@ TransferSpectrum Dispersion::spectrum(const Path& path, const FacetWorld& world)
   const GeometricPath geometry{path.interactions,  path.vertices,       path.length_m,     path.foliage_m,
                                path.patch_area_m2, path.edges_diffract, path.from_receiver};
   TransferSpectrum spectrum(subcarriers_.size());
+  // The line of sight in air that attenuates nothing is the same at every frequency.
+  if (path.interactions.empty() && path.foliage_m == 0.0 && carrier_.attenuation.none()) {
+    for (auto& transfer : spectrum) std::copy_n(path.transfer, 4, transfer.begin());
+    return spectrum;
+  }
   FieldModel model = carrier_;
   model.world = &world;
   for (size_t k = 0; k < subcarriers_.size(); ++k) {
@@ -44,9 +61,10 @@ TransferSpectrum Dispersion::spectrum(const Path& path, const FacetWorld& world)
 
 std::vector<TransferSpectrum> Dispersion::spectra(std::span<const Path> paths,
                                                   const FacetWorld& world) const {
-  std::vector<TransferSpectrum> result;
-  result.reserve(paths.size());
-  for (const Path& path : paths) result.push_back(spectrum(path, world));
+  std::vector<TransferSpectrum> result(paths.size());
+  // The caller distributes links over threads; a link with many paths has work for all of them by itself.
+  const uint32_t threads = paths.size() < many_paths ? 1 : 0;
+  parallel_for(paths.size(), threads, [&](size_t i) { result[i] = spectrum(paths[i], world); });
   return result;
 }
 

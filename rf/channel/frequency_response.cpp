@@ -25,9 +25,9 @@ void set_eight(double step_hz, double delay_s, Complex* out) {
   }
 }
 
-/// Sets e^{-j 2 pi f tau} at all subcarriers. The phasor of a subcarrier is the product of three: of the first
-/// subcarrier of its group of blocks, of its block in the group, and of its place in the block. All come from
-/// exactly reduced turns and at most six products, so that no error accumulates along the band.
+/// Sets e^{-j 2 pi f tau} at all subcarriers. The phasor of a subcarrier is the product of three: of the
+/// first subcarrier of its group of blocks, of its block in the group, of its place in the block. All come
+/// from exactly reduced turns and at most six products, so that no error accumulates along the band.
 void set_phasors(const ChannelGrid& grid, double delay_s, size_t term, ColumnFactors& factors) {
   static_assert(sum_lanes == 8 && group == 8);
   Complex places[sum_lanes], steps[group], start;

@@ -65,9 +65,9 @@ struct ChannelGrid {
 ///
 /// As in the equation, the phases of the elements are those of the carrier at every subcarrier, so a beam
 /// points to the same direction over the whole band. With grid.beam_squint the wavelength is that of the
-/// subcarrier: each pair of elements has a delay of its own, tau_i - (r_R . d_u + r_T . d_s)/c (TR 38.901, 7.6.2.2).
-/// The difference is a phase of at most 2 pi f (D_u + D_s)/c, where D is the distance of an element from the
-/// origin of its array.
+/// subcarrier: each pair of elements has a delay of its own, tau_i - (r_R . d_u + r_T . d_s)/c (TR 38.901,
+/// 7.6.2.2). The difference is a phase of at most 2 pi f (D_u + D_s)/c, where D is the distance of an
+/// element from the origin of its array.
 ///
 /// The sum is in fp64. Its order depends on the properties of the paths and not on their places in `paths`:
 /// any permutation gives the same bits. Phases are counted in turns and reduced exactly. Each phasor is

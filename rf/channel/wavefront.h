@@ -14,11 +14,11 @@ namespace greatx::rf {
 /// Computes leads of one path after the other. With Wavefront::plane the lead is (r_R . d_u + r_T . d_s)/c,
 /// with the directions of arrival and departure and the positions of the elements.
 ///
-/// With Wavefront::curved, a path of reflections and transmissions has the length from element to element that
-/// its image sources give: |L r_R + M d_s - d_u|, where L is the length of the path and M mirrors the
-/// transmitter at all reflecting planes. That is the exact length as long as the path stays on its facets. A
-/// path with a scattering has a sphere about its first and about its last patch instead, which is exact, too.
-/// A path with a diffraction keeps plane waves: behind an edge a wave has two radii of curvature.
+/// With Wavefront::curved, a path of reflections and transmissions has the length between elements that its
+/// image sources give: |L r_R + M d_s - d_u|, where L is the length of the path and M mirrors the
+/// transmitter at all reflecting planes. That is the exact length as long as the path stays on its facets.
+/// A path with a scattering has a sphere about its first and about its last patch instead, which is exact,
+/// too. A path with a diffraction keeps plane waves: behind an edge a wave has two radii of curvature.
 class Leads {
  public:
   Leads(const ArrayPose& transmitter, const ArrayPose& receiver);

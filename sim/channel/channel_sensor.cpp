@@ -65,7 +65,7 @@ void ChannelSensor::find_near_links() {
       const uint64_t of_link =
           uint64_t{transmitter_arrays_[t].element_count()} * receiver_arrays_[r].element_count();
       pairs.plan(fmt::format("channel '{}': {} and {}, {} elements and {}, may be in their near field "
-                             "(effects: {{every_element: off}} takes a plane wave)",
+                             "(effects: {{every_element: off}} takes one path for all elements)",
                              config_.name, config_.transmitters[t], config_.receivers[r],
                              transmitter_arrays_[t].element_count(), receiver_arrays_[r].element_count()),
                  of_link);

@@ -192,10 +192,9 @@ std::vector<LinkColumn> link_columns(const ColumnContext& context) {
                        [](const LinkView& link) { return link.statistics->paths; }),
       of_link<uint8_t>("line_of_sight", "1", "[rx, tx] 1: the direct path is free",
                        [](const LinkView& link) { return link.statistics->line_of_sight; }),
-      of_link<uint8_t>(
-          "every_element", "1",
-          "[rx, tx] 1: cfr by paths between every two elements; 0: by a plane wave over the arrays",
-          [](const LinkView& link) { return link.every_element; }),
+      of_link<uint8_t>("every_element", "1",
+                       "[rx, tx] 1: cfr by paths between every two elements; 0: by paths of the whole arrays",
+                       [](const LinkView& link) { return link.every_element; }),
       of_link<uint64_t>("sequences_left_out", "1",
                         "[rx, tx] facet sequences beyond those that a search keeps, at least; 0: the "
                         "guarantee of the candidates holds",

@@ -24,7 +24,7 @@ namespace greatx::sim {
 struct LinkView {
   int32_t receiver = 0, transmitter = 0;  ///< indices in the channel
   const rf::LinkStatistics* statistics = nullptr;
-  /// The frequency response comes from every pair of elements, not from a plane wave over the arrays.
+  /// The frequency response comes from every pair of elements, not from paths of the whole arrays.
   bool every_element = false;
   double coherence_bandwidth_hz = 0.0, coherence_time_s = 0.0;  ///< set if they are asked for
   double taps_power_outside = 0.0;                              ///< rf::TapCoverage, if there are taps

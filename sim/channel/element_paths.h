@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Solves a link between two arrays for every pair of elements. Search, geometry, crossings and fields are as
-// exact as between any two ends. It is used for links so short that no plane wave passes over an array.
+// exact as between any two ends. It is used for links so short that one path cannot stand
+// for all elements of an array.
 #pragma once
 
 #include <memory>

@@ -185,7 +185,7 @@ void plan_arrays(EffectPlan& plan, const Planner& planner, const Scenario& scena
           ? fmt::format("{} and {} may come within {:.3g} m: in links nearer than their far field every two "
                         "elements are solved apart",
                         nearest.transmitter, nearest.receiver, nearest.distance_m)
-          : "all links are in the far field of their arrays: a plane wave over each",
+          : "all links are in the far field of their arrays: one path for all elements",
       nearest.far_m == 0.0
           ? ""
           : fmt::format("far field from 2 (D_tx + D_rx)^2/lambda = {:.3g} m ({}, {}); beyond it "

@@ -17,7 +17,7 @@ bool may_be_near(const Scenario& scenario, const ChannelConfig& channel, size_t 
 Switch every_element_asked(const Scenario& scenario);
 
 /// Returns the distance, metres, below which a link is solved for every pair of elements. At longer distances
-/// a plane wave passes over each array. The distance is 0 (no link) with `every_element: off`, with
+/// one path stands for all elements. The distance is 0 (no link) with `every_element: off`, with
 /// candidates from rays, and with one element at both ends. Otherwise it is infinity (all links) with `on`,
 /// and the far-field distance with `auto`. Runs, tools and Python all use this rule.
 double every_element_within_m(const Scenario& scenario, const ChannelConfig& channel,

@@ -77,12 +77,11 @@ void plan_radar(EffectPlan& plan, const Planner& planner, const Scenario& scenar
          offers.roughness_m > 0.0 ? "rough surfaces are smooth at these wavelengths" : "no material is rough",
          radar && offers.roughness_m > 0.0 ? fmt::format("at most {:.3g} dB an echo", most_db) : "");
   // Clutter must be asked for, because rough ground returns many times as many echoes as targets do.
-  planner.decide(
-      plan.radar_clutter, false,
-      !radar ? "no radar"
-      : !offers.scattering
-          ? "no material scatters"
-          : "surfaces answer as if smooth (effects: {radar_clutter: on} to have what they scatter)");
+  planner.decide(plan.radar_clutter, false,
+                 !radar               ? "no radar"
+                 : !offers.scattering ? "no material scatters"
+                                      : "surfaces answer as if smooth (effects: {radar_clutter: on} to have "
+                                        "what they scatter; accuracy: decides by measurement)");
   decide(plan.radar_noise, asks.noise, "a receiver has a noise figure", "no receiver has one");
   decide(plan.radar_phase_noise, asks.phase_noise, "an oscillator has phase noise", "no oscillator has any");
   decide(plan.radar_quantisation, asks.adc, "a converter has steps", "no converter is described");

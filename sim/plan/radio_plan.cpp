@@ -203,7 +203,7 @@ void plan_on_request(EffectPlan& plan, const Radio& radio) {
   const bool edges = deep && radio.surfaces.edges;
   radio.planner.decide(
       plan.diffraction, false,
-      radio.why(edges ? "not asked for (effects: {diffraction: on})"
+      radio.why(edges ? "not asked for (effects: {diffraction: on}; accuracy: decides by measurement)"
                       : (deep ? "the scene has no edge" : "max_depth is 0")),
       edges ? "in shadow nothing else may be left; beside a lit path at most 6 dB, at its shadow boundary"
             : "");
@@ -213,12 +213,16 @@ void plan_on_request(EffectPlan& plan, const Radio& radio) {
       plan.diffraction.on ? "keeps the field continuous where a path begins or ends" : "diffraction is off");
   radio.planner.decide(plan.free_edges, false, "edges of one facet alone bound drawings, seldom plates");
   const bool rough = deep && radio.surfaces.scattering;
-  radio.planner.decide(plan.scattering, false,
-                       radio.why(rough ? "not asked for (effects: {scattering: on})"
-                                       : "no material has a scattering coefficient"));
+  radio.planner.decide(
+      plan.scattering, false,
+      radio.why(rough ? "not asked for (effects: {scattering: on}; accuracy: decides by measurement)"
+                      : "no material has a scattering coefficient"));
   if (plan.scattering.on && !rough) deny(plan.scattering);
-  radio.planner.decide(plan.dispersion, false,
-                       radio.why("not asked for (effects: {dispersion: on}): materials as at the carrier"));
+  radio.planner.decide(
+      plan.dispersion, false,
+      radio.why(
+          "not asked for (effects: {dispersion: on}; accuracy: decides by measurement): materials as at the "
+          "carrier"));
 }
 
 /// Describes the largest attenuation by the air on any path of any channel.

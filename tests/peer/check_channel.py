@@ -186,9 +186,10 @@ def check_record(channel, record, worst, normals, known):
             q = {name: array[mine] for name, array in p.items()}
             where = f"tick {tick}, {tx['name']} to {rx['name']}"
             worst.add("path_count", abs(channel.path_count[row, r, t] - len(mine)), 0, where)
-            # Paths lead between the origins of the arrays. If every element has its own paths, H is not their
-            # sum.
-            same = not meta["dispersion"] and not channel.every_element[row, r, t]
+            # Paths lead between the origins of the arrays. If every element has its own paths or delays, H is
+            # not their sum.
+            several = meta["dispersion"] or meta["beam_squint"] or meta["wave_curvature"]
+            same = not several and not channel.every_element[row, r, t]
             link = channel.path_gain[row, r, t], channel.line_of_sight[row, r, t], same
             check_link(channel, record, tx, rx, q, stored[r][:, t], link, normals, worst, where)
 

@@ -147,7 +147,11 @@ def arrays(case, greatx, sionna, receivers, result, report):
             f"row_spacing_wl: {vertical}, column_spacing_wl: {horizontal}"
         )
         ours = greatx.response(
-            case, few, text, ", polarization: vh", f", every_element: {'off' if synthetic else 'on'}"
+            case,
+            few,
+            text,
+            ", polarization: vh",
+            f", beam_squint: off, wave_curvature: off, every_element: {'off' if synthetic else 'on'}",
         )
         median, worst = nmse_db(theirs[:, :, order], ours)
         report(f"    {name:62s} {median:10.1f} {worst:9.1f}")

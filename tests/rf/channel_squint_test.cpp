@@ -172,8 +172,8 @@ TEST(BeamSquint, ATapStandsAtTheDelayOfItsPairOfElements) {
 }
 
 TEST(BeamSquint, ApproachesElementsThatAreSolvedApart) {
-  // A line of sight between two arrays: the exact delays are those of the distances of elements. The curvature
-  // of the wave is left, which falls as the distance grows; without squint the error stays.
+  // A line of sight between two arrays: the exact delays are those of the distances of elements. The wave's
+  // curvature is left, which falls as the distance grows; without squint the error stays.
   const ArrayPose tx = row_of_four(), rx = row_of_four();
   const auto error_at = [&](double distance_m, bool squint) {
     const dvec3 far = distance_m * glm::normalize(dvec3(0.3, 0.8, 0.2));

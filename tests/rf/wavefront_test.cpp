@@ -40,8 +40,8 @@ double image_length(dvec3 tx, const dvec3& rx, const std::vector<Plane>& planes)
   return glm::distance(tx, rx);
 }
 
-/// Returns the path of reflections at the planes, which the ends must have in this order. The points are where
-/// the receiver, and then each point, sees the image of the transmitter.
+/// Returns the path of reflections at the planes, which the ends must have in this order. The points are
+/// where the receiver, and then each point, sees the image of the transmitter.
 Path reflected_path(const dvec3& tx, const dvec3& rx, const std::vector<Plane>& planes) {
   std::vector<dvec3> images{tx};
   for (const Plane& plane : planes) images.push_back(plane.mirrored(images.back()));

@@ -73,7 +73,10 @@ double nmse_db(const std::vector<std::complex<float>>& a, const std::vector<std:
 }
 
 constexpr const char* forced = "effects: {line_of_sight: on, reflection: off, gas: off, every_element: on}\n";
-constexpr const char* plane = "effects: {line_of_sight: on, reflection: off, gas: off, every_element: off}\n";
+constexpr const char* plane =
+    "effects: {line_of_sight: on, reflection: off, gas: off, every_element: off, wave_curvature: off}\n";
+constexpr const char* curved =
+    "effects: {line_of_sight: on, reflection: off, gas: off, every_element: off}\n";
 
 /// The simulator, `greatx paths --cfr` and Python use the same rule.
 TEST(EveryElement, OneRuleSaysWhichLinksAreSolvedElementByElement) {
@@ -150,6 +153,26 @@ TEST(EveryElement, APlaneWaveCostsWhatTheDistanceSays) {
   // Reference values for a line of 32 elements at 28 GHz.
   EXPECT_NEAR(nmse_db(h, p, 0, distances.size()), -14.4, 0.1);
   EXPECT_NEAR(nmse_db(h, p, 4, distances.size()), -40.3, 0.1);
+}
+
+TEST(EveryElement, ACurvedWaveLacksAmplitudesAlone) {
+  const std::vector<double> distances{5.0, 10.0, 20.0, 50.0, 100.0};
+  const RadioRun exact = run(element_scenario(distances, forced, "rows: 1, columns: 32"), nothing());
+  const RadioRun wave = run(element_scenario(distances, curved, "rows: 1, columns: 32"), nothing());
+  EXPECT_TRUE(wave.plan.wave_curvature.on);
+  const auto h = exact.values<std::complex<float>>(0, "cfr"), w = wave.values<std::complex<float>>(0, "cfr");
+  const double wavelength = speed_of_light / element_carrier_hz;
+  for (size_t r = 0; r < distances.size(); ++r) {
+    // The distance of an element is sqrt(d^2 + y^2), and its amplitude d over that.
+    double expected = 0.0;
+    for (int i = 0; i < 32; ++i) {
+      const double y = (i - 15.5) * 0.5 * wavelength;
+      const double ratio = distances[r] / std::hypot(distances[r], y);
+      expected += (1.0 - ratio) * (1.0 - ratio) / 32.0;
+    }
+    EXPECT_LT(nmse_db(h, w, r, distances.size()), 10.0 * std::log10(expected) + 6.0) << distances[r];
+  }
+  EXPECT_LT(nmse_db(h, w, 0, distances.size()), -75.0);  // a plane wave: -14.4 dB
 }
 
 TEST(EveryElement, IsChosenWithinTheFarFieldDistanceAlone) {

@@ -225,7 +225,8 @@ TEST(RadioPlan, FoliageComesWithCrowns) {
 
 TEST(RadioPlan, WhatIsAskedForByName) {
   const EffectPlan silent = plan(planned_scenario(), planned_street());
-  expect(silent.diffraction, false, "not asked for (effects: {diffraction: on})", "6 dB");
+  expect(silent.diffraction, false,
+         "not asked for (effects: {diffraction: on}; accuracy: decides by measurement)", "6 dB");
   expect(silent.diffraction_lit_region, false, "diffraction is off");
   expect(silent.scattering, false, "no material has a scattering coefficient");
   expect(silent.dispersion, false, "not asked for");
