@@ -9,8 +9,10 @@
 #include "apps/paths/cfr.h"
 #include "io/dataset/dataset_writer.h"
 #include "sim/channel/blocks.h"
+#include "sim/channel/link_ends.h"
 #include "sim/dataset/dataset_info.h"
 #include "sim/plan/antennas.h"
+#include "sim/plan/array_plan.h"
 #include "sim/run/simulator.h"
 
 namespace greatx::apps {
@@ -49,13 +51,10 @@ nlohmann::json response_row(const ScenarioOptions& scenario_options, const RunOp
       some_paths(snapshot, draw_receivers(experiment.scene(), experiment.scenario.seed, 100), response_paths);
   const sim::Scenario& scenario = experiment.scenario;
   const sim::ChannelConfig& config = scenario.channels[0];
-  const rf::Wavefront wavefront = sim::wavefront(experiment.plan);
-  const rf::ArrayPose transmitter{sim::antenna_array(scenario, config.transmitters[0], config.carrier_hz),
-                                  {1.0, 0.0, 0.0, 0.0},
-                                  wavefront},
-      receiver{sim::antenna_array(scenario, config.receivers[0], config.carrier_hz),
-               {1.0, 0.0, 0.0, 0.0},
-               wavefront};
+  const sim::LinkEnds ends = sim::link_ends(
+      scenario, config, sim::antenna_array(scenario, config.transmitters[0], config.carrier_hz), {},
+      sim::antenna_array(scenario, config.receivers[0], config.carrier_hz), {}, sim::half_band_hz(config));
+  const rf::ArrayPose &transmitter = ends.transmitter, &receiver = ends.receiver;
   const rf::ChannelGrid grid = sim::channel_grid(config, experiment.plan);
   std::vector<std::complex<float>> h(rf::response_size(transmitter, receiver, grid));
   std::vector<double> samples;

@@ -16,7 +16,9 @@
 #include "rf/search/beam_search.h"
 #include "sim/channel/blocks.h"
 #include "sim/channel/channel_snapshot.h"
+#include "sim/channel/link_ends.h"
 #include "sim/plan/antennas.h"
+#include "sim/plan/array_plan.h"
 #include "sim/plan/plan_options.h"
 #include "sim/run/simulator.h"
 #include "sim/scenario/parse/load_scenario.h"
@@ -95,9 +97,12 @@ nlohmann::json staged(gpu::Device& device, const sim::Experiment& experiment,
     times[2] = Clock::now();
     const sim::ChannelPaths::Result result = channel.collect(slot);
     times[3] = Clock::now();
-    for (size_t r = 0; r < result.links.size(); ++r)
-      rf::frequency_response(result.links[r].paths, {transmitter, result.transmitter.orientation},
-                             {receivers[r], result.links[r].receiver.orientation}, grid);
+    for (size_t r = 0; r < result.links.size(); ++r) {
+      const sim::LinkEnds ends =
+          sim::link_ends(scenario, config, transmitter, result.transmitter, receivers[r],
+                         result.links[r].receiver, sim::half_band_hz(config));
+      rf::frequency_response(result.links[r].paths, ends.transmitter, ends.receiver, grid);
+    }
     times[4] = Clock::now();
     for (int i = 0; i < 4 && tick >= options.warm_up; ++i)
       stages[i].push_back(std::chrono::duration<double, std::milli>(times[i + 1] - times[i]).count());

@@ -6,6 +6,7 @@
 
 #include "io/formats/npy.h"
 #include "sim/channel/blocks.h"
+#include "sim/channel/link_ends.h"
 #include "sim/plan/antennas.h"
 #include "sim/plan/array_plan.h"
 
@@ -29,7 +30,6 @@ CfrFile::CfrFile(const std::filesystem::path& file, const sim::ChannelSnapshot& 
                        config_.name, receivers_[0].port_count(), receiver.port_count());
   count_ = points.value_or(receivers_.size());
   grid_ = sim::channel_grid(config_, experiment.plan);
-  wavefront_ = sim::wavefront(experiment.plan);
   if (experiment.plan.dispersion.on) {
     const rf::RadioModel& model = snapshot.model();
     dispersion_.emplace(experiment.scene(), model.field_model(), model.effects.weather, grid_);
@@ -49,9 +49,10 @@ CfrFile::~CfrFile() {
 }
 
 void CfrFile::add(const sim::ChannelSnapshot::Link& link) {
-  const rf::ArrayPose transmitter{transmitter_, link.transmitter_state.orientation, wavefront_},
-      receiver{receivers_[receivers_.size() == 1 ? 0 : link.receiver], link.receiver_state.orientation,
-               wavefront_};
+  const auto [transmitter, receiver] =
+      sim::link_ends(scenario_, config_, transmitter_, link.transmitter_state,
+                     receivers_[receivers_.size() == 1 ? 0 : link.receiver], link.receiver_state,
+                     sim::half_band_hz(config_));
   response_.resize(rf::response_size(transmitter, receiver, grid_));
   std::vector<rf::TransferSpectrum> spectra;
   if (dispersion_) spectra = dispersion_->spectra(link.paths, *link.world);

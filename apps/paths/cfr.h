@@ -44,7 +44,6 @@ class CfrFile {
   size_t count_ = 0, added_ = 0, near_ = 0;
   bool finished_ = false;
   rf::ChannelGrid grid_;
-  rf::Wavefront wavefront_ = rf::Wavefront::plane;
   std::optional<rf::Dispersion> dispersion_;
   std::vector<std::complex<float>> response_;
 };

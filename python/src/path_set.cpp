@@ -15,7 +15,6 @@
 #include "rf/channel/dispersion.h"
 #include "rf/channel/received.h"
 #include "rf/channel/taps.h"
-#include "sim/channel/blocks.h"
 #include "sim/channel/columns.h"
 #include "sim/plan/antennas.h"
 #include "sim/plan/array_plan.h"
@@ -52,17 +51,14 @@ void check_count(const char* name, uint32_t count) {
     throw_user_error("{}: expected an integer from 1 to {}, found {}", name, most_samples, count);
 }
 
-rf::ChannelGrid grid_of(const ResponseRequest& request, const sim::ChannelConfig& config,
-                        const sim::EffectPlan& plan) {
+rf::ChannelGrid grid_of(const ResponseRequest& request, const sim::ChannelConfig& config, bool doppler) {
   // A caller that asks for time samples wants their phases to turn with time, even if the scenario's own
   // samples do not.
-  const bool turns = plan.doppler.on || request.time_samples || request.time_spacing_s;
-  const rf::ChannelGrid grid{config.carrier_hz,
-                             request.subcarrier_spacing_hz.value_or(config.subcarrier_spacing_hz),
-                             request.subcarriers.value_or(config.subcarriers),
-                             request.time_samples.value_or(config.time_samples),
-                             turns ? request.time_spacing_s.value_or(config.time_spacing_s) : 0.0,
-                             plan.beam_squint.on};
+  const bool turns = doppler || request.time_samples || request.time_spacing_s;
+  const rf::ChannelGrid grid{
+      config.carrier_hz, request.subcarrier_spacing_hz.value_or(config.subcarrier_spacing_hz),
+      request.subcarriers.value_or(config.subcarriers), request.time_samples.value_or(config.time_samples),
+      turns ? request.time_spacing_s.value_or(config.time_spacing_s) : 0.0};
   check_above_0("subcarrier_spacing_hz", grid.subcarrier_spacing_hz);
   check_count("subcarriers", grid.subcarriers);
   check_count("time_samples", grid.time_samples);
@@ -90,9 +86,9 @@ PathSet::PathSet(std::shared_ptr<const sim::Experiment> experiment, uint32_t cha
 void PathSet::add(sim::ChannelSnapshot::Link solved) {
   Link link{std::move(solved), false};
   if (!experiment_->plan.dispersion.on) link.solved.world.reset();  // only dispersion needs the facets later
-  link.near =
-      link.solved.distance_m < sim::every_element_within_m(experiment_->scenario, config_,
-                                                           transmitter(link).array, receiver(link).array);
+  link.near = link.solved.distance_m < sim::every_element_within_m(experiment_->scenario, config_,
+                                                                   transmitters_[link.solved.transmitter],
+                                                                   receiver_array(link));
   links_.push_back(std::move(link));
 }
 
@@ -102,18 +98,19 @@ void PathSet::finish(const sim::ChannelSnapshot& snapshot, const std::map<std::s
   describe(snapshot, before);
 }
 
-rf::ArrayPose PathSet::transmitter(const Link& link) const {
-  return {transmitters_[link.solved.transmitter], link.solved.transmitter_state.orientation,
-          sim::wavefront(experiment_->plan)};
+const rf::AntennaArray& PathSet::receiver_array(const Link& link) const {
+  return receivers_.size() == 1 ? receivers_[0] : receivers_[link.solved.receiver];
 }
 
-rf::ArrayPose PathSet::receiver(const Link& link) const {
-  return {receivers_.size() == 1 ? receivers_[0] : receivers_[link.solved.receiver],
-          link.solved.receiver_state.orientation, sim::wavefront(experiment_->plan)};
+sim::LinkEnds PathSet::ends(const Link& link, double half_band_hz) const {
+  return sim::link_ends(experiment_->scenario, config_, transmitters_[link.solved.transmitter],
+                        link.solved.transmitter_state, receiver_array(link), link.solved.receiver_state,
+                        std::max(half_band_hz, sim::half_band_hz(config_)));
 }
 
 std::vector<double> PathSet::powers(const Link& link) const {
-  return rf::path_powers(link.solved.paths, transmitter(link), receiver(link), config_.carrier_hz);
+  const auto [transmitter, receiver] = ends(link);
+  return rf::path_powers(link.solved.paths, transmitter, receiver, config_.carrier_hz);
 }
 
 void PathSet::fill_arrays(const sim::ChannelSnapshot& snapshot) {
@@ -135,8 +132,9 @@ void PathSet::fill_arrays(const sim::ChannelSnapshot& snapshot) {
   const size_t pairs = static_cast<size_t>(rx_ports * tx_ports);
   for_links({}, [&](const Link& link, size_t number) {
     const std::vector<rf::Path>& paths = link.solved.paths;
+    const auto [transmitter, receiver] = ends(link);
     const rf::ImpulseResponse impulse =
-        rf::impulse_response(paths, transmitter(link), receiver(link), config_.carrier_hz);
+        rf::impulse_response(paths, transmitter, receiver, config_.carrier_hz);
     sim::LinkView of;
     of.receiver = static_cast<int32_t>(link.solved.receiver);
     of.transmitter = static_cast<int32_t>(link.solved.transmitter);
@@ -250,7 +248,7 @@ Array PathSet::blocks(std::vector<int64_t> columns, const GoOn& go_on,
 }
 
 Array PathSet::response(const ResponseRequest& request, const GoOn& go_on) const {
-  const rf::ChannelGrid grid = grid_of(request, config_, experiment_->plan);
+  const rf::ChannelGrid grid = grid_of(request, config_, experiment_->plan.doppler.on);
   std::optional<rf::Dispersion> dispersion;
   if (radio_)
     dispersion.emplace(experiment_->scene(), radio_->model().field_model(), radio_->model().effects.weather,
@@ -260,8 +258,8 @@ Array PathSet::response(const ResponseRequest& request, const GoOn& go_on) const
         const std::vector<rf::Path>& paths = link.solved.paths;
         const std::vector<rf::TransferSpectrum> spectra =
             dispersion ? dispersion->spectra(paths, *link.solved.world) : std::vector<rf::TransferSpectrum>{};
-        rf::frequency_response_into(paths, spectra, transmitter(link), receiver(link), grid, out,
-                                    request.selection);
+        const auto [transmitter, receiver] = ends(link, grid.subcarriers / 2 * grid.subcarrier_spacing_hz);
+        rf::frequency_response_into(paths, spectra, transmitter, receiver, grid, out, request.selection);
       });
 }
 
@@ -270,18 +268,14 @@ NamedArrays PathSet::taps(const TapsRequest& request, const GoOn& go_on) const {
   check_above_0("time_spacing_s", request.time_spacing_s);
   check_count("taps", request.taps);
   check_count("time_samples", request.time_samples);
-  const rf::TapGrid grid{config_.carrier_hz,
-                         request.bandwidth_hz,
-                         request.first,
-                         request.taps,
-                         request.time_samples,
-                         request.time_spacing_s,
-                         experiment_->plan.beam_squint.on};
+  const rf::TapGrid grid{config_.carrier_hz, request.bandwidth_hz, request.first,
+                         request.taps,       request.time_samples, request.time_spacing_s};
   NamedArrays arrays;
   arrays.push_back(
       {"taps", "1", "[rx, rx_ant, tx, tx_ant, time, tap]",
        blocks({request.time_samples, request.taps}, go_on, [&](const Link& link, std::span<Complex64> out) {
-         rf::channel_taps_into(link.solved.paths, transmitter(link), receiver(link), grid, out);
+         const auto [transmitter, receiver] = ends(link, 0.5 * grid.bandwidth_hz);
+         rf::channel_taps_into(link.solved.paths, transmitter, receiver, grid, out);
        })});
   arrays.push_back(table("power_outside", "1", "[rx, tx] share of the power that the window leaves out"));
   arrays.push_back(table("paths_outside", "1", "[rx, tx] paths whose delay is not in the window"));
@@ -334,7 +328,8 @@ NamedArrays PathSet::received(const ReceivedRequest& request) const {
   const rf::RadioLink radio{config_.carrier_hz, request.transmit_power_w, request.resistance_ohm,
                             request.transmit_port, request.receive_port};
   for_links({}, [&](const Link& link, size_t number) {
-    const rf::Received received = rf::received(link.solved.paths, transmitter(link), receiver(link), radio);
+    const auto [transmitter, receiver] = ends(link);
+    const rf::Received received = rf::received(link.solved.paths, transmitter, receiver, radio);
     const auto put = [&](size_t array, size_t index, rf::Complex value) {
       const std::span<double> out = arrays[array].array.as<double>();
       out[2 * index] = value.real();

@@ -15,6 +15,7 @@
 #include "python/src/session.h"
 #include "rf/channel/frequency_response.h"
 #include "rf/channel/statistics.h"
+#include "sim/channel/link_ends.h"
 
 namespace greatx::python {
 
@@ -85,8 +86,9 @@ class PathSet {
   /// Makes an f64 array [rx, tx, width...].
   NamedArray table(const char* name, const char* unit, const char* description,
                    std::vector<int64_t> width = {}) const;
-  rf::ArrayPose transmitter(const Link& link) const;
-  rf::ArrayPose receiver(const Link& link) const;
+  const rf::AntennaArray& receiver_array(const Link& link) const;
+  /// Returns the ends of a link for the channel's band or a wider one.
+  sim::LinkEnds ends(const Link& link, double half_band_hz = 0.0) const;
   std::vector<double> powers(const Link& link) const;
   void fill_arrays(const sim::ChannelSnapshot& snapshot);
   void describe(const sim::ChannelSnapshot& snapshot, const std::map<std::string, uint64_t>& before);

@@ -57,7 +57,7 @@ LinkSum response_sum(std::span<const Path> paths, std::span<const TransferSpectr
           spectra,
           transmitter,
           receiver,
-          {grid.carrier_hz, grid.time_samples, grid.time_spacing_s, grid.beam_squint},
+          {grid.carrier_hz, grid.time_samples, grid.time_spacing_s},
           grid.subcarriers,
           selection,
           [grid](double delay_s, size_t term, ColumnFactors& factors) {

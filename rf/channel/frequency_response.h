@@ -22,11 +22,13 @@ namespace greatx::rf {
 enum class Wavefront : uint8_t { plane, curved };
 
 /// Describes one end of the channel: an array and its orientation (local_from_array; the local axes are the
-/// world's). Both ends of a link have the same wavefront.
+/// world's). Both ends of a link take waves in the same way.
 struct ArrayPose {
   AntennaArray array;
   dquat orientation{1.0, 0.0, 0.0, 0.0};
   Wavefront wavefront = Wavefront::plane;
+  /// Whether a wave reaches each element at its own delay (see frequency_response()).
+  bool beam_squint = false;
 };
 
 /// Holds the subcarriers and times at which the channel is sampled.
@@ -36,8 +38,6 @@ struct ChannelGrid {
   uint32_t subcarriers = 256;
   uint32_t time_samples = 1;
   double time_spacing_s = 1e-3;
-  /// Whether a wave reaches each element of an array at its own delay (see frequency_response()).
-  bool beam_squint = false;
 
   /// Returns the number of subcarrier k counted from the carrier: k - floor(N/2).
   double subcarrier_number(uint32_t k) const {
@@ -64,10 +64,10 @@ struct ChannelGrid {
 /// (r_R . d_u + r_T . d_s)/lambda; directions, patterns and transfers stay those of the whole array.
 ///
 /// As in the equation, the phases of the elements are those of the carrier at every subcarrier, so a beam
-/// points to the same direction over the whole band. With grid.beam_squint the wavelength is that of the
-/// subcarrier: each pair of elements has a delay of its own, tau_i - (r_R . d_u + r_T . d_s)/c (TR 38.901,
-/// 7.6.2.2). The difference is a phase of at most 2 pi f (D_u + D_s)/c, where D is the distance of an
-/// element from the origin of its array.
+/// points to the same direction over the whole band. With ArrayPose::beam_squint the wavelength is that of
+/// the subcarrier: each pair of elements has a delay of its own, tau_i - (r_R . d_u + r_T . d_s)/c (TR
+/// 38.901, 7.6.2.2). The difference is a phase of at most 2 pi f (D_u + D_s)/c, where D is the distance of
+/// an element from the origin of its array.
 ///
 /// The sum is in fp64. Its order depends on the properties of the paths and not on their places in `paths`:
 /// any permutation gives the same bits. Phases are counted in turns and reduced exactly. Each phasor is

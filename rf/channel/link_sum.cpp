@@ -43,6 +43,7 @@ LinkSum::LinkSum(std::span<const Path> paths, std::span<const TransferSpectrum> 
       times_(times),
       columns_(columns),
       set_factors_(std::move(set_factors)),
+      squints_(transmitter.beam_squint),
       amplitudes_of_(transmitter, receiver, times.carrier_hz),
       order_(selected_order(paths, spectra, selection)),
       terms_(order_.size() * terms_per_path()),
@@ -51,10 +52,11 @@ LinkSum::LinkSum(std::span<const Path> paths, std::span<const TransferSpectrum> 
       factors_(columns, chunk_),
       rows_(size_t{amplitudes_of_.pairs()} * times.samples) {
   check_link(paths, transmitter, receiver, times.carrier_hz);
+  GREATX_CHECK(transmitter.beam_squint == receiver.beam_squint, "the ends of a link take waves differently");
   check_spectra();
   amplitudes_.resize(rows_ * chunk_);
   pair_.resize(amplitudes_of_.pairs());
-  if (times_.beam_squint) leads_s_.resize(chunk_ * amplitudes_of_.leads().pairs());
+  if (squints_) leads_s_.resize(chunk_ * amplitudes_of_.leads().pairs());
 }
 
 void LinkSum::check_spectra() const {
@@ -98,7 +100,7 @@ void LinkSum::load(Term term, const Complex* transfer) {
   const Path& path = paths_[term.path];
   const size_t place = loaded_.size();
   loaded_.push_back(term);
-  if (times_.beam_squint)
+  if (squints_)
     amplitudes_of_.leads()(path, leads_s_.data() + place * amplitudes_of_.leads().pairs());
   else
     set_factors(place, path.delay_s);
@@ -134,7 +136,7 @@ void LinkSum::set_factors_of_elements(size_t pair) {
 /// Adds the chunk to the sums, and writes the sums to `out` unless it is null.
 template <typename Part>
 void LinkSum::add(std::complex<Part>* out) {
-  if (times_.beam_squint) {
+  if (squints_) {
     const size_t rx_ports = amplitudes_of_.rx().polarizations(),
                  tx_ports = amplitudes_of_.tx().polarizations();
     const size_t tx_elements = amplitudes_of_.leads().tx_elements();

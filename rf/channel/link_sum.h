@@ -42,7 +42,6 @@ struct RowTimes {
   double carrier_hz = 0.0;
   uint32_t samples = 1;
   double spacing_s = 0.0;
-  bool beam_squint = false;  ///< the factors of a path depend on the pair of elements
 };
 
 /// Computes the sum over paths of (pair amplitude) e^{-j 2 pi f_c tau} e^{j 2 pi nu t_m} (factor at the
@@ -84,6 +83,7 @@ class LinkSum {
   RowTimes times_;
   size_t columns_;
   SetFactors set_factors_;
+  bool squints_;  ///< the factors of a path depend on the pair of elements
   PairAmplitudes amplitudes_of_;
   std::vector<uint32_t> order_;  ///< indices of the paths that are summed
   /// Number of all terms, and of terms per chunk, which is a multiple of terms_per_path().

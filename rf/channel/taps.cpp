@@ -60,7 +60,7 @@ LinkSum tap_sum(std::span<const Path> paths, const ArrayPose& transmitter, const
           {},
           transmitter,
           receiver,
-          {grid.carrier_hz, grid.time_samples, grid.time_spacing_s, grid.beam_squint},
+          {grid.carrier_hz, grid.time_samples, grid.time_spacing_s},
           grid.taps,
           PathSelection::all,
           set_factors};

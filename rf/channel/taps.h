@@ -25,7 +25,6 @@ struct TapGrid {
   uint32_t taps = 64;  ///< above 0
   uint32_t time_samples = 1;
   double time_spacing_s = 1e-3;
-  bool beam_squint = false;  ///< as ChannelGrid::beam_squint: tau below is the delay of the pair of elements
 };
 
 /// Describes the power and paths outside a window of taps. An ideal low-pass has no end: even a window that
@@ -46,7 +45,8 @@ struct TapCoverage {
 ///
 /// Fractional delays are exact. B tau is formed as the sum of two doubles, and only its fraction enters the
 /// sine. Hence a delay of a whole number of samples gives exactly one tap that is not 0. The order of the
-/// sums is that of frequency_response(). Transfers are the carrier's (no dispersion).
+/// sums is that of frequency_response(). Transfers are the carrier's (no dispersion). With
+/// ArrayPose::beam_squint tau is the delay of the pair of elements.
 ///
 /// The taps give the frequency response: H(f) = sum over all l of h[l] e^{-j 2 pi f l/B} for |f| < B/2. With
 /// an odd number N of subcarriers at spacing B/N, the inverse DFT of frequency_response() is therefore sum_q

@@ -12,6 +12,7 @@
 #include "rf/channel/received.h"
 #include "sim/channel/channel_sensor.h"
 #include "sim/plan/antennas.h"
+#include "sim/plan/array_plan.h"
 #include "sim/sensors/sensor_metadata.h"
 
 namespace greatx::sim {
@@ -135,10 +136,9 @@ std::string ChannelSensor::metadata() const {
   metadata["receivers"] = describe_ends(receiver_arrays_, paths_[0]->receivers());
   metadata["pattern_tables"] = describe_pattern_tables({transmitter_arrays_, receiver_arrays_});
   metadata["doppler_in_time_samples"] = doppler_;  // off: all time samples are equal
-  // Off: a plane wave passes over each array.
-  metadata["wave_curvature"] = wavefront(experiment_.plan) == rf::Wavefront::curved;
-  // Off: the phases of the elements are those of the carrier at every subcarrier.
-  metadata["beam_squint"] = grid_.beam_squint;
+  // On: link by link, if the phase over the arrays matters.
+  metadata["wave_curvature"] = experiment_.plan.wave_curvature.on;
+  metadata["beam_squint"] = experiment_.plan.beam_squint.on;
   // Off: walls and air have their values at the carrier for every subcarrier.
   metadata["dispersion"] = dispersion_.has_value();
   metadata["walls"] = describe_walls(experiment_.scene(), radio_->model().surfaces);
@@ -148,14 +148,10 @@ std::string ChannelSensor::metadata() const {
   return metadata.dump();
 }
 
-rf::ArrayPose ChannelSensor::transmitter_pose(const Results& results, size_t transmitter) const {
-  return {transmitter_arrays_[transmitter], results[transmitter].transmitter.orientation,
-          wavefront(experiment_.plan)};
-}
-
-rf::ArrayPose ChannelSensor::receiver_pose(const Results& results, size_t receiver) const {
-  return {receiver_arrays_[receiver], results[0].links[receiver].receiver.orientation,
-          wavefront(experiment_.plan)};
+LinkEnds ChannelSensor::ends_of(const Results& results, size_t receiver, size_t transmitter) const {
+  return link_ends(experiment_.scenario, config_, transmitter_arrays_[transmitter],
+                   results[transmitter].transmitter, receiver_arrays_[receiver],
+                   results[transmitter].links[receiver].receiver, half_band_hz(config_));
 }
 
 /// Returns a block for all links, [rx, rx_ant, tx, tx_ant, time, last].
@@ -175,9 +171,10 @@ Array ChannelSensor::block_of(const PortBlock& block, const Results& results, ui
         transmitters == 1 ? out.subspan(r * rx_ports * row, rx_ports * row) : std::span(apart);
     if (const ElementPaths* elements = elements_of(r, t, slot))
       elements->assemble(block.per_pair(), block.sum, h);
-    else
-      block.sum(results[t].links[r].paths, *results[t].world, transmitter_pose(results, t),
-                receiver_pose(results, r), h);
+    else {
+      const LinkEnds ends = ends_of(results, r, t);
+      block.sum(results[t].links[r].paths, *results[t].world, ends.transmitter, ends.receiver, h);
+    }
     for (size_t port = 0; !apart.empty() && port < rx_ports; ++port)
       std::copy_n(
           h.begin() + static_cast<std::ptrdiff_t>(port * row), row,
@@ -189,7 +186,7 @@ Array ChannelSensor::block_of(const PortBlock& block, const Results& results, ui
 ChannelSensor::LinkFacts ChannelSensor::facts_of(const Results& results, size_t receiver, size_t transmitter,
                                                  uint32_t slot) const {
   const std::vector<rf::Path>& paths = results[transmitter].links[receiver].paths;
-  const rf::ArrayPose from = transmitter_pose(results, transmitter), to = receiver_pose(results, receiver);
+  const auto [from, to] = ends_of(results, receiver, transmitter);
   const std::vector<double> powers = rf::path_powers(paths, from, to, config_.carrier_hz);
   LinkFacts facts;
   facts.statistics = rf::link_statistics(paths, powers);

@@ -20,22 +20,13 @@ PortBlock response_block(const char* name, const char* description, const rf::Ch
 }  // namespace
 
 rf::ChannelGrid channel_grid(const ChannelConfig& config, const EffectPlan& plan) {
-  return {config.carrier_hz,
-          config.subcarrier_spacing_hz,
-          config.subcarriers,
-          config.time_samples,
-          plan.doppler.on ? config.time_spacing_s : 0.0,
-          plan.beam_squint.on};
-}
-
-rf::Wavefront wavefront(const EffectPlan& plan) {
-  return plan.wave_curvature.on ? rf::Wavefront::curved : rf::Wavefront::plane;
+  return {config.carrier_hz, config.subcarrier_spacing_hz, config.subcarriers, config.time_samples,
+          plan.doppler.on ? config.time_spacing_s : 0.0};
 }
 
 rf::TapGrid tap_grid(const ChannelConfig& config, const rf::ChannelGrid& grid) {
   const ChannelConfig::Taps& taps = config.taps.value();
-  return {grid.carrier_hz,   taps.bandwidth_hz,   taps.first,      taps.count,
-          grid.time_samples, grid.time_spacing_s, grid.beam_squint};
+  return {grid.carrier_hz, taps.bandwidth_hz, taps.first, taps.count, grid.time_samples, grid.time_spacing_s};
 }
 
 std::vector<PortBlock> port_blocks(const ChannelConfig& config, const rf::ChannelGrid& grid,

@@ -42,9 +42,6 @@ std::vector<PortBlock> port_blocks(const ChannelConfig& config, const rf::Channe
 /// Returns the subcarriers and times of a channel, with what the plan says of them.
 rf::ChannelGrid channel_grid(const ChannelConfig& config, const EffectPlan& plan);
 
-/// Returns how a wave passes an array.
-rf::Wavefront wavefront(const EffectPlan& plan);
-
 /// Returns the window of a channel's taps. The channel must have taps.
 rf::TapGrid tap_grid(const ChannelConfig& config, const rf::ChannelGrid& grid);
 

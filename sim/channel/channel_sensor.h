@@ -16,6 +16,7 @@
 #include "sim/channel/channel_paths.h"
 #include "sim/channel/columns.h"
 #include "sim/channel/element_paths.h"
+#include "sim/channel/link_ends.h"
 #include "sim/experiment/experiment.h"
 #include "sim/sensors/sensor.h"
 
@@ -58,8 +59,7 @@ class ChannelSensor : public Sensor {
   std::vector<Array> arrays_of(const Results& results, uint32_t slot) const;
   struct LinkFacts;
   LinkFacts facts_of(const Results& results, size_t receiver, size_t transmitter, uint32_t slot) const;
-  rf::ArrayPose transmitter_pose(const Results& results, size_t transmitter) const;
-  rf::ArrayPose receiver_pose(const Results& results, size_t receiver) const;
+  LinkEnds ends_of(const Results& results, size_t receiver, size_t transmitter) const;
   Array block_of(const PortBlock& block, const Results& results, uint32_t slot) const;
 
   scene::GpuScene& gpu_scene_;

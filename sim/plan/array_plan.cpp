@@ -14,6 +14,31 @@ namespace greatx::sim {
 
 namespace {
 
+/// Returns the largest change of a path by a phase, dB: |e^{j phase} - 1| beside 1.
+double change_db(double phase_rad) {
+  return 2.0 * decibels(1.0 + 2.0 * std::sin(0.5 * std::min(phase_rad, pi)));
+}
+
+}  // namespace
+
+bool phase_matters(double phase_rad, double tolerance_db) { return change_db(phase_rad) > tolerance_db; }
+
+double squint_phase_rad(double reach_m, double half_band_hz) {
+  return 2.0 * pi * half_band_hz * reach_m / speed_of_light;
+}
+
+double curvature_phase_rad(double reach_m, double distance_m, double carrier_hz) {
+  // L - |L u - d| is between u . d - d^2/2L and u . d.
+  return pi * reach_m * reach_m * carrier_hz / (speed_of_light * std::max(distance_m, 1e-9));
+}
+
+double half_band_hz(const ChannelConfig& channel) {
+  const double sampled_hz = channel.subcarriers / 2 * channel.subcarrier_spacing_hz;
+  return std::max(sampled_hz, channel.taps ? 0.5 * channel.taps->bandwidth_hz : 0.0);
+}
+
+namespace {
+
 /// Returns a box, world coordinates, that an antenna never leaves.
 scene::Bounds reach_of(const Scenario& scenario, const std::string& name) {
   const auto [node, sensor] = sensor_place(scenario, name);
@@ -59,11 +84,6 @@ Nearest nearest_of(const Scenario& scenario) {
   return nearest;
 }
 
-/// Returns the largest change of a path by a phase, dB: |e^{j phase} - 1| beside 1.
-double change_db(double phase_rad) {
-  return 2.0 * decibels(1.0 + 2.0 * std::sin(0.5 * std::min(phase_rad, pi)));
-}
-
 /// Describes the link whose array phases change most over the band.
 struct Squint {
   double phase_rad = 0.0, band_hz = 0.0, reach_m = 0.0;
@@ -73,13 +93,12 @@ struct Squint {
 Squint squint_of(const Scenario& scenario) {
   Squint most;
   for (const ChannelConfig& channel : scenario.channels) {
-    const double sampled_hz = channel.subcarriers / 2 * channel.subcarrier_spacing_hz;
-    const double half_hz = std::max(sampled_hz, channel.taps ? 0.5 * channel.taps->bandwidth_hz : 0.0);
+    const double half_hz = half_band_hz(channel);
     for (const std::string& transmitter : channel.transmitters)
       for (const std::string& receiver : channel.receivers) {
         const double reach_m = antenna_array(scenario, transmitter, channel.carrier_hz).reach() +
                                antenna_array(scenario, receiver, channel.carrier_hz).reach();
-        const double phase_rad = 2.0 * pi * half_hz * reach_m / speed_of_light;
+        const double phase_rad = squint_phase_rad(reach_m, half_hz);
         if (phase_rad > most.phase_rad) most = {phase_rad, 2.0 * half_hz, reach_m, transmitter, receiver};
       }
   }
@@ -89,7 +108,7 @@ Squint squint_of(const Scenario& scenario) {
 void plan_squint(EffectPlan& plan, const Planner& planner, const Scenario& scenario) {
   const Squint squint = squint_of(scenario);
   const bool any = squint.phase_rad > 0.0,
-             needed = any && change_db(squint.phase_rad) > scenario.tolerance_db;
+             needed = any && phase_matters(squint.phase_rad, scenario.tolerance_db);
   planner.decide(
       plan.beam_squint, needed,
       scenario.channels.empty() ? "no channel"
@@ -120,9 +139,7 @@ Curvature curvature_of(const Scenario& scenario) {
                                antenna_array(scenario, receiver, channel.carrier_hz).reach();
         if (reach_m == 0.0) continue;
         const double distance_m = distance(reach_of(scenario, transmitter), reach_of(scenario, receiver));
-        // L - |L u - d| is between u . d - d^2/2L and u . d.
-        const double phase_rad =
-            pi * reach_m * reach_m * channel.carrier_hz / (speed_of_light * std::max(distance_m, 1e-9));
+        const double phase_rad = curvature_phase_rad(reach_m, distance_m, channel.carrier_hz);
         if (phase_rad > most.phase_rad) most = {phase_rad, distance_m, reach_m, transmitter, receiver};
       }
   return most;
@@ -131,7 +148,7 @@ Curvature curvature_of(const Scenario& scenario) {
 void plan_curvature(EffectPlan& plan, const Planner& planner, const Scenario& scenario) {
   const Curvature curvature = curvature_of(scenario);
   const bool any = curvature.phase_rad > 0.0,
-             needed = any && change_db(curvature.phase_rad) > scenario.tolerance_db;
+             needed = any && phase_matters(curvature.phase_rad, scenario.tolerance_db);
   planner.decide(
       plan.wave_curvature, needed,
       scenario.channels.empty() ? "no channel"

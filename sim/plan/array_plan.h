@@ -13,6 +13,17 @@ namespace greatx::sim {
 /// distance of their arrays (rf::far_field_distance_m).
 bool may_be_near(const Scenario& scenario, const ChannelConfig& channel, size_t transmitter, size_t receiver);
 
+/// Returns the largest distance of a frequency of a channel from its carrier, Hz.
+double half_band_hz(const ChannelConfig& channel);
+
+/// Return bounds of the phases, rad, by which a plane wave at the carrier's wavelength is wrong at the
+/// edges of two arrays: off the carrier by `half_band_hz`, and for ends `distance_m` apart. `reach_m` is
+/// the sum of the largest distances of an element from the origin of its array.
+double squint_phase_rad(double reach_m, double half_band_hz);
+double curvature_phase_rad(double reach_m, double distance_m, double carrier_hz);
+/// Returns whether such a phase changes a path by more than `tolerance_db`.
+bool phase_matters(double phase_rad, double tolerance_db);
+
 /// Returns the switch `every_element` of the scenario.
 Switch every_element_asked(const Scenario& scenario);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Arrays over a wide band: each element has its own delay (ChannelGrid::beam_squint).
+// Arrays over a wide band: each element has its own delay (ArrayPose::beam_squint).
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -19,6 +19,11 @@ using testing::plain_path;
 using testing::random_paths;
 using testing::Wide;
 using testing::wide_phasor;
+
+ArrayPose with_squint(ArrayPose end, bool on = true) {
+  end.beam_squint = on;
+  return end;
+}
 
 /// An array with two polarizations whose elements stand at no regular places.
 ArrayPose scattered_array() {
@@ -75,8 +80,8 @@ TEST(BeamSquint, IsTheSumOverTheDelaysOfAllPairsOfElements) {
   // 300 paths are more than a chunk; 77 subcarriers are no whole number of blocks.
   const auto paths = random_paths(300, 2e-6, 51);
   const ArrayPose tx = row_of_four(), rx = scattered_array();
-  const ChannelGrid grid{3.5e9, 5e6, 77, 1, 1e-3, true};
-  const auto found = frequency_response_fp64(paths, tx, rx, grid);
+  const ChannelGrid grid{3.5e9, 5e6, 77, 1, 1e-3};
+  const auto found = frequency_response_fp64(paths, with_squint(tx), with_squint(rx), grid);
   ASSERT_EQ(found.size(), 6u * 4 * 77);
   double peak = 0.0;
   for (const Complex& value : found) peak = std::max(peak, std::abs(value));
@@ -93,9 +98,8 @@ TEST(BeamSquint, IsTheSumOverTheDelaysOfAllPairsOfElements) {
 TEST(BeamSquint, OnePathTurnsWithTheFrequencyToARounding) {
   const Path path = plain_path(1e-6);
   const ArrayPose tx = row_of_four(), rx = antenna();
-  ChannelGrid grid{28e9, 1e6, 1025, 1, 1e-3, true};
-  const auto squinting = frequency_response_fp64({&path, 1}, tx, rx, grid);
-  grid.beam_squint = false;
+  const ChannelGrid grid{28e9, 1e6, 1025, 1, 1e-3};
+  const auto squinting = frequency_response_fp64({&path, 1}, with_squint(tx), with_squint(rx), grid);
   const auto narrow = frequency_response_fp64({&path, 1}, tx, rx, grid);
   for (uint32_t s = 0; s < 4; ++s)
     for (uint32_t k = 0; k < 1025; ++k) {
@@ -109,9 +113,8 @@ TEST(BeamSquint, OnePathTurnsWithTheFrequencyToARounding) {
 TEST(BeamSquint, StaysBelowItsBoundAndVanishesAtTheCarrier) {
   const auto paths = random_paths(1, 1e-6, 52);
   const ArrayPose tx = row_of_four(), rx = scattered_array();
-  ChannelGrid grid{3.5e9, 1e6, 101, 1, 1e-3, true};
-  const auto squinting = frequency_response_fp64(paths, tx, rx, grid);
-  grid.beam_squint = false;
+  const ChannelGrid grid{3.5e9, 1e6, 101, 1, 1e-3};
+  const auto squinting = frequency_response_fp64(paths, with_squint(tx), with_squint(rx), grid);
   const auto narrow = frequency_response_fp64(paths, tx, rx, grid);
   const double reach_m = tx.array.reach() + rx.array.reach();
   double most = 0.0;
@@ -128,33 +131,35 @@ TEST(BeamSquint, StaysBelowItsBoundAndVanishesAtTheCarrier) {
 TEST(BeamSquint, OneElementAtTheOriginChangesNoBit) {
   const auto paths = random_paths(200, 3e-6, 53);
   const ArrayPose tx = antenna(Pattern::isotropic, Polarization::vh), rx = antenna();
-  ChannelGrid grid{28e9, 120e3, 100, 2, 1e-3, true};
-  const auto squinting = frequency_response_fp64(paths, tx, rx, grid);
-  grid.beam_squint = false;
+  const ChannelGrid grid{28e9, 120e3, 100, 2, 1e-3};
+  const auto squinting = frequency_response_fp64(paths, with_squint(tx), with_squint(rx), grid);
   EXPECT_EQ(squinting, frequency_response_fp64(paths, tx, rx, grid));
 }
 
 TEST(BeamSquint, AnyOrderOfPathsGivesTheSameBits) {
   auto paths = random_paths(500, 3e-6, 54);
-  const ChannelGrid grid{28e9, 120e3, 40, 2, 1e-3, true};
-  const auto first = frequency_response(paths, row_of_four(), scattered_array(), grid);
+  const ChannelGrid grid{28e9, 120e3, 40, 2, 1e-3};
+  const auto first =
+      frequency_response(paths, with_squint(row_of_four()), with_squint(scattered_array()), grid);
   testing::shuffle(paths, 2);
-  const auto second = frequency_response(paths, row_of_four(), scattered_array(), grid);
+  const auto second =
+      frequency_response(paths, with_squint(row_of_four()), with_squint(scattered_array()), grid);
   EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof first[0]), 0);
 }
 
 TEST(BeamSquint, ASpectrumThatDoesNotChangeIsTheTransfer) {
   const auto paths = random_paths(150, 3e-6, 55);
-  const ChannelGrid grid{28e9, 120e3, 33, 1, 1e-3, true};
+  const ChannelGrid grid{28e9, 120e3, 33, 1, 1e-3};
   std::vector<TransferSpectrum> spectra;
   for (const Path& path : paths) {
     const Complex* t = path.transfer;
     spectra.emplace_back(33, std::array<Complex, 4>{t[0], t[1], t[2], t[3]});
   }
-  EXPECT_LT(
-      largest_difference(frequency_response_fp64(paths, spectra, row_of_four(), scattered_array(), grid),
-                         frequency_response_fp64(paths, row_of_four(), scattered_array(), grid)),
-      1e-13);
+  EXPECT_LT(largest_difference(frequency_response_fp64(paths, spectra, with_squint(row_of_four()),
+                                                       with_squint(scattered_array()), grid),
+                               frequency_response_fp64(paths, with_squint(row_of_four()),
+                                                       with_squint(scattered_array()), grid)),
+            1e-13);
 }
 
 TEST(BeamSquint, ATapStandsAtTheDelayOfItsPairOfElements) {
@@ -162,9 +167,9 @@ TEST(BeamSquint, ATapStandsAtTheDelayOfItsPairOfElements) {
   Path path = plain_path(0.0);
   ArrayPose tx = antenna();
   tx.array.positions_m = {{6.0, 0.0, 0.0}, {3.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-  TapGrid grid{3.5e9, speed_of_light / 3.0, 0, 16, 1, 1e-3, true};
+  const TapGrid grid{3.5e9, speed_of_light / 3.0, 0, 16, 1, 1e-3};
   path.delay_s = 5.0 / grid.bandwidth_hz;
-  const auto taps = channel_taps_fp64({&path, 1}, tx, antenna(), grid);
+  const auto taps = channel_taps_fp64({&path, 1}, with_squint(tx), with_squint(antenna()), grid);
   const double amplitude = speed_of_light / 3.5e9 / (4 * pi);
   for (uint32_t s = 0; s < 3; ++s)
     for (uint32_t tap = 0; tap < 16; ++tap)
@@ -180,8 +185,9 @@ TEST(BeamSquint, ApproachesElementsThatAreSolvedApart) {
     Path path = plain_path(distance_m / speed_of_light);
     path.departure = glm::normalize(far);
     path.arrival = -path.departure;
-    const ChannelGrid grid{3.5e9, 4e6, 101, 1, 1e-3, squint};
-    const auto found = frequency_response_fp64({&path, 1}, tx, rx, grid);
+    const ChannelGrid grid{3.5e9, 4e6, 101, 1, 1e-3};
+    const auto found =
+        frequency_response_fp64({&path, 1}, with_squint(tx, squint), with_squint(rx, squint), grid);
     const double amplitude = speed_of_light / grid.carrier_hz / (4 * pi);
     double error = 0.0;
     for (uint32_t u = 0; u < 4; ++u)

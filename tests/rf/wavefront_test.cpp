@@ -30,6 +30,10 @@ ArrayPose array_of(RandomStream& random, size_t elements, double size_m) {
   end.wavefront = Wavefront::curved;
   return end;
 }
+ArrayPose with_squint(ArrayPose end) {
+  end.beam_squint = true;
+  return end;
+}
 dvec3 place(const ArrayPose& end, size_t element) {
   return end.orientation * end.array.element_position(static_cast<uint32_t>(element));
 }
@@ -181,11 +185,12 @@ TEST(Curvature, AmplitudesAndTheResponseTurnByTheLeads) {
   curved(path, exact_s.data());
   plane(path, plane_s.data());
   const double carrier_hz = 28e9;
-  const ChannelGrid grid{carrier_hz, 4e6, 101, 1, 1e-3, true};
+  const ChannelGrid grid{carrier_hz, 4e6, 101, 1, 1e-3};
   const ImpulseResponse found = impulse_response({&path, 1}, from, to, carrier_hz),
                         flat = impulse_response({&path, 1}, flat_from, flat_to, carrier_hz);
-  const auto response = frequency_response_fp64({&path, 1}, from, to, grid),
-             flat_response = frequency_response_fp64({&path, 1}, flat_from, flat_to, grid);
+  const auto response = frequency_response_fp64({&path, 1}, with_squint(from), with_squint(to), grid),
+             flat_response =
+                 frequency_response_fp64({&path, 1}, with_squint(flat_from), with_squint(flat_to), grid);
   for (size_t i = 0; i < 12; ++i) {
     const Complex turn = unit_phasor(turns_of(carrier_hz, exact_s[i]) - turns_of(carrier_hz, plane_s[i]));
     EXPECT_LT(std::abs(Complex(found.amplitude[i]) - Complex(flat.amplitude[i]) * turn),

@@ -72,7 +72,8 @@ TEST(ChannelOutputs, TapsAreTheSincsOfThePaths) {
   constexpr double bandwidth_hz = 40e6;
   constexpr int first = -6, count = 40;
   const RadioRun r = run(
-      scenario(fmt::format(", taps: {{first: {}, count: {}, bandwidth_hz: {}}}", first, count, bandwidth_hz)),
+      scenario(fmt::format(", taps: {{first: {}, count: {}, bandwidth_hz: {}}}", first, count, bandwidth_hz),
+               2, "effects: {beam_squint: off}\n"),
       street());
   const auto delay = r.values<double>(1, "delay"), doppler = r.values<double>(1, "doppler");
   const auto a = doubles(r.values<std::complex<float>>(1, "amplitude"));
