@@ -70,7 +70,8 @@ constexpr const char* how_measured =
     "setting before the next one, so that all settings meet the same ticks and the same state of the "
     "machine. "
     "A tick was run alone: it was submitted, waited for, and collected. Times are medians and quartiles over "
-    "the ticks after the warm-up; files are not written. Errors are those of the records against the records "
+    "the ticks after the warm-up, of which slow settings have fewer; files are not written. Errors are those "
+    "of the records against the records "
     "of the reference setting at the same ticks.";
 constexpr const char* how_searched =
     "The search predicts joint settings from the single knobs: slower settings add their time, faster ones "
@@ -98,7 +99,8 @@ Json Study::fingerprint() const {
   return {{"greatx", GREATX_VERSION},      {"scenario_sha256", sha256_hex(std::as_bytes(std::span(text)))},
           {"device", device_.info().name}, {"driver", device_.info().driver},
           {"quick", options_.quick},       {"blocks", options_.blocks},
-          {"ticks", options_.ticks}};
+          {"ticks", options_.ticks},       {"knob_s", options_.knob_s},
+          {"joint_s", options_.joint_s}};
 }
 
 void Study::read() {
@@ -187,10 +189,6 @@ std::optional<Study::MapPart> Study::maps() const {
   return MapPart{std::move(experiment), std::move(study), std::move(knob)};
 }
 
-sim::MeasurePlan Study::plan_of(const Part& part) const {
-  return sim::plan_blocks(part.experiment.scenario, options_.blocks, options_.ticks);
-}
-
 void Study::say(const std::string& text) const {
   if (options_.quiet) return;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
@@ -200,13 +198,15 @@ void Study::say(const std::string& text) const {
 }
 
 std::vector<sim::SettingResult> Study::measure(const std::vector<sim::Experiment>& settings, size_t reference,
-                                               const Part& part) {
+                                               const Part& part, double most_s) {
+  sim::MeasurePlan plan = sim::plan_blocks(part.experiment.scenario, options_.blocks, options_.ticks);
+  plan.most_ms = 1e3 * most_s;
   // Settings that lose paths on purpose would warn of each one.
   const spdlog::level::level_enum level = spdlog::get_level();
   if (level == spdlog::level::info) spdlog::set_level(spdlog::level::err);
   const std::shared_ptr<void> restored(nullptr, [level](void*) { spdlog::set_level(level); });
-  std::vector<sim::SettingResult> results = sim::measure_settings(
-      device_, settings, reference, sim::kind_of(part.modality), plan_of(part), [](double) {
+  std::vector<sim::SettingResult> results =
+      sim::measure_settings(device_, settings, reference, sim::kind_of(part.modality), plan, [](double) {
         if (interrupted()) throw Stopped();
       });
   check_validation(device_);
@@ -281,9 +281,10 @@ void Study::add_knob(std::string_view part, std::string_view kind, const sim::Kn
 
 void Study::measure_knob(const Part& part, const sim::Knob& knob) {
   add_knob(sim::name_of(part.modality), sim::kind_of(part.modality), knob, [&] {
-    return sim::measure_knob(
-        part.experiment, knob, whole_, scenario_options_.assets,
-        [&](const auto& settings, size_t reference) { return measure(settings, reference, part); });
+    return sim::measure_knob(part.experiment, knob, whole_, scenario_options_.assets,
+                             [&](const auto& settings, size_t reference) {
+                               return measure(settings, reference, part, options_.knob_s);
+                             });
   });
 }
 
@@ -431,7 +432,8 @@ void Study::measure_front(const Part& part) {
       } catch (const UserError&) {  // settings that exclude each other
         if (&point == &points.back()) throw;
       }
-    const std::vector<sim::SettingResult> results = measure(settings, settings.size() - 1, part);
+    const std::vector<sim::SettingResult> results =
+        measure(settings, settings.size() - 1, part, options_.joint_s);
     for (size_t i = 0; i < results.size(); ++i) {
       Json point{{"settings", Json::object()},
                  {"predicted_ms", kept[i].ms},

@@ -31,6 +31,8 @@ struct StudyOptions {
   std::vector<std::string> knobs;  ///< by name; empty: all
   int64_t blocks = 2, ticks = 4;   ///< timed: so many blocks of so many ticks
   size_t joint = 8;                ///< joint settings that are measured for each modality
+  double knob_s = 8.0;    ///< ends a knob early, when each setting has two timed ticks; see MeasurePlan
+  double joint_s = 40.0;  ///< the same of the joint settings of a modality
   /// Knobs whose reference costs more than so many times the default take no part in joint settings.
   double most_factor = 50.0;
   bool quiet = false;
@@ -74,9 +76,9 @@ class Study {
   void keep();
   bool has_knob(std::string_view part, const std::string& name) const;
   bool has_front(sim::Modality modality) const;
-  sim::MeasurePlan plan_of(const Part& part) const;
+  /// Measurements end early after `most_s`.
   std::vector<sim::SettingResult> measure(const std::vector<sim::Experiment>& settings, size_t reference,
-                                          const Part& part);
+                                          const Part& part, double most_s);
   /// Measures a knob by `measure` and keeps its results. Pictures are those of sensors of `kind`.
   void add_knob(std::string_view part, std::string_view kind, const sim::Knob& knob,
                 const std::function<sim::KnobResult()>& measure);

@@ -166,11 +166,14 @@ class Turns {
   /// Calls `timed` after each timed tick, when the packets of all settings are there.
   void run(const std::function<void()>& timed) {
     const int64_t length = plan_.warm_up + plan_.ticks;
+    size_t timed_ticks = 0;
     for (size_t block = 0; block < plan_.starts.size(); ++block) {
       for (size_t i = 0; i < runners_.size(); ++i) runners_[i]->start(plan_.starts[block], results_[i]);
       for (int64_t tick = 0; tick < length; ++tick) {
         if (!step(block, tick)) break;
-        if (tick >= plan_.warm_up) timed();
+        if (tick < plan_.warm_up) continue;
+        timed();
+        if (++timed_ticks >= 2 && watch_.wall_ms() > plan_.most_ms) return;
       }
     }
   }
@@ -193,6 +196,7 @@ class Turns {
     return ran;
   }
 
+  const Stopwatch watch_;
   MeasurePlan plan_;
   const std::function<void(double)> progress_;
   std::vector<std::unique_ptr<Runner>> runners_;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -26,6 +27,8 @@ struct MeasurePlan {
   int64_t warm_up = 1;             ///< ticks of each block that are neither timed nor compared
   int64_t ticks = 4;               ///< of each block after these
   bool each_tick = false;          ///< keeps the errors of each tick by itself, too
+  /// Ends early when all settings together have taken so long, but not before two timed ticks of each.
+  double most_ms = std::numeric_limits<double>::infinity();
 };
 
 /// Returns the ticks from one record to the next of the sensor or channel with the highest rate; at least 1.
