@@ -9,10 +9,9 @@
 //               "settings": [{"label", "value", "tick_ms", "cpu_ms", "start_ms", "exact", "picture",
 //                             "errors": [{"sensor", "name", "unit", "value", "meaning"}]}]}],
 //    "absent": [{"name", "why"}],
-//    "fronts": [{"modality", "sensor", "figure", "unit", "how",
-//                "points": [{"settings": {KNOB: LABEL}, "predicted_ms", "predicted_error", "tick_ms",
-// "error",
-//                            "default", "reference"}]}]}
+//    "fronts": [{"modality", "sensor", "figure", "unit", "how", "costly",
+//                "points": [{"settings": {KNOB: LABEL}, "predicted_ms", "predicted_error",
+//                            "tick_ms", "error", "default", "reference"}]}]}
 //
 // "timed" says what tick_ms and cpu_ms are of: "tick" (also if it is absent), or "map". They are
 // {"median", "low", "high", "count"}, with the quartiles. `value` of an error is null

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "apps/tradeoff/report_parts.h"
 #include "io/files/file.h"
@@ -224,6 +225,11 @@ class Page {
   void add_front(const Json& front) {
     html_ += fmt::format("<section><h3>Joint settings of {}</h3><p>{}</p>\n",
                          escaped(text_of(front, "modality")), escaped(text_of(front, "how")));
+    if (const Json costly = front.value("costly", Json::array()); !costly.empty())
+      html_ += fmt::format(
+          "<p>These costly knobs go no further than the scenario's own setting, and the reference here has "
+          "that: {}.</p>\n",
+          escaped(fmt::format("{}", fmt::join(costly.get<std::vector<std::string>>(), ", "))));
     html_ += in_scroller(plot_of_front(front, device_line(report_)));
     html_ += fmt::format(
         "<div class=\"scroll\"><table><tr><th>point</th><th>tick, ms</th><th>predicted</th>"

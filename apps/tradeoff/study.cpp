@@ -76,8 +76,9 @@ constexpr const char* how_measured =
 constexpr const char* how_searched =
     "The search predicts joint settings from the single knobs: slower settings add their time, faster ones "
     "multiply it by their factor, and errors add as squares. It joins knob by knob and keeps every joint "
-    "setting that no other one beats. Knobs whose reference is many times as slow as the default stay at the "
-    "default. Joint settings spread over that predicted front were then "
+    "setting that no other one beats. Where all references at once would take too long, costly knobs "
+    "go no further than the scenario's own setting. Joint settings spread over that predicted front were "
+    "then "
     "measured together, in turns, against all knobs at their references at once.";
 
 }  // namespace
@@ -345,11 +346,15 @@ bool Study::run() {
 
 namespace {
 
+/// A knob whose reference costs more than so many times the scenario's own setting is a costly one.
+constexpr double costly_factor = 2.0;
+
 /// A knob that may take part in joint settings, with the places of its settings in the report.
 struct JointKnob {
   const sim::Knob* knob;
   sim::FrontKnob front;
-  size_t standard;
+  size_t standard, reference;
+  double factor = 1.0;  ///< cost of the reference over that of the scenario's own setting
 };
 
 /// Returns the figure to judge by: the first one of the first setting that has any; null: none.
@@ -361,14 +366,16 @@ const Json* first_figure(const Json& knob) {
 
 double time_of(const Json& setting) { return setting["tick_ms"]["median"].get<double>(); }
 
+/// Of a block as short as joint settings may have: one start, a warm-up and two timed ticks.
+double cost_of(const Json& setting) { return setting["start_ms"].get<double>() + 3.0 * time_of(setting); }
+
 /// Takes a knob's times and errors from the report.
-std::optional<JointKnob> joint_knob(const sim::Knob& knob, const Json& measured, const std::string& figure,
-                                    double most_factor) {
+std::optional<JointKnob> joint_knob(const sim::Knob& knob, const Json& measured, const std::string& figure) {
   if (!knob.context.empty() || !knob.standard || measured["settings"].size() != knob.settings.size())
     return {};
-  JointKnob joint{&knob, {}, *knob.standard};
-  const double own = time_of(measured["settings"][*knob.standard]);
-  if (time_of(measured["settings"][knob.reference]) > most_factor * own) return {};
+  JointKnob joint{&knob, {}, *knob.standard, knob.reference};
+  joint.factor =
+      cost_of(measured["settings"][knob.reference]) / cost_of(measured["settings"][*knob.standard]);
   bool matters = false;
   for (const Json& setting : measured["settings"]) {
     sim::FrontSetting point{time_of(setting), 0.0};
@@ -383,13 +390,49 @@ std::optional<JointKnob> joint_knob(const sim::Knob& knob, const Json& measured,
   return joint;
 }
 
+/// Makes the scenario's own setting the reference: the dearer ones can no longer be chosen.
+void limit_to_own(JointKnob& knob) {
+  std::vector<sim::FrontSetting>& settings = knob.front.settings;
+  const sim::FrontSetting own = settings[knob.standard];
+  for (size_t i = 0; i < settings.size(); ++i) {
+    const bool dearer = i != knob.standard && settings[i].ms > own.ms;
+    settings[i].power =
+        dearer ? std::numeric_limits<double>::infinity() : std::max(0.0, settings[i].power - own.power);
+  }
+  knob.reference = knob.standard;
+  knob.factor = 1.0;
+}
+
+/// Limits knobs until all references at once cost at most `most` times the scenario's own settings. It
+/// assumes that factors multiply, since a knob that makes more links or paths makes the others dearer. Of the
+/// costly ones, that goes first whose own error is smallest; a last one may cost four times as much. Returns
+/// their names.
+std::vector<std::string> limit_costly(std::vector<JointKnob>& knobs, double most) {
+  std::vector<std::string> limited;
+  for (;;) {
+    double product = 1.0;
+    size_t costly = 0;
+    JointKnob* out = nullptr;
+    const auto own_power = [](const JointKnob& knob) { return knob.front.settings[knob.standard].power; };
+    for (JointKnob& knob : knobs) {
+      product *= std::max(1.0, knob.factor);
+      if (knob.factor <= costly_factor) continue;
+      ++costly;
+      if (out == nullptr || own_power(knob) < own_power(*out)) out = &knob;
+    }
+    if (costly == 0 || product <= (costly == 1 ? 4.0 : 1.0) * most) return limited;
+    limited.push_back(out->knob->name);
+    limit_to_own(*out);
+  }
+}
+
 }  // namespace
 
 void Study::measure_front(const Part& part) {
   const std::string modality(sim::name_of(part.modality));
   std::vector<JointKnob> joint;
   std::string figure, unit, sensor;
-  double own_ms = 0.0;
+  double own_ms = 0.0, own_cost_ms = 0.0;
   for (const Json& measured : report_["knobs"]) {
     if (measured["modality"] != modality || !measured["skipped"].get<std::string>().empty()) continue;
     const auto knob = std::ranges::find(part.knobs, measured["name"].get<std::string>(), &sim::Knob::name);
@@ -399,12 +442,19 @@ void Study::measure_front(const Part& part) {
       unit = (*first)["unit"];
       sensor = (*first)["sensor"];
     }
-    std::optional<JointKnob> one = joint_knob(*knob, measured, figure, options_.most_factor);
+    std::optional<JointKnob> one = joint_knob(*knob, measured, figure);
     if (!one) continue;
-    if (own_ms == 0.0) own_ms = time_of(measured["settings"][one->standard]);
+    if (own_ms == 0.0) {
+      own_ms = time_of(measured["settings"][one->standard]);
+      own_cost_ms = cost_of(measured["settings"][one->standard]);
+    }
     joint.push_back(std::move(*one));
   }
-  Json json{{"modality", modality}, {"sensor", sensor},    {"figure", figure},
+  // Two of the joint settings are the scenario's own and the finest one.
+  const std::vector<std::string> costly =
+      limit_costly(joint, 1e3 * options_.joint_s /
+                              (static_cast<double>(options_.joint + 2) * std::max(own_cost_ms, 1e-3)));
+  Json json{{"modality", modality}, {"sensor", sensor},    {"figure", figure},       {"costly", costly},
             {"unit", unit},         {"how", how_searched}, {"points", Json::array()}};
   if (!joint.empty()) {
     std::vector<sim::FrontKnob> knobs;
@@ -415,7 +465,7 @@ void Study::measure_front(const Part& part) {
         point = sim::joined(std::move(point), own_ms, knob.front.settings[setting], setting);
       };
       take(standard, knob.standard);
-      take(finest, knob.knob->reference);
+      take(finest, knob.reference);
     }
     std::vector<sim::FrontPoint> points = sim::thinned(sim::front_of(own_ms, knobs), options_.joint);
     points.push_back(standard);

@@ -31,10 +31,11 @@ struct StudyOptions {
   std::vector<std::string> knobs;  ///< by name; empty: all
   int64_t blocks = 2, ticks = 4;   ///< timed: so many blocks of so many ticks
   size_t joint = 8;                ///< joint settings that are measured for each modality
-  double knob_s = 8.0;    ///< ends a knob early, when each setting has two timed ticks; see MeasurePlan
-  double joint_s = 40.0;  ///< the same of the joint settings of a modality
-  /// Knobs whose reference costs more than so many times the default take no part in joint settings.
-  double most_factor = 50.0;
+  /// A knob ends early after so long, when each setting has two timed ticks; see MeasurePlan.
+  double knob_s = 8.0;
+  /// The same of the joint settings of a modality. Knobs whose references together would take longer than
+  /// that go no further than the scenario's own setting.
+  double joint_s = 40.0;
   bool quiet = false;
 };
 

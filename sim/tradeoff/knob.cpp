@@ -43,7 +43,7 @@ std::optional<Modality> modality_of(std::string_view name) {
 }
 
 bool is_effect(const Knob& knob) {
-  return knob.settings.size() == 2 && knob.settings[0].changes.size() == 1 &&
+  return knob.settings.front().label == "off" && knob.settings[0].changes.size() == 1 &&
          knob.settings[0].changes[0].path.front() == YamlStep("effects");
 }
 

@@ -50,7 +50,7 @@ struct Knob {
   std::string timed = "tick";      ///< what a time is of: "tick", or "map" (map_study.h)
 };
 
-/// Whether a knob switches one effect: its settings are off and on.
+/// Whether a knob switches one effect: its settings are off and on, and `auto` between where that differs.
 bool is_effect(const Knob& knob);
 
 /// Whether the scenario has sensors of the modality, or a channel.

@@ -90,12 +90,14 @@ class Table {
     knob.reference = knob.settings.size() - 1;
     return knob;
   }
-  /// Adds an effect; on is the reference.
+  /// Adds an effect; on is the reference. One that `auto` applies to some links alone has that between.
   void add_effect(const Effect& effect, const std::string& about) {
     Knob& knob = add(effect.name, about);
-    for (const bool on : {false, true})
-      knob.settings.push_back({on ? "on" : "off", {}, {effect_change(effect.name, on)}});
-    knob.reference = 1;
+    knob.settings.push_back({"off", {}, {effect_change(effect.name, false)}});
+    if (effect.on && by_link(effect.name))
+      knob.settings.push_back({"auto", {}, {set({"effects", effect.name}, "auto")}});
+    knob.settings.push_back({"on", {}, {effect_change(effect.name, true)}});
+    knob.reference = knob.settings.size() - 1;
     knob.standard = effect.on ? 1 : 0;
     if (!effect.on && effect.bound.empty() && !asked_for(effect.name))
       knob.skipped = "nothing to act on: " + effect.reason;
@@ -114,6 +116,11 @@ class Table {
   std::vector<Knob> take() { return std::move(knobs_); }
 
  private:
+  /// Whether `auto` applies the effect to a few links alone, and `on` to all of them.
+  bool by_link(const std::string& name) const {
+    const auto wish = scenario().effects.find(name);
+    return name == "every_element" && (wish == scenario().effects.end() || wish->second != Switch::on);
+  }
   /// Effects that `auto` leaves off although they may have something to act on.
   static bool asked_for(const std::string& name) {
     static const std::set<std::string> names{"diffraction", "free_edges",    "scattering",
