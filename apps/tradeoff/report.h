@@ -9,7 +9,7 @@
 //               "settings": [{"label", "value", "tick_ms", "cpu_ms", "start_ms", "exact", "picture",
 //                             "errors": [{"sensor", "name", "unit", "value", "meaning"}]}]}],
 //    "absent": [{"name", "why"}],
-//    "fronts": [{"modality", "sensor", "figure", "unit", "how", "costly",
+//    "fronts": [{"modality", "sensor", "figure", "unit", "how", "context", "costly",
 //                "points": [{"settings": {KNOB: LABEL}, "predicted_ms", "predicted_error",
 //                            "tick_ms", "error", "default", "reference"}]}]}
 //

@@ -223,8 +223,10 @@ class Page {
   }
 
   void add_front(const Json& front) {
-    html_ += fmt::format("<section><h3>Joint settings of {}</h3><p>{}</p>\n",
-                         escaped(text_of(front, "modality")), escaped(text_of(front, "how")));
+    const std::string context = front.value("context", "");
+    html_ += fmt::format("<section><h3>Joint settings of {}{}</h3><p>{}</p>\n",
+                         escaped(text_of(front, "modality")), escaped(context.empty() ? "" : ", " + context),
+                         escaped(text_of(front, "how")));
     if (const Json costly = front.value("costly", Json::array()); !costly.empty())
       html_ += fmt::format(
           "<p>These costly knobs go no further than the scenario's own setting, and the reference here has "

@@ -15,11 +15,11 @@
 #include "apps/console/json_text.h"
 #include "apps/console/progress.h"
 #include "apps/tradeoff/report.h"
+#include "apps/tradeoff/study_json.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "io/files/file.h"
 #include "io/formats/png.h"
-#include "sim/tradeoff/front.h"
 
 namespace greatx::apps {
 
@@ -30,17 +30,9 @@ using Json = nlohmann::json;
 /// Thrown by the progress of a measurement to stop it.
 struct Stopped {};
 
-/// JSON has no infinity: null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json json_of(const std::vector<double>& samples) {
-  const sim::Spread spread = sim::spread_of(samples);
-  return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}, {"count", spread.count}};
-}
-
 Json json_of(const sim::SettingResult& result) {
-  Json json{{"tick_ms", json_of(result.wall_ms)},
-            {"cpu_ms", json_of(result.cpu_ms)},
+  Json json{{"tick_ms", spread_json(result.wall_ms)},
+            {"cpu_ms", spread_json(result.cpu_ms)},
             {"start_ms", sim::spread_of(result.start_ms).median},
             {"exact", result.exact},
             {"errors", Json::array()}};
@@ -73,14 +65,6 @@ constexpr const char* how_measured =
     "the ticks after the warm-up, of which slow settings have fewer; files are not written. Errors are those "
     "of the records against the records "
     "of the reference setting at the same ticks.";
-constexpr const char* how_searched =
-    "The search predicts joint settings from the single knobs: slower settings add their time, faster ones "
-    "multiply it by their factor, and errors add as squares. It joins knob by knob and keeps every joint "
-    "setting that no other one beats. Where all references at once would take too long, costly knobs "
-    "go no further than the scenario's own setting. Joint settings spread over that predicted front were "
-    "then "
-    "measured together, in turns, against all knobs at their references at once.";
-
 }  // namespace
 
 Study::Study(const ScenarioOptions& scenario, const RunOptions& run, const StudyOptions& options,
@@ -340,172 +324,6 @@ bool Study::run() {
   }
   keep();
   return true;
-}
-
-// ------------------------------------------------------------------------------------------------- the front
-
-namespace {
-
-/// A knob whose reference costs more than so many times the scenario's own setting is a costly one.
-constexpr double costly_factor = 2.0;
-
-/// A knob that may take part in joint settings, with the places of its settings in the report.
-struct JointKnob {
-  const sim::Knob* knob;
-  sim::FrontKnob front;
-  size_t standard, reference;
-  double factor = 1.0;  ///< cost of the reference over that of the scenario's own setting
-};
-
-/// Returns the figure to judge by: the first one of the first setting that has any; null: none.
-const Json* first_figure(const Json& knob) {
-  for (const Json& setting : knob["settings"])
-    if (!setting["errors"].empty()) return &setting["errors"].front();
-  return nullptr;
-}
-
-double time_of(const Json& setting) { return setting["tick_ms"]["median"].get<double>(); }
-
-/// Of a block as short as joint settings may have: one start, a warm-up and two timed ticks.
-double cost_of(const Json& setting) { return setting["start_ms"].get<double>() + 3.0 * time_of(setting); }
-
-/// Takes a knob's times and errors from the report.
-std::optional<JointKnob> joint_knob(const sim::Knob& knob, const Json& measured, const std::string& figure) {
-  if (!knob.context.empty() || !knob.standard || measured["settings"].size() != knob.settings.size())
-    return {};
-  JointKnob joint{&knob, {}, *knob.standard, knob.reference};
-  joint.factor =
-      cost_of(measured["settings"][knob.reference]) / cost_of(measured["settings"][*knob.standard]);
-  bool matters = false;
-  for (const Json& setting : measured["settings"]) {
-    sim::FrontSetting point{time_of(setting), 0.0};
-    for (const Json& error : setting["errors"])
-      if (error["name"] == figure && !error["value"].is_null())
-        point.power =
-            std::max(point.power, sim::error_power(error["value"].get<double>(), sim::relative_db(figure)));
-    matters |= !setting["exact"].get<bool>();
-    joint.front.settings.push_back(point);
-  }
-  if (!matters) return {};
-  return joint;
-}
-
-/// Makes the scenario's own setting the reference: the dearer ones can no longer be chosen.
-void limit_to_own(JointKnob& knob) {
-  std::vector<sim::FrontSetting>& settings = knob.front.settings;
-  const sim::FrontSetting own = settings[knob.standard];
-  for (size_t i = 0; i < settings.size(); ++i) {
-    const bool dearer = i != knob.standard && settings[i].ms > own.ms;
-    settings[i].power =
-        dearer ? std::numeric_limits<double>::infinity() : std::max(0.0, settings[i].power - own.power);
-  }
-  knob.reference = knob.standard;
-  knob.factor = 1.0;
-}
-
-/// Limits knobs until all references at once cost at most `most` times the scenario's own settings. It
-/// assumes that factors multiply, since a knob that makes more links or paths makes the others dearer. Of the
-/// costly ones, that goes first whose own error is smallest; a last one may cost four times as much. Returns
-/// their names.
-std::vector<std::string> limit_costly(std::vector<JointKnob>& knobs, double most) {
-  std::vector<std::string> limited;
-  for (;;) {
-    double product = 1.0;
-    size_t costly = 0;
-    JointKnob* out = nullptr;
-    const auto own_power = [](const JointKnob& knob) { return knob.front.settings[knob.standard].power; };
-    for (JointKnob& knob : knobs) {
-      product *= std::max(1.0, knob.factor);
-      if (knob.factor <= costly_factor) continue;
-      ++costly;
-      if (out == nullptr || own_power(knob) < own_power(*out)) out = &knob;
-    }
-    if (costly == 0 || product <= (costly == 1 ? 4.0 : 1.0) * most) return limited;
-    limited.push_back(out->knob->name);
-    limit_to_own(*out);
-  }
-}
-
-}  // namespace
-
-void Study::measure_front(const Part& part) {
-  const std::string modality(sim::name_of(part.modality));
-  std::vector<JointKnob> joint;
-  std::string figure, unit, sensor;
-  double own_ms = 0.0, own_cost_ms = 0.0;
-  for (const Json& measured : report_["knobs"]) {
-    if (measured["modality"] != modality || !measured["skipped"].get<std::string>().empty()) continue;
-    const auto knob = std::ranges::find(part.knobs, measured["name"].get<std::string>(), &sim::Knob::name);
-    if (knob == part.knobs.end()) continue;
-    if (const Json* const first = first_figure(measured); first != nullptr && figure.empty()) {
-      figure = (*first)["name"];
-      unit = (*first)["unit"];
-      sensor = (*first)["sensor"];
-    }
-    std::optional<JointKnob> one = joint_knob(*knob, measured, figure);
-    if (!one) continue;
-    if (own_ms == 0.0) {
-      own_ms = time_of(measured["settings"][one->standard]);
-      own_cost_ms = cost_of(measured["settings"][one->standard]);
-    }
-    joint.push_back(std::move(*one));
-  }
-  // Two of the joint settings are the scenario's own and the finest one.
-  const std::vector<std::string> costly =
-      limit_costly(joint, 1e3 * options_.joint_s /
-                              (static_cast<double>(options_.joint + 2) * std::max(own_cost_ms, 1e-3)));
-  Json json{{"modality", modality}, {"sensor", sensor},    {"figure", figure},       {"costly", costly},
-            {"unit", unit},         {"how", how_searched}, {"points", Json::array()}};
-  if (!joint.empty()) {
-    std::vector<sim::FrontKnob> knobs;
-    sim::FrontPoint standard, finest;
-    for (const JointKnob& knob : joint) {
-      knobs.push_back(knob.front);
-      const auto take = [&](sim::FrontPoint& point, size_t setting) {
-        point = sim::joined(std::move(point), own_ms, knob.front.settings[setting], setting);
-      };
-      take(standard, knob.standard);
-      take(finest, knob.reference);
-    }
-    std::vector<sim::FrontPoint> points = sim::thinned(sim::front_of(own_ms, knobs), options_.joint);
-    points.push_back(standard);
-    points.push_back(finest);
-    std::vector<sim::Experiment> settings;
-    std::vector<sim::FrontPoint> kept;
-    for (const sim::FrontPoint& point : points) try {
-        std::vector<YamlChange> changes;
-        for (size_t k = 0; k < joint.size(); ++k)
-          for (const YamlChange& change : joint[k].knob->settings[point.choice[k]].changes)
-            changes.push_back(change);
-        settings.push_back(sim::experiment_with(part.experiment, changes, whole_, scenario_options_.assets));
-        kept.push_back(point);
-      } catch (const UserError&) {  // settings that exclude each other
-        if (&point == &points.back()) throw;
-      }
-    const std::vector<sim::SettingResult> results =
-        measure(settings, settings.size() - 1, part, options_.joint_s);
-    for (size_t i = 0; i < results.size(); ++i) {
-      Json point{{"settings", Json::object()},
-                 {"predicted_ms", kept[i].ms},
-                 {"predicted_error", number(sim::error_of_power(kept[i].power, sim::relative_db(figure)))},
-                 {"tick_ms", json_of(results[i].wall_ms)},
-                 {"error", nullptr},
-                 {"default", i + 2 == results.size()},
-                 {"reference", i + 1 == results.size()}};
-      for (size_t k = 0; k < joint.size(); ++k)
-        if (kept[i].choice[k] != joint[k].standard)
-          point["settings"][joint[k].knob->name] = joint[k].knob->settings[kept[i].choice[k]].label;
-      double worst = -std::numeric_limits<double>::infinity();
-      for (const sim::SensorError& error : results[i].errors)
-        if (error.figure.name == figure) worst = std::max(worst, error.figure.value);
-      point["error"] = number(worst);
-      json["points"].push_back(std::move(point));
-    }
-  }
-  report_["fronts"].push_back(std::move(json));
-  keep();
-  ++done_;
-  say(fmt::format("{}: {} joint settings", modality, report_["fronts"].back()["points"].size()));
 }
 
 }  // namespace greatx::apps

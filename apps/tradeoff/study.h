@@ -39,6 +39,8 @@ struct StudyOptions {
   bool quiet = false;
 };
 
+struct JointKnobs;  // study_front.cpp
+
 class Study {
  public:
   /// Reads what an earlier call has left in `folder`. Throws UserError if that is of another scenario, device
@@ -86,6 +88,9 @@ class Study {
   void measure_knob(const Part& part, const sim::Knob& knob);
   void measure_maps(const MapPart& part);
   void measure_front(const Part& part);
+  /// Measures joint settings together; the last two are the scenario's own and the finest one. Returns the
+  /// "points" of the report.
+  nlohmann::json measure_joint(const Part& part, const JointKnobs& joint, const std::string& figure);
   std::string keep_picture(const sim::SettingResult& result, std::string_view kind,
                            const std::string& name) const;
   void say(const std::string& text) const;

@@ -12,6 +12,21 @@ namespace {
 
 constexpr double least_power = 1e-20;  ///< stands for 0 on a logarithmic scale
 
+constexpr double costly_factor = 2.0;  ///< above it, a knob's reference is costly
+constexpr double last_share = 4.0;     ///< of the limit that a single costly knob may take
+
+/// Makes the scenario's own setting the reference: the dearer ones can no longer be chosen.
+void limit_to_own(FrontKnob& knob) {
+  const FrontSetting own = knob.settings[knob.standard];
+  for (size_t i = 0; i < knob.settings.size(); ++i) {
+    const bool dearer = i != knob.standard && knob.settings[i].ms > own.ms;
+    knob.settings[i].power =
+        dearer ? std::numeric_limits<double>::infinity() : std::max(0.0, knob.settings[i].power - own.power);
+  }
+  knob.reference = knob.standard;
+  knob.factor = 1.0;
+}
+
 /// Keeps what is not beaten, by ascending time.
 std::vector<FrontPoint> unbeaten(std::vector<FrontPoint> points) {
   std::ranges::sort(points, [](const FrontPoint& a, const FrontPoint& b) {
@@ -82,6 +97,24 @@ std::vector<FrontPoint> front_of(double own_ms, const std::vector<FrontKnob>& kn
     front = thinned(unbeaten(std::move(joint)), most);
   }
   return front;
+}
+
+std::vector<size_t> limit_costly(std::vector<FrontKnob>& knobs, double most) {
+  std::vector<size_t> limited;
+  for (;;) {
+    double product = 1.0;
+    size_t costly = 0, out = knobs.size();
+    const auto own_power = [&](size_t k) { return knobs[k].settings[knobs[k].standard].power; };
+    for (size_t k = 0; k < knobs.size(); ++k) {
+      product *= std::max(1.0, knobs[k].factor);
+      if (knobs[k].factor <= costly_factor) continue;
+      ++costly;
+      if (out == knobs.size() || own_power(k) < own_power(out)) out = k;
+    }
+    if (costly == 0 || product <= (costly == 1 ? last_share : 1.0) * most) return limited;
+    limited.push_back(out);
+    limit_to_own(knobs[out]);
+  }
 }
 
 }  // namespace greatx::sim

@@ -24,6 +24,9 @@ struct FrontSetting {
 };
 struct FrontKnob {
   std::vector<FrontSetting> settings;
+  size_t standard = 0;   ///< the scenario's own setting
+  size_t reference = 0;  ///< the finest one that may be chosen
+  double factor = 1.0;   ///< cost of the reference over that of the scenario's own setting
 };
 
 struct FrontPoint {
@@ -40,6 +43,13 @@ FrontPoint joined(FrontPoint point, double own_ms, const FrontSetting& setting, 
 /// `most` of them after each knob; of more, those are kept whose errors are spread most evenly on a
 /// logarithmic scale, with both ends. The search goes knob by knob.
 std::vector<FrontPoint> front_of(double own_ms, const std::vector<FrontKnob>& knobs, size_t most = 400);
+
+/// Limits knobs to the scenario's own setting and to faster ones, until all references at once cost at most
+/// `most` times the scenario. It assumes that factors multiply, since a knob that makes more links or paths
+/// makes the others dearer. Of the knobs whose factor is above 2, that goes first whose own error is smallest;
+/// a last one may cost four times `most`. Limited settings have infinite power, and the scenario's own setting
+/// becomes the reference. Returns the indices of these knobs in the order in which they went.
+std::vector<size_t> limit_costly(std::vector<FrontKnob>& knobs, double most);
 
 /// Returns at most `count` points spread over the front, with both ends.
 std::vector<FrontPoint> thinned(std::vector<FrontPoint> front, size_t count);

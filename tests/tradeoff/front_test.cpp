@@ -53,6 +53,29 @@ TEST(Front, IsThatOfAllJointSettings) {
   }
 }
 
+TEST(Front, CostlyKnobsAreLimitedTheLeastImportantFirst) {
+  const auto knob = [](double own_power, double factor) {
+    FrontKnob front{{{1.0, 0.5}, {10.0, own_power}, {10.0 * factor, 0.0}}, 1, 2, factor};
+    return front;
+  };
+  std::vector<FrontKnob> knobs{knob(1e-2, 10.0), knob(1e-5, 1.5), knob(1e-4, 8.0), knob(1e-3, 5.0)};
+  // 10 * 1.5 * 8 * 5 = 600; without the third one 75.
+  EXPECT_EQ(limit_costly(knobs, 600.0), std::vector<size_t>{});
+  EXPECT_EQ(limit_costly(knobs, 100.0), std::vector<size_t>{2});
+  EXPECT_EQ(knobs[2].reference, 1u);
+  EXPECT_EQ(knobs[2].settings[1].power, 0.0) << "the new reference";
+  EXPECT_DOUBLE_EQ(knobs[2].settings[0].power, 0.5 - 1e-4);
+  EXPECT_EQ(knobs[2].settings[2].power, std::numeric_limits<double>::infinity());
+  // No joint setting of the front has what is out.
+  for (const FrontPoint& point : front_of(10.0, knobs)) EXPECT_NE(point.choice[2], 2u);
+  // A last costly knob may take four times the limit; the one that costs little stays.
+  EXPECT_EQ(limit_costly(knobs, 4.0), std::vector<size_t>{3});
+  EXPECT_EQ(limit_costly(knobs, 1.0), std::vector<size_t>{0});
+  EXPECT_EQ(knobs[1].reference, 2u);
+  std::vector<FrontKnob> none;
+  EXPECT_TRUE(limit_costly(none, 0.0).empty());
+}
+
 TEST(Front, ThinnedKeepsBothEndsAndOrder) {
   std::mt19937 random(5);
   const std::vector<FrontPoint> front = front_of(10.0, random_knobs(random, 6), 100000);

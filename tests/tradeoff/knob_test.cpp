@@ -92,6 +92,32 @@ double error_of(const SettingResult& result, const std::string& name) {
   return 0.0;
 }
 
+TEST(Knobs, WhatActsOnAFewLinksHasAuto) {
+  const Experiment whole = make_experiment(embedded("city")), experiment = alone_of(whole, Modality::csi);
+  const std::vector<Knob> knobs = knobs_of(experiment, Modality::csi, false);
+  const Knob& knob = knob_of(knobs, "every_element");
+  EXPECT_TRUE(is_effect(knob));
+  ASSERT_EQ(knob.settings.size(), 3u);
+  EXPECT_EQ(knob.settings[1].label, "auto");
+  EXPECT_EQ(knob.standard, 1u);
+  EXPECT_EQ(knob.reference, 2u);
+  EXPECT_EQ(knob_of(knobs, "reflection").settings.size(), 2u);
+}
+
+TEST(Measure, EndsEarlyWithTwoTimedTicksOfEachSetting) {
+  const Experiment whole = make_experiment(embedded("room")), experiment = alone_of(whole, Modality::csi);
+  const std::vector<Knob> knobs = knobs_of(experiment, Modality::csi, true);
+  const Knob& depth = knob_of(knobs, "max_depth");
+  MeasurePlan plan = plan_blocks(whole.scenario, 2, 4);
+  plan.most_ms = 0.0;
+  for (const SettingResult& result : measure_settings(test::device(), experiments_of(experiment, depth),
+                                                      depth.reference, "csi", plan, [](double) {})) {
+    EXPECT_EQ(result.wall_ms.size(), 2u);
+    EXPECT_EQ(result.start_ms.size(), 1u);
+    EXPECT_FALSE(result.errors.empty());
+  }
+}
+
 TEST(Measure, DeeperPathsAreNearerToTheDeepest) {
   const Experiment whole = make_experiment(embedded("room")), experiment = alone_of(whole, Modality::csi);
   const std::vector<Knob> knobs = knobs_of(experiment, Modality::csi, true);
