@@ -41,7 +41,7 @@ void run_tradeoff(TradeoffOptions options) {
     options.study.blocks = 1;
     options.study.ticks = 2;
     options.study.joint = 3;
-    options.study.joint_s = 5.0;
+    options.study.joint_s = 3.0;
   }
   install_interrupt_handler();
   Study study(options.scenario, options.run, options.study, options.output);

@@ -313,6 +313,8 @@ void add_events(Table& table) {
       "px");
   add("steps by brightness", "brightness", "max_change", {8, 4, 2, 1, 0.5},
       "adaptive steps: change of a pixel between pictures at most", "thresholds");
+  table.skip_if_quick("steps by flow", "many steps");
+  table.skip_if_quick("steps by brightness", "many steps");
 }
 
 void add_lidar(Table& table) {
