@@ -45,12 +45,6 @@ ChannelSearch::ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& m
       transmitter_{.body = ends.transmitter.body, .kept = ends.transmitter.rests} {
   choose(plan, ends);
   list_sources(ends);
-  if (plan.diffraction.on && config_.candidates == ChannelConfig::Candidates::rays)
-    throw_user_error_at(
-        config_.where,
-        "channel '{}': candidates: expected beams, since diffraction is on and rays meet no edges; "
-        "found rays",
-        config_.name);
   if (way_ == Way::none) return;
   if (config_.candidates != ChannelConfig::Candidates::rays)
     make_beams();

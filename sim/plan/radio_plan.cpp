@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.h"
 #include "core/units.h"
 #include "rf/atmosphere/bounds.h"
 #include "rf/atmosphere/fog.h"
@@ -344,6 +345,17 @@ void plan_doppler(EffectPlan& plan, const Radio& radio) {
               : "");
 }
 
+/// Throws UserError if a channel cannot find what its effects ask for.
+void check_candidates(const EffectPlan& plan, const Scenario& scenario) {
+  for (const ChannelConfig& channel : scenario.channels)
+    if (plan.diffraction.on && channel.candidates == ChannelConfig::Candidates::rays)
+      throw_user_error_at(
+          channel.where,
+          "channel '{}': candidates: expected beams, since diffraction is on and rays meet no "
+          "edges; found rays",
+          channel.name);
+}
+
 }  // namespace
 
 rf::Weather weather_of(const Environment& environment) {
@@ -364,6 +376,7 @@ void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenar
   plan_reflection(plan, radio);
   plan_transmission(plan, radio);
   plan_on_request(plan, radio);
+  check_candidates(plan, scenario);
   const double longest_m = longest_path_m(scenario, scene, asks.max_depth, plan.moving_reflectors.on, points);
   plan_attenuation(plan, radio, scenario, longest_m);
   plan_finite_reflectors(plan, radio, scenario, scene, longest_m);

@@ -391,5 +391,19 @@ TEST(RadioPlan, CrownsThatAreOffAreNotThere) {
   }
 }
 
+TEST(RadioPlan, RaysThatMeetNoEdgesAreRefusedBeforeAnythingIsBuilt) {
+  const auto with = [](const std::string& candidates, const std::string& effects) {
+    plan(planned_scenario(candidates, effects), planned_street());
+  };
+  EXPECT_NO_THROW(with(", candidates: rays", ""));
+  EXPECT_NO_THROW(with("", switches("diffraction: on")));
+  try {
+    with(", candidates: rays", switches("diffraction: on"));
+    ADD_FAILURE() << "no error";
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("candidates: expected beams, since diffraction is on"));
+  }
+}
+
 }  // namespace
 }  // namespace greatx::sim
