@@ -46,9 +46,9 @@ std::vector<FrontPoint> front_of(double own_ms, const std::vector<FrontKnob>& kn
 
 /// Limits knobs to the scenario's own setting and to faster ones, until all references at once cost at most
 /// `most` times the scenario. It assumes that factors multiply, since a knob that makes more links or paths
-/// makes the others dearer. Of the knobs whose factor is above 2, that goes first whose own error is smallest;
-/// a last one may cost four times `most`. Limited settings have infinite power, and the scenario's own setting
-/// becomes the reference. Returns the indices of these knobs in the order in which they went.
+/// makes the others dearer. Of the knobs whose factor is above 2, that goes first whose own error is
+/// smallest; a last one may cost four times `most`. Limited settings have infinite power, and the scenario's
+/// own setting becomes the reference. Returns the indices of these knobs in the order in which they went.
 std::vector<size_t> limit_costly(std::vector<FrontKnob>& knobs, double most);
 
 /// Returns at most `count` points spread over the front, with both ends.
