@@ -167,7 +167,7 @@ void Study::measure_front(const Part& part) {
     }
     add(joint, *knob, measured, figure);
   }
-  // As many blocks as there are joint settings should fit, two of which are the scenario's own and the finest.
+  // A block of each joint setting should fit, the scenario's own and the finest among them.
   const auto settings = static_cast<double>(options_.joint + 2);
   const double most = 1e3 * options_.joint_s / (settings * std::max(joint.own_cost_ms, 1e-3));
   Json costly = Json::array();
