@@ -17,8 +17,8 @@ namespace greatx::apps {
 
 namespace {
 
-constexpr double width = 640.0, height = 360.0;
-constexpr double left = 70.0, right = 24.0, top = 34.0, bottom = 64.0;
+constexpr double width = 640.0, height = 374.0;
+constexpr double left = 70.0, right = 24.0, top = 34.0, bottom = 78.0;
 constexpr double exact_room = 26.0;  ///< below the axis: settings without error
 
 /// A place in a plot.
@@ -67,7 +67,10 @@ class Plot {
     axes();
     for (const Mark& mark : marks_) draw(mark);
   }
-  void note(const std::string& words) { text(left, height - 8, words, "var(--dim, #667085)", "start", 11); }
+  void note(const std::string& upper, const std::string& lower) {
+    text(left, height - 21, upper, "var(--dim, #667085)", "start", 11);
+    text(left, height - 7, lower, "var(--dim, #667085)", "start", 11);
+  }
   std::string take() { return svg_ + "</svg>\n"; }
 
  private:
@@ -180,8 +183,8 @@ std::string plot_of_knob(const nlohmann::json& knob, const std::string& device) 
   Plot plot(std::move(marks),
             fmt::format("{}: {}", knob["modality"].get<std::string>(), knob["name"].get<std::string>()),
             fmt::format("time of a {}, ms", timed_of(knob)), with_unit(figure, unit), unit != "dB");
-  plot.note(fmt::format("{}; median and quartiles; red: default, green: reference {}", device,
-                        knob["reference"].get<std::string>()));
+  plot.note(device, fmt::format("median and quartiles; red: default, green: reference {}",
+                                knob["reference"].get<std::string>()));
   return plot.take();
 }
 
@@ -211,8 +214,8 @@ std::string plot_of_front(const nlohmann::json& front, const std::string& device
   }
   Plot plot(std::move(marks), fmt::format("{}: joint settings", front["modality"].get<std::string>()),
             "time of a tick, ms", with_unit(front["figure"], front["unit"]), !db);
-  plot.note(device +
-            "; filled: measured, hollow: predicted; red: default, green: all knobs at their references");
+  plot.note(device,
+            "filled: measured, hollow: predicted; red: default, green: all knobs at their references");
   return plot.take();
 }
 
