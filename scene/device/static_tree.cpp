@@ -12,6 +12,7 @@
 
 #include "core/activity.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "shaders/shared/tree.h"
 
 namespace greatx::scene {
@@ -78,6 +79,9 @@ void for_triangles(const Scene& scene, const Body& body, const Function& functio
   }
 }
 
+/// Makes the tree. Parts of the order that do not overlap are divided at the same time: first level by level,
+/// then whole subtrees, once there are many. The nodes are in the order in which one thread visits them, so
+/// the number of threads changes nothing.
 class Builder {
  public:
   explicit Builder(std::vector<Leaf> leaves) : leaves_(std::move(leaves)), order_(leaves_.size()) {
@@ -88,7 +92,10 @@ class Builder {
       centers_.push_back(box.center());
     }
     std::iota(order_.begin(), order_.end(), 0u);
-    if (!order_.empty()) build(0, static_cast<uint32_t>(order_.size()), 0);
+    if (order_.empty()) return;
+    build_top();
+    nodes_.reserve(2 * order_.size());
+    append(0);
   }
 
   const std::vector<TreeNode>& nodes() const { return nodes_; }
@@ -96,9 +103,87 @@ class Builder {
   uint32_t depth() const { return depth_; }
 
  private:
-  uint32_t build(uint32_t first, uint32_t count, uint32_t level) {
-    const uint32_t me = static_cast<uint32_t>(nodes_.size());
+  /// A subtree with indices of its own.
+  struct Part {
+    std::vector<TreeNode> nodes;
+    uint32_t depth = 0;  ///< levels below the root of the tree
+  };
+  /// A node above the parts, or a part.
+  struct TopNode {
+    uint32_t first = 0, count = 0, level = 0;
     TreeNode node;
+    uint32_t in_left = 0;        ///< 0: a part
+    size_t left = 0, right = 0;  ///< places in top_
+    Part part;
+  };
+
+  void build_top() {
+    // Small subtrees are one piece of work. Their size depends on the scene alone, and so does the work.
+    const uint32_t whole = std::max<uint32_t>(1024, static_cast<uint32_t>(order_.size() / 256));
+    top_.push_back({0, static_cast<uint32_t>(order_.size())});
+    for (size_t begin = 0; begin < top_.size();) {
+      const size_t end = top_.size();
+      parallel_for(end - begin, 0, [&](size_t i) {
+        TopNode& top = top_[begin + i];
+        if (top.count <= whole)
+          build(top.part, top.first, top.count, top.level);
+        else
+          top.in_left = divide_node(top.first, top.count, top.level, top.node);
+      });
+      for (; begin < end; ++begin) {
+        const uint32_t first = top_[begin].first, count = top_[begin].count, level = top_[begin].level + 1,
+                       in_left = top_[begin].in_left;
+        if (in_left == 0) continue;
+        top_[begin].left = top_.size();
+        top_[begin].right = top_.size() + 1;
+        top_.push_back({first, in_left, level});
+        top_.push_back({first + in_left, count - in_left, level});
+      }
+    }
+  }
+
+  /// Appends a node of top_ and what is below it. Returns its index.
+  uint32_t append(size_t place) {
+    const TopNode& top = top_[place];
+    const auto me = static_cast<uint32_t>(nodes_.size());
+    if (top.in_left == 0) {
+      depth_ = std::max(depth_, top.part.depth);
+      for (TreeNode node : top.part.nodes) {
+        node.left += me;
+        node.right += me;
+        nodes_.push_back(node);
+      }
+      return me;
+    }
+    depth_ = std::max(depth_, top.level + 1);
+    nodes_.push_back(top.node);
+    const uint32_t left = append(top.left), right = append(top.right);
+    make_inner(nodes_[me], left, right);
+    return me;
+  }
+
+  /// Appends a subtree. Returns its index.
+  uint32_t build(Part& part, uint32_t first, uint32_t count, uint32_t level) {
+    const auto me = static_cast<uint32_t>(part.nodes.size());
+    part.nodes.emplace_back();
+    const uint32_t in_left = divide_node(first, count, level, part.nodes[me]);
+    if (in_left == 0) return me;
+    part.depth = std::max(part.depth, level + 1);
+    const uint32_t left = build(part, first, in_left, level + 1),
+                   right = build(part, first + in_left, count - in_left, level + 1);
+    make_inner(part.nodes[me], left, right);
+    return me;
+  }
+
+  static void make_inner(TreeNode& node, uint32_t left, uint32_t right) {
+    node.count = 0;
+    node.left = left;
+    node.right = right;
+  }
+
+  /// Fills a node, and divides its triangles if that pays. Returns how many are in the left child; 0: it is a
+  /// leaf.
+  uint32_t divide_node(uint32_t first, uint32_t count, uint32_t level, TreeNode& node) {
     Box centers;
     for (const uint32_t leaf : std::span(order_).subspan(first, count)) {
       node.box.add(boxes_[leaf]);
@@ -106,19 +191,11 @@ class Builder {
     }
     node.first = first;
     node.count = count;
-    nodes_.push_back(node);
-    if (count == 1) return me;
+    if (count == 1) return 0;
     const Split split = best_split(first, count, centers);
     const double area = node.box.area();
-    if (count <= most_in_leaf && split.cost + area >= area * count) return me;
-    const uint32_t in_left = divide(first, count, level, centers, split);
-    depth_ = std::max(depth_, level + 1);
-    const uint32_t left = build(first, in_left, level + 1),
-                   right = build(first + in_left, count - in_left, level + 1);
-    nodes_[me].count = 0;
-    nodes_[me].left = left;
-    nodes_[me].right = right;
-    return me;
+    if (count <= most_in_leaf && split.cost + area >= area * count) return 0;
+    return divide(first, count, level, centers, split);
   }
 
   /// Holds the bins along an axis on which the centres are not all equal.
@@ -186,6 +263,7 @@ class Builder {
   std::vector<Box> boxes_;
   std::vector<vec3> centers_;
   std::vector<uint32_t> order_;
+  std::vector<TopNode> top_;
   std::vector<TreeNode> nodes_;
   uint32_t depth_ = 0;
 };

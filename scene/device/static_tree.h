@@ -24,8 +24,7 @@ struct StaticTree {
 
 /// Makes a binary tree, split by the surface area heuristic with sixteen bins per axis (I. Wald, "On fast
 /// construction of SAH-based bounding volume hierarchies", IEEE Symposium on Interactive Ray Tracing 2007).
-/// Boxes are rounded outwards to 1/65535 of the scene's extent. The code is serial; 150,000 triangles take a
-/// quarter of a second.
+/// Boxes are rounded outwards to 1/65535 of the scene's extent. It uses all cores.
 StaticTree make_static_tree(const Scene& scene);
 
 }  // namespace greatx::scene

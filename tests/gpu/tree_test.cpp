@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <sched.h>
 
 #include <gtest/gtest.h>
 
@@ -229,6 +230,23 @@ TEST(Tree, ManyAtOnePlaceStayWithinTheDepth) {
   EXPECT_LE(tree.depth, shared::tree_most_depth);
   const auto results = hits(tiny.build(), std::vector{ray({0.3, 0.3, 1}, {0, 0, -1})}, Tracer::tree);
   EXPECT_LT(results[0].triangle, 300u);
+}
+
+TEST(Tree, AnyNumberOfThreadsMakesTheSameWords) {
+  RandomStream random(25, 2);
+  const scene::Scene scene = clutter(random, 50000, 300.0).build();
+  const scene::StaticTree all = scene::make_static_tree(scene);
+  cpu_set_t cores;
+  ASSERT_EQ(sched_getaffinity(0, sizeof cores, &cores), 0);
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  for (int core = 0; core < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++core)
+    if (CPU_ISSET(core, &cores)) CPU_SET(core, &one);
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  const scene::StaticTree alone = scene::make_static_tree(scene);
+  ASSERT_EQ(sched_setaffinity(0, sizeof cores, &cores), 0);
+  EXPECT_EQ(all.words, alone.words);
+  EXPECT_EQ(all.depth, alone.depth);
 }
 
 TEST(Tree, BoxesHoldWhatIsBelowThemAndEveryTriangleIsThereOnce) {
