@@ -16,33 +16,43 @@ constexpr std::array ray_tracing_extensions = {VK_KHR_ACCELERATION_STRUCTURE_EXT
                                                VK_KHR_RAY_QUERY_EXTENSION_NAME,
                                                VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
 
-/// Describes a feature bit that greatx uses: its place in the chain, and its purpose.
+/// Describes a feature bit that greatx uses: its place in the chain, its purpose, and whether greatx runs
+/// without it.
 struct FeatureUse {
   const char* name;
   const char* used_for;
+  bool required;
   VkBool32* (*at)(FeatureChain&);
 };
 
-#define GREATX_FEATURE(part, bit, why)                              \
-  FeatureUse {                                                      \
-#bit, why, [](FeatureChain & chain) { return &chain.part.bit; } \
+#define GREATX_FEATURE(part, bit, why)                                    \
+  FeatureUse {                                                            \
+#bit, why, true, [](FeatureChain & chain) { return &chain.part.bit; } \
   }
+#define GREATX_OPTIONAL(part, bit, why)                                    \
+  FeatureUse {                                                             \
+#bit, why, false, [](FeatureChain & chain) { return &chain.part.bit; } \
+  }
+
+constexpr const char* texture_table = "textures of any number of sizes (else at most 24)";
+constexpr const char* driver_rays = "rays traced by the driver (else by greatx's own trees)";
 
 const FeatureUse feature_uses[] = {
     GREATX_FEATURE(core.features, shaderInt64, "buffer addresses in shaders"),
     GREATX_FEATURE(v12, bufferDeviceAddress, "buffers by address"),
     GREATX_FEATURE(v12, scalarBlockLayout, "structs shared by C++ and shaders"),
     GREATX_FEATURE(v12, timelineSemaphore, "counting ticks in flight"),
-    GREATX_FEATURE(v12, runtimeDescriptorArray, "the scene's table of textures"),
-    GREATX_FEATURE(v12, shaderSampledImageArrayNonUniformIndexing, "the scene's table of textures"),
-    GREATX_FEATURE(v12, descriptorBindingPartiallyBound, "the scene's table of textures"),
+    GREATX_OPTIONAL(v12, runtimeDescriptorArray, texture_table),
+    GREATX_OPTIONAL(v12, shaderSampledImageArrayNonUniformIndexing, texture_table),
+    GREATX_OPTIONAL(v12, descriptorBindingPartiallyBound, texture_table),
     GREATX_FEATURE(v12, hostQueryReset, "timestamps"),
     GREATX_FEATURE(v13, synchronization2, "barriers"),
     GREATX_FEATURE(v13, dynamicRendering, "raster passes"),
     GREATX_FEATURE(v13, maintenance4, "workgroup sizes by specialization (LocalSizeId)"),
-    GREATX_FEATURE(acceleration, accelerationStructure, "tracing rays (LiDAR, radio)"),
-    GREATX_FEATURE(ray_query, rayQuery, "tracing rays (LiDAR, radio)"),
+    GREATX_OPTIONAL(acceleration, accelerationStructure, driver_rays),
+    GREATX_OPTIONAL(ray_query, rayQuery, driver_rays),
 };
+#undef GREATX_OPTIONAL
 #undef GREATX_FEATURE
 
 std::vector<VkExtensionProperties> extensions_of(VkPhysicalDevice physical) {
@@ -151,7 +161,7 @@ DeviceInfo describe(VkPhysicalDevice physical, uint32_t index) {
     FeatureChain available(has_ray_tracing_extensions(physical));
     vkGetPhysicalDeviceFeatures2(physical, &available.core);
     for (const FeatureUse& use : feature_uses)
-      info.capabilities.push_back({use.name, use.used_for, true, *use.at(available) == VK_TRUE});
+      info.capabilities.push_back({use.name, use.used_for, use.required, *use.at(available) == VK_TRUE});
     info.capabilities.push_back({"conditionalRendering", "adaptive steps of event cameras", false,
                                  has_conditional_rendering(physical)});
   }
@@ -163,6 +173,22 @@ std::vector<std::string> DeviceInfo::missing() const {
   for (const Capability& capability : capabilities)
     if (capability.required && !capability.available) names.push_back(capability.name);
   return names;
+}
+
+bool DeviceInfo::has(std::string_view capability) const {
+  return std::any_of(capabilities.begin(), capabilities.end(),
+                     [&](const Capability& c) { return c.name == capability && c.available; });
+}
+
+bool DeviceInfo::has_ray_query() const { return has("accelerationStructure") && has("rayQuery"); }
+
+bool DeviceInfo::has_texture_table() const {
+  return has("runtimeDescriptorArray") && has("shaderSampledImageArrayNonUniformIndexing") &&
+         has("descriptorBindingPartiallyBound");
+}
+
+Tracer DeviceInfo::best_tracer() const {
+  return type == "cpu" || !has_ray_query() ? Tracer::tree : Tracer::driver;
 }
 
 }  // namespace greatx::gpu

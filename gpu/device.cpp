@@ -25,6 +25,9 @@ std::string lower(std::string text) {
   return text;
 }
 
+constexpr std::pair<Tracer, std::string_view> tracer_names[] = {
+    {Tracer::automatic, "auto"}, {Tracer::driver, "driver"}, {Tracer::tree, "tree"}};
+
 int preference(const DeviceInfo& info) {
   if (info.type == "discrete") return 4;
   if (info.type == "integrated") return 3;
@@ -33,6 +36,18 @@ int preference(const DeviceInfo& info) {
 }
 
 }  // namespace
+
+std::string_view name_of(Tracer tracer) {
+  for (const auto& [value, name] : tracer_names)
+    if (value == tracer) return name;
+  throw ContractError(fmt::format("tracer {}", static_cast<uint32_t>(tracer)));
+}
+
+std::optional<Tracer> tracer_of(std::string_view name) {
+  for (const auto& [value, known] : tracer_names)
+    if (known == name) return value;
+  return std::nullopt;
+}
 
 void ValidationLog::add(std::string message) {
   const std::lock_guard lock(mutex_);
@@ -88,6 +103,7 @@ Device::Device(const DeviceOptions& options) {
   const char* environment = std::getenv("GREATX_DEVICE");
   try {
     choose_physical(!options.select.empty() ? options.select : environment != nullptr ? environment : "");
+    choose_tracer(options.tracer);
     create_logical();
   } catch (...) {
     destroy_instance();
@@ -118,6 +134,21 @@ void Device::choose_physical(const std::string& select) {
   physical_ = devices[info_.index];
 }
 
+void Device::choose_tracer(Tracer wish) {
+  const char* environment = std::getenv("GREATX_TRACER");
+  if (wish == Tracer::automatic && environment != nullptr && *environment != '\0') {
+    const std::optional<Tracer> named = tracer_of(environment);
+    if (!named)
+      throw_user_error("the environment variable GREATX_TRACER: expected auto, driver or tree, found '{}'",
+                       environment);
+    wish = *named;
+  }
+  tracer_ = wish == Tracer::automatic ? info_.best_tracer() : wish;
+  if (tracer_ == Tracer::driver && !info_.has_ray_query())
+    throw_user_error("the tracer 'driver': device '{}' ({}) has no ray queries; expected auto or tree",
+                     info_.name, info_.driver);
+}
+
 void Device::create_logical() {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
@@ -132,7 +163,8 @@ void Device::create_logical() {
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
 
-  FeatureChain available(true), wanted(true);
+  const bool ray_tracing = has_ray_tracing_extensions(physical_);
+  FeatureChain available(ray_tracing), wanted(ray_tracing);
   vkGetPhysicalDeviceFeatures2(physical_, &available.core);
   request_features(wanted, available);
   const std::vector<const char*> extensions = wanted_extensions(physical_);
@@ -150,7 +182,8 @@ void Device::create_logical() {
 
   VkPhysicalDeviceAccelerationStructurePropertiesKHR acceleration{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
-  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &acceleration, {}};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, nullptr, {}};
+  if (ray_tracing) properties.pNext = &acceleration;
   vkGetPhysicalDeviceProperties2(physical_, &properties);
   limits_ = properties.properties.limits;
   scratch_alignment_ = std::max(1u, acceleration.minAccelerationStructureScratchOffsetAlignment);
@@ -159,11 +192,13 @@ void Device::create_logical() {
   const auto load = [&](const char* name) { return vkGetDeviceProcAddr(device_, name); };
 #define GREATX_LOAD(member, name) functions_.member = reinterpret_cast<PFN_##name>(load(#name))
   GREATX_LOAD(push_descriptor_set, vkCmdPushDescriptorSetKHR);
-  GREATX_LOAD(create_acceleration_structure, vkCreateAccelerationStructureKHR);
-  GREATX_LOAD(destroy_acceleration_structure, vkDestroyAccelerationStructureKHR);
-  GREATX_LOAD(acceleration_structure_build_sizes, vkGetAccelerationStructureBuildSizesKHR);
-  GREATX_LOAD(acceleration_structure_address, vkGetAccelerationStructureDeviceAddressKHR);
-  GREATX_LOAD(build_acceleration_structures, vkCmdBuildAccelerationStructuresKHR);
+  if (ray_tracing) {
+    GREATX_LOAD(create_acceleration_structure, vkCreateAccelerationStructureKHR);
+    GREATX_LOAD(destroy_acceleration_structure, vkDestroyAccelerationStructureKHR);
+    GREATX_LOAD(acceleration_structure_build_sizes, vkGetAccelerationStructureBuildSizesKHR);
+    GREATX_LOAD(acceleration_structure_address, vkGetAccelerationStructureDeviceAddressKHR);
+    GREATX_LOAD(build_acceleration_structures, vkCmdBuildAccelerationStructuresKHR);
+  }
   if (has_conditions) {
     GREATX_LOAD(begin_condition, vkCmdBeginConditionalRenderingEXT);
     GREATX_LOAD(end_condition, vkCmdEndConditionalRenderingEXT);
@@ -176,7 +211,7 @@ void Device::create_logical() {
 #undef GREATX_LOAD
   const VkPipelineCacheCreateInfo cache{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
   GREATX_VK(vkCreatePipelineCache(device_, &cache, nullptr, &pipeline_cache_));
-  spdlog::debug("device {}: {} ({})", info_.index, info_.name, info_.driver);
+  spdlog::debug("device {}: {} ({}), tracer: {}", info_.index, info_.name, info_.driver, name_of(tracer_));
 }
 
 uint32_t Device::memory_type(uint32_t allowed_bits, VkMemoryPropertyFlags required,

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,13 @@
 #include "gpu/vulkan.h"
 
 namespace greatx::gpu {
+
+/// Selects how rays meet triangles (shaders/lib/trace.glsl).
+enum class Tracer : uint32_t {
+  automatic,  ///< what Device::tracer says
+  driver,     ///< the driver's ray queries
+  tree,       ///< trees of greatx's own, which need no feature of the device
+};
 
 /// Describes a feature that greatx needs or could use, and whether a device has it.
 struct Capability {
@@ -37,6 +45,16 @@ struct DeviceInfo {
   /// none.
   std::vector<std::string> missing() const;
   bool usable() const { return missing().empty(); }
+  /// Returns whether the device has a capability of that name.
+  bool has(std::string_view capability) const;
+  /// Returns whether the driver traces rays.
+  bool has_ray_query() const;
+  /// Returns whether shaders may choose from a table of textures of any size by a number that differs between
+  /// their lanes.
+  bool has_texture_table() const;
+  /// Returns the tracer that `automatic` means here: the tree on a CPU, which is measured to be faster there
+  /// (docs/performance.md), and where the driver traces no rays; else the driver, whose rays hardware traces.
+  Tracer best_tracer() const;
 };
 
 /// Returns every Vulkan device of the machine. Throws UserError if there is no Vulkan loader or no driver at
@@ -66,7 +84,14 @@ struct DeviceOptions {
   std::string select;
   /// Switches on core and synchronisation validation, as $GREATX_VALIDATION=1 does.
   bool validation = false;
+  /// If it is automatic, $GREATX_TRACER ("driver", "tree") is used, else DeviceInfo::best_tracer.
+  Tracer tracer = Tracer::automatic;
 };
+
+/// Returns "auto", "driver" or "tree".
+std::string_view name_of(Tracer tracer);
+/// Returns the tracer of that name, or nothing.
+std::optional<Tracer> tracer_of(std::string_view name);
 
 /// Counts the objects built and the work submitted. The summary of the run reads it, and so do the tests that
 /// a run has only the effects that the scene calls for.
@@ -85,7 +110,7 @@ struct Counters {
 /// Holds the entry points of extensions, loaded once.
 struct Functions {
   PFN_vkCmdPushDescriptorSetKHR push_descriptor_set = nullptr;
-  PFN_vkCreateAccelerationStructureKHR create_acceleration_structure = nullptr;
+  PFN_vkCreateAccelerationStructureKHR create_acceleration_structure = nullptr;  ///< null without ray queries
   PFN_vkDestroyAccelerationStructureKHR destroy_acceleration_structure = nullptr;
   PFN_vkGetAccelerationStructureBuildSizesKHR acceleration_structure_build_sizes = nullptr;
   PFN_vkGetAccelerationStructureDeviceAddressKHR acceleration_structure_address = nullptr;
@@ -112,6 +137,8 @@ class Device {
   VkQueue queue() const { return queue_; }
   uint32_t queue_family() const { return queue_family_; }
   const DeviceInfo& info() const { return info_; }
+  /// Returns the tracer of all passes: the driver or the tree.
+  Tracer tracer() const { return tracer_; }
   const Functions& functions() const { return functions_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
   uint32_t scratch_alignment() const { return scratch_alignment_; }
@@ -150,6 +177,7 @@ class Device {
   void create_instance(bool validation);
   void destroy_instance();  ///< and the messenger, before it
   void choose_physical(const std::string& select);
+  void choose_tracer(Tracer wish);
   void create_logical();
 
   std::shared_ptr<ValidationLog> validation_log_ = std::make_shared<ValidationLog>();
@@ -163,6 +191,7 @@ class Device {
   uint32_t scratch_alignment_ = 256;
   bool debug_utils_ = false;
   DeviceInfo info_;
+  Tracer tracer_ = Tracer::tree;
   Functions functions_;
   VkPhysicalDeviceLimits limits_{};
   VkPhysicalDeviceMemoryProperties memory_{};

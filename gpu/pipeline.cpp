@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "shaders/shared/scene.h"
 #include "shaders/spirv.h"
 
 namespace greatx::gpu {
@@ -58,6 +59,11 @@ struct Specialization {
   VkSpecializationInfo info{};
 };
 
+/// Returns the name of the shader for a kind of texture table.
+std::string variant_of(const std::string& shader, const TextureTable* textures) {
+  return textures != nullptr && textures->few() ? shader + ".few" : shader;
+}
+
 }  // namespace
 
 std::span<const uint32_t> spirv(std::string_view name) {
@@ -66,10 +72,15 @@ std::span<const uint32_t> spirv(std::string_view name) {
   throw ContractError(fmt::format("no embedded shader is called '{}'", name));
 }
 
-TextureTable::TextureTable(Device& device, std::span<const VkDescriptorImageInfo> textures,
+TextureTable::TextureTable(Device& device, std::span<const VkDescriptorImageInfo> textures, bool few,
                            std::string_view name)
-    : device_(&device) {
-  const uint32_t count = std::max<uint32_t>(1, static_cast<uint32_t>(textures.size()));
+    : device_(&device), few_(few) {
+  std::vector<VkDescriptorImageInfo> images(textures.begin(), textures.end());
+  if (few) {
+    GREATX_CHECK(!images.empty() && images.size() <= shared::most_tried_arrays, "{} textures", images.size());
+    images.resize(shared::most_tried_arrays, images[0]);
+  }
+  const uint32_t count = std::max<uint32_t>(1, static_cast<uint32_t>(images.size()));
   const VkDescriptorBindingFlags partially = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT;
   VkDescriptorSetLayoutBindingFlagsCreateInfo flags{
       VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO};
@@ -78,7 +89,8 @@ TextureTable::TextureTable(Device& device, std::span<const VkDescriptorImageInfo
   const VkDescriptorSetLayoutBinding binding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count,
                                              VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT,
                                              nullptr};
-  VkDescriptorSetLayoutCreateInfo layout{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, &flags};
+  VkDescriptorSetLayoutCreateInfo layout{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+  if (!few) layout.pNext = &flags;
   layout.bindingCount = 1;
   layout.pBindings = &binding;
   GREATX_VK(vkCreateDescriptorSetLayout(device.handle(), &layout, nullptr, &layout_));
@@ -95,12 +107,12 @@ TextureTable::TextureTable(Device& device, std::span<const VkDescriptorImageInfo
   allocate.pSetLayouts = &layout_;
   GREATX_VK(vkAllocateDescriptorSets(device.handle(), &allocate, &set_));
   device.set_name(VK_OBJECT_TYPE_DESCRIPTOR_SET, reinterpret_cast<uint64_t>(set_), name);
-  if (textures.empty()) return;
+  if (images.empty()) return;
   VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
   write.dstSet = set_;
-  write.descriptorCount = static_cast<uint32_t>(textures.size());
+  write.descriptorCount = static_cast<uint32_t>(images.size());
   write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-  write.pImageInfo = textures.data();
+  write.pImageInfo = images.data();
   vkUpdateDescriptorSets(device.handle(), 1, &write, 0, nullptr);
 }
 
@@ -113,6 +125,7 @@ TextureTable::~TextureTable() {
 TextureTable::TextureTable(TextureTable&& other) noexcept { *this = std::move(other); }
 TextureTable& TextureTable::operator=(TextureTable&& other) noexcept {
   std::swap(device_, other.device_);
+  std::swap(few_, other.few_);
   std::swap(layout_, other.layout_);
   std::swap(pool_, other.pool_);
   std::swap(set_, other.set_);
@@ -174,7 +187,7 @@ Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
 ComputePipeline::ComputePipeline(Device& device, const ComputeDesc& desc, std::string_view name) {
   bind_point_ = VK_PIPELINE_BIND_POINT_COMPUTE;
   create_layout(device, desc.bindings, desc.push_constant_bytes, desc.textures, VK_SHADER_STAGE_COMPUTE_BIT);
-  const Module module(device, desc.shader);
+  const Module module(device, variant_of(desc.shader, desc.textures));
   const Specialization specialization(desc.specialization);
   VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
   info.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, &specialization.info);
@@ -193,7 +206,7 @@ GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsDesc& desc, std
       vertex.stage(VK_SHADER_STAGE_VERTEX_BIT, &specialization.info)};
   std::vector<std::unique_ptr<Module>> fragment;
   if (!desc.fragment_shader.empty()) {
-    fragment.push_back(std::make_unique<Module>(device, desc.fragment_shader));
+    fragment.push_back(std::make_unique<Module>(device, variant_of(desc.fragment_shader, desc.textures)));
     stages.push_back(fragment[0]->stage(VK_SHADER_STAGE_FRAGMENT_BIT, &specialization.info));
   }
 

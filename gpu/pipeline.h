@@ -16,7 +16,8 @@
 
 namespace greatx::gpu {
 
-/// Returns the words of an embedded shader ("lidar/sweep.comp"). Throws ContractError if there is none of
+/// Returns the words of an embedded shader ("lidar/sweep.comp"), or of one of its variants
+/// ("lidar/sweep.comp.tree"; cmake/GreatxShaders.cmake lists them). Throws ContractError if there is none of
 /// that name.
 std::span<const uint32_t> spirv(std::string_view name);
 
@@ -31,16 +32,21 @@ class TextureTable {
  public:
   TextureTable() = default;
   /// Images must be in ImageUse::sampled when they are used. The table may be empty; shaders then must not
-  /// index it.
-  TextureTable(Device& device, std::span<const VkDescriptorImageInfo> textures, std::string_view name);
+  /// index it. If `few`, it has most_tried_arrays entries, those at the end the same as the first, and
+  /// pipelines take the variants of shaders that know each entry by a constant index (lib/textures.glsl).
+  /// `textures` then holds one image at least.
+  TextureTable(Device& device, std::span<const VkDescriptorImageInfo> textures, bool few,
+               std::string_view name);
   ~TextureTable();
   TextureTable(TextureTable&& other) noexcept;
   TextureTable& operator=(TextureTable&& other) noexcept;
   VkDescriptorSetLayout layout() const { return layout_; }
   VkDescriptorSet set() const { return set_; }
+  bool few() const { return few_; }
 
  private:
   Device* device_ = nullptr;
+  bool few_ = false;
   VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   VkDescriptorSet set_ = VK_NULL_HANDLE;

@@ -115,6 +115,7 @@ nlohmann::json row_of(const std::string& program, const ScenarioOptions& scenari
   if (scenario.seed) add("--seed", std::to_string(*scenario.seed));
   if (scenario.ticks) add("--ticks", std::to_string(*scenario.ticks));
   if (!run.device.empty()) add("--device", run.device);
+  if (run.tracer != gpu::Tracer::automatic) add("--tracer", std::string(gpu::name_of(run.tracer)));
   if (run.validation) command.emplace_back("--validation");
   const std::string text = output_of(command);
   const nlohmann::json row = nlohmann::json::parse(text, nullptr, false);

@@ -139,6 +139,7 @@ class ViewBench {
     option("--seed", scenario_options_.seed ? std::to_string(*scenario_options_.seed) : "");
     option("--ticks", scenario_options_.ticks ? std::to_string(*scenario_options_.ticks) : "");
     option("--device", run_.device);
+    option("--tracer", std::string(gpu::name_of(run_.tracer)));
     std::vector<double> first, full;
     for (uint32_t i = 0; i < options_.starts; ++i) {
       const std::vector<double> times = times_of_lines(arguments);

@@ -31,6 +31,12 @@ void RunOptions::add_to(CLI::App& command) {
   command.add_option(
       "--device", device,
       "index or part of the name of a Vulkan device (greatx info) [$GREATX_DEVICE, else the best]");
+  command
+      .add_option_function<std::string>(
+          "--tracer", [this](const std::string& name) { tracer = *gpu::tracer_of(name); },
+          "how rays meet triangles: auto, driver (its ray queries) or tree (trees of greatx's own) "
+          "[$GREATX_TRACER, else auto: tree on a CPU or without ray queries]")
+      ->check(CLI::IsMember({"auto", "driver", "tree"}));
   command.add_flag("--validation", validation,
                    "run under the Vulkan validation layer; a message is an error");
 }

@@ -30,8 +30,9 @@ struct ScenarioOptions {
 struct RunOptions {
   std::string device;
   bool validation = false;
+  gpu::Tracer tracer = gpu::Tracer::automatic;
   void add_to(CLI::App& command);
-  gpu::DeviceOptions device_options() const { return {device, validation}; }
+  gpu::DeviceOptions device_options() const { return {device, validation, tracer}; }
 };
 
 /// Reads the scenario and applies the options. If the scenario gives errors or a time budget and the command

@@ -27,7 +27,7 @@ struct Row {
   uint32_t number = 0;  ///< of the case
   std::string title;    ///< of the case
   std::string figure;   ///< what is compared, with its unit
-  std::string by;       ///< what computed it: "driver, fp32", "tree, fp32", "host, fp64"
+  std::string by;       ///< what computed it: "tree, fp32", "host, fp64", "host, fp64 + tree, fp32", ...
   double expected = 0.0, got = 0.0, tolerance = 0.0;
   std::string error;  ///< message of the exception that ended the case; empty: none
 

@@ -162,8 +162,7 @@ void n47_split_edge(const Lab& lab, Rows& rows) {
   const dvec3 from(-6, 0, 2), to(2.8, 4.4, 3);
   Links of_cut(lab, cut, {.edges = true}), of_plain(lab, plain, {.edges = true});
   const std::vector<rf::Path> paths = of_cut.solve(from, lab.given(to)), known = of_plain.solve(from, to);
-  rows.add("paths round a split edge", "host, fp64 + driver, fp32", 1.0, static_cast<double>(paths.size()),
-           0.0);
+  rows.add("paths round a split edge", lab.host_and_tracer(), 1.0, static_cast<double>(paths.size()), 0.0);
   const bool found = paths.size() == 1 && known.size() == 1;
   rows.add("length of the path, m", host, std::sqrt(101.0), found ? paths[0].length_m : std::nan(""), 1e-12);
   double change = found ? 0.0 : std::nan(""), largest = 0.0;

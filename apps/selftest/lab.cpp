@@ -31,18 +31,25 @@ std::vector<rf::Crossing> trace(gpu::TickRing& ring, scene::GpuScene& gpu, rf::C
 
 }  // namespace
 
-const char* name_of(scene::Tracer tracer) {
-  return tracer == scene::Tracer::tree ? "tree, fp32" : "driver, fp32";
+const char* precision_of(gpu::Tracer tracer) {
+  return tracer == gpu::Tracer::tree ? "tree, fp32" : "driver, fp32";
+}
+
+std::vector<gpu::Tracer> Lab::tracers() const {
+  if (!device_->info().has_ray_query()) return {gpu::Tracer::tree};
+  return {gpu::Tracer::driver, gpu::Tracer::tree};
+}
+
+std::string Lab::host_and_tracer() const {
+  return std::string("host, fp64 + ") + precision_of(device_->tracer());
 }
 
 std::vector<shared::ProbeHit> Lab::probe(const scene::Scene& scene, std::span<const shared::ProbeRay> rays,
-                                         scene::Tracer tracer) const {
+                                         gpu::Tracer tracer) const {
   scene::GpuSceneOptions options;
   options.tracer = tracer;
   scene::GpuScene gpu(*device_, scene, options);
-  std::vector<uint32_t> specialization;
-  gpu.specialize_tracer(specialization);
-  const render::ProbePass pass(gpu, specialization);
+  const render::ProbePass pass(gpu);
   gpu::TickRing ring(*device_, 1, 1u << 16, 1u << 16);
   gpu::TickSlot& slot = ring.begin();
   gpu.record_update(slot, std::vector<Pose>(scene.bodies.size()));
@@ -54,15 +61,17 @@ std::vector<shared::ProbeHit> Lab::probe(const scene::Scene& scene, std::span<co
 }
 
 std::vector<rf::Crossing> Lab::crossings(const scene::Scene& scene, std::span<const rf::Segment> segments,
-                                         bool walls) const {
-  scene::GpuScene gpu(*device_, scene, {});
+                                         gpu::Tracer tracer, bool walls) const {
+  scene::GpuSceneOptions options;
+  options.tracer = tracer;
+  scene::GpuScene gpu(*device_, scene, options);
   rf::CrossingPass pass(gpu, rf::facet_kinds(scene, effects_of(walls)));
   gpu::TickRing ring(*device_, 1, 1u << 16, 1u << 16);
   return trace(ring, gpu, pass, rf::FacetWorld(scene), segments);
 }
 
 render::LidarScan Lab::sweep(const scene::Scene& scene, const render::LidarDesc& desc,
-                             scene::Tracer tracer) const {
+                             gpu::Tracer tracer) const {
   scene::GpuSceneOptions options;
   options.tracer = tracer;
   scene::GpuScene gpu(*device_, scene, options);

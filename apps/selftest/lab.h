@@ -31,17 +31,19 @@ enum class Fault {
   scale,  ///< every figure that goes into the product (Lab::given) is larger by a part in 1000
 };
 
-inline constexpr scene::Tracer tracers[] = {scene::Tracer::driver, scene::Tracer::tree};
 /// Returns "driver, fp32" or "tree, fp32".
-const char* name_of(scene::Tracer tracer);
+const char* precision_of(gpu::Tracer tracer);
 inline constexpr const char* host = "host, fp64";
-inline constexpr const char* driver = "driver, fp32";
 
 class Lab {
  public:
   explicit Lab(gpu::Device& device, Fault fault = Fault::none) : device_(&device), fault_(fault) {}
 
   gpu::Device& device() const { return *device_; }
+  /// Returns the tracers that the device has: the tree, and the driver if it has ray queries.
+  std::vector<gpu::Tracer> tracers() const;
+  /// Returns the name of what finds paths: the host, and the device's own tracer for visibility.
+  std::string host_and_tracer() const;
   Stage stage() const { return Stage(fault_ == Fault::hole); }
   /// Returns a figure as the product gets it: unchanged, unless the fault says otherwise.
   double given(double value) const { return fault_ == Fault::scale ? 1.001 * value : value; }
@@ -49,13 +51,12 @@ class Lab {
 
   /// Returns the first hit of each ray, in lengths of its direction.
   std::vector<shared::ProbeHit> probe(const scene::Scene& scene, std::span<const shared::ProbeRay> rays,
-                                      scene::Tracer tracer) const;
+                                      gpu::Tracer tracer) const;
   /// Returns what lies on each segment. If `walls`, materials with a thickness let waves through.
   std::vector<rf::Crossing> crossings(const scene::Scene& scene, std::span<const rf::Segment> segments,
-                                      bool walls = false) const;
+                                      gpu::Tracer tracer, bool walls = false) const;
   /// Returns one sweep of a LiDAR at the origin.
-  render::LidarScan sweep(const scene::Scene& scene, const render::LidarDesc& desc,
-                          scene::Tracer tracer) const;
+  render::LidarScan sweep(const scene::Scene& scene, const render::LidarDesc& desc, gpu::Tracer tracer) const;
 
  private:
   gpu::Device* device_;
@@ -63,7 +64,7 @@ class Lab {
 };
 
 /// Solves the paths of links in a scene by all stages of the product: beams, images in fp64, visibility by
-/// the driver in fp32, fields in fp64.
+/// the device's tracer in fp32, fields in fp64.
 class Links {
  public:
   struct Options {

@@ -4,8 +4,8 @@
 // Meshes as files have them: triangles that lose their area, coordinates far from the origin, scales that
 // mirror and stretch, planes that are not quite flat.
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <map>
 
 #include "apps/selftest/catalogue.h"
 #include "core/units.h"
@@ -15,8 +15,8 @@ namespace greatx::apps::selftest {
 
 namespace {
 
+using gpu::Tracer;
 using rf::Path;
-using scene::Tracer;
 using shared::ProbeHit;
 using shared::ProbeRay;
 
@@ -64,7 +64,7 @@ void n04_no_area(const Lab& lab, Rows& rows) {
                      0.001 * (lab.given(1.0) - 1.0));
     rays.push_back(ray_towards(from, target));
   }
-  for (const Tracer tracer : tracers) {
+  for (const Tracer tracer : lab.tracers()) {
     double on_needles = 0.0, on_box = 0.0, worst = 0.0;
     for (const ProbeHit& hit : lab.probe(scene, rays, tracer)) {
       on_needles += hit.primitive == 2;
@@ -72,10 +72,10 @@ void n04_no_area(const Lab& lab, Rows& rows) {
       // The box is at 8 m, the needle at 3 m, and the distance is in lengths of the ray to the needle.
       worst = std::isfinite(hit.t) ? std::max(worst, std::abs(3.0 * hit.t - 8.0)) : std::nan("");
     }
-    rows.add("rays that hit a triangle without area", name_of(tracer), 0.0, on_needles, 0.0);
-    rows.add("rays that hit the wall behind it", name_of(tracer), mesh_rays, on_box, 0.0);
+    rows.add("rays that hit a triangle without area", precision_of(tracer), 0.0, on_needles, 0.0);
+    rows.add("rays that hit the wall behind it", precision_of(tracer), mesh_rays, on_box, 0.0);
     // A distance of 8 m has a rounding of 4.8e-7 m; the corners and the ray have three more each.
-    rows.add("largest error of distance, m", name_of(tracer), 0.0, worst, 4e-6);
+    rows.add("largest error of distance, m", precision_of(tracer), 0.0, worst, 4e-6);
   }
 }
 
@@ -96,7 +96,7 @@ void n09_start_far_away(const Lab& lab, Rows& rows) {
   options.moving_bodies = false;
   const std::vector<Pose> bodies(scene.bodies.size());
   const rf::CandidateList list = rf::CandidateSearch(gpu, options).search(bodies, far + from).list;
-  rows.add("orders in which rays meet mirrors 1 m apart at 5e5 m", driver, 6.0,
+  rows.add("orders in which rays meet mirrors 1 m apart at 5e5 m", precision_of(lab.device().tracer()), 6.0,
            static_cast<double>(list.size()), 0.0);
 
   Links links(lab, scene, {.max_depth = 3});
@@ -108,7 +108,7 @@ void n09_start_far_away(const Lab& lab, Rows& rows) {
   }
   std::ranges::sort(found);
   std::ranges::sort(exact);
-  rows.add("paths between mirrors 1 m apart at 5e5 m", "host, fp64 + driver, fp32", 7.0,
+  rows.add("paths between mirrors 1 m apart at 5e5 m", lab.host_and_tracer(), 7.0,
            static_cast<double>(found.size()), 0.0);
   double worst = found.size() == exact.size() ? 0.0 : std::nan("");
   for (size_t i = 0; i < std::min(found.size(), exact.size()); ++i)
@@ -119,7 +119,7 @@ void n09_start_far_away(const Lab& lab, Rows& rows) {
 
 void n14_scale(const Lab& lab, Rows& rows) {
   double volume = 0.0, outwards = 0.0, turned = 0.0;
-  std::array<double, std::size(tracers)> distance{};
+  std::map<Tracer, double> distance;
   const dvec3 scales[] = {{-1, 1, 1}, {1, -2, 1}, {-1, -1, -3}, {-0.5, -4, 1}, {2, 3, 0.5}};
   for (const dvec3& scale : scales) {
     Stage stage = lab.stage();
@@ -145,8 +145,8 @@ void n14_scale(const Lab& lab, Rows& rows) {
       expected.push_back(
           std::min({half.x / std::abs(along.x), half.y / std::abs(along.y), half.z / std::abs(along.z)}));
     }
-    for (size_t tracer = 0; tracer < std::size(tracers); ++tracer) {
-      const std::vector<ProbeHit> hits = lab.probe(scene, rays, tracers[tracer]);
+    for (const Tracer tracer : lab.tracers()) {
+      const std::vector<ProbeHit> hits = lab.probe(scene, rays, tracer);
       for (size_t i = 0; i < hits.size(); ++i)
         distance[tracer] = std::max(distance[tracer], std::abs(hits[i].t - expected[i]));
     }
@@ -163,9 +163,8 @@ void n14_scale(const Lab& lab, Rows& rows) {
   rows.add("largest relative error of the volume of a scaled box", host, 0.0, volume, 1e-12);
   rows.add("faces of scaled boxes that face outwards", host, 6.0 * std::size(scales), outwards, 0.0);
   rows.add("largest error of a normal of a scaled slope", host, 0.0, turned, 1e-6);
-  for (size_t tracer = 0; tracer < std::size(tracers); ++tracer)
-    rows.add("largest error of distance in a scaled box, m", name_of(tracers[tracer]), 0.0, distance[tracer],
-             2e-6);
+  for (const auto& [tracer, worst] : distance)
+    rows.add("largest error of distance in a scaled box, m", precision_of(tracer), 0.0, worst, 2e-6);
 }
 
 /// Adds a plate of `cells` x `cells` cells, whose corners are at origin + i u + j v + height(i, j) n.
@@ -200,7 +199,7 @@ void n22_edges_of_bins(const Lab& lab, Rows& rows) {
     }
   }
   rows.add("facets of planes at the edges of bins", host, std::size(heights), facets, 0.0);
-  rows.add("reflections off them", "host, fp64 + driver, fp32", std::size(heights), reflections, 0.0);
+  rows.add("reflections off them", lab.host_and_tracer(), std::size(heights), reflections, 0.0);
   // The facet's plane is within the jitter of its height; the length changes by 2 * jitter * cos(theta).
   rows.add("largest error of length, m", host, 0.0, worst, jitter);
 

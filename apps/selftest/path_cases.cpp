@@ -17,9 +17,6 @@ namespace {
 
 using rf::Path;
 
-/// Paths are found on the host in fp64, and the driver decides in fp32 what blocks them.
-constexpr const char* both = "host, fp64 + driver, fp32";
-
 double count_of(const std::vector<Path>& paths, size_t interactions) {
   return static_cast<double>(std::ranges::count_if(
       paths, [&](const Path& path) { return path.interactions.size() == interactions; }));
@@ -38,8 +35,9 @@ void n12_beside_a_wall(const Lab& lab, Rows& rows) {
   const dvec3 transmitter(9.995, 1.0, 2.0);
   const std::vector<dvec3> receivers{{0.0, -3.0, -1.0}, {lab.given(1.0) == 1.0 ? 10.5 : 9.5, 0.0, 0.0}};
   const auto paths = links.solve(transmitter, receivers);
-  rows.add("reflections 5 mm in front of a wall", both, 1.0, count_of(paths[0], 1), 0.0);
-  rows.add("paths through the wall 5 mm away", both, 0.0, static_cast<double>(paths[1].size()), 0.0);
+  rows.add("reflections 5 mm in front of a wall", lab.host_and_tracer(), 1.0, count_of(paths[0], 1), 0.0);
+  rows.add("paths through the wall 5 mm away", lab.host_and_tracer(), 0.0,
+           static_cast<double>(paths[1].size()), 0.0);
 }
 
 void n13_refused(const Lab& lab, Rows& rows) {
@@ -69,8 +67,8 @@ void n15_end_in_the_plane(const Lab& lab, Rows& rows) {
     for (const Path& path : paths)
       finite +=
           std::isfinite(path.delay_s) && path.delay_s > 0.0 && std::isfinite(std::abs(path.transfer[0]));
-    rows.add(receiver ? "paths to a receiver in the plane" : "paths from a transmitter in the plane", both,
-             1.0, finite, 0.0);
+    rows.add(receiver ? "paths to a receiver in the plane" : "paths from a transmitter in the plane",
+             lab.host_and_tracer(), 1.0, finite, 0.0);
   }
 }
 
@@ -81,8 +79,8 @@ void n17_same_place(const Lab& lab, Rows& rows) {
   Links links(lab, scene, {});
   const dvec3 at(1, 2, 0.5);
   const std::vector<Path> paths = links.solve(at, at + dvec3(0, 0, lab.given(1.0) - 1.0));
-  rows.add("lines of sight to itself", both, 0.0, count_of(paths, 0), 0.0);
-  rows.add("echoes off six walls", both, 6.0, count_of(paths, 1), 0.0);
+  rows.add("lines of sight to itself", lab.host_and_tracer(), 0.0, count_of(paths, 0), 0.0);
+  rows.add("echoes off six walls", lab.host_and_tracer(), 6.0, count_of(paths, 1), 0.0);
 }
 
 void n18_diagonal(const Lab& lab, Rows& rows) {
@@ -94,8 +92,8 @@ void n18_diagonal(const Lab& lab, Rows& rows) {
   double on_diagonal = 0.0;
   for (const Path& path : links.solve({-2, -3, 3}, lab.given({4, 5, 3})))  // by way of (1, 1, 0)
     on_diagonal += path.interactions.size() == 1 && path.vertices[1].x == path.vertices[1].y;
-  rows.add("reflections on the diagonal of a quad", both, 1.0, on_diagonal, 0.0);
-  rows.add("reflections beside it", both, 1.0, count_of(paths, 1), 0.0);
+  rows.add("reflections on the diagonal of a quad", lab.host_and_tracer(), 1.0, on_diagonal, 0.0);
+  rows.add("reflections beside it", lab.host_and_tracer(), 1.0, count_of(paths, 1), 0.0);
 }
 
 void n19_duplicates(const Lab& lab, Rows& rows) {
@@ -107,7 +105,8 @@ void n19_duplicates(const Lab& lab, Rows& rows) {
   const scene::Scene scene = stage.build();
   Links links(lab, scene, {.max_depth = 2});
   const std::vector<Path> paths = links.solve({0, 3, -3}, {1, -4, -5});
-  rows.add("paths off a wall that exists three times", both, 2.0, static_cast<double>(paths.size()), 0.0);
+  rows.add("paths off a wall that exists three times", lab.host_and_tracer(), 2.0,
+           static_cast<double>(paths.size()), 0.0);
 }
 
 void n20_corner(const Lab& lab, Rows& rows) {
@@ -118,7 +117,7 @@ void n20_corner(const Lab& lab, Rows& rows) {
   Links links(lab, scene, {.max_depth = 2});
   // The double reflection passes through the edge itself: xy and yx are one polyline.
   const std::vector<Path> paths = links.solve({3, 4, 1}, {6, 8, 2});
-  rows.add("double reflections in the edge of a corner", both, 1.0, count_of(paths, 2), 0.0);
+  rows.add("double reflections in the edge of a corner", lab.host_and_tracer(), 1.0, count_of(paths, 2), 0.0);
 }
 
 /// Returns the squared distances of the images of order 0 to `most` of a shoe box [0, size].
@@ -144,7 +143,8 @@ void n21_shoe_box(const Lab& lab, Rows& rows) {
   const std::vector<Path> paths = links.solve(from, lab.given(to));
   const double counts[] = {1, 6, 18, 38, 66};
   for (size_t order = 0; order < 5; ++order)
-    rows.add("paths of order " + std::to_string(order), both, counts[order], count_of(paths, order), 0.0);
+    rows.add("paths of order " + std::to_string(order), lab.host_and_tracer(), counts[order],
+             count_of(paths, order), 0.0);
   std::vector<double> found;
   for (const Path& path : paths) found.push_back(path.delay_s * speed_of_light);
   std::ranges::sort(found);
@@ -170,8 +170,8 @@ void n23_four_millimetres(const Lab& lab, Rows& rows) {
     off_first += path.interactions.size() == 1;
     off_second += path.interactions.size() == 3;  // in through the first pane, off the second, out again
   }
-  rows.add("reflections off the first of two panes 4 mm apart", both, 1.0, off_first, 0.0);
-  rows.add("reflections off the second, through the first", both, 1.0, off_second, 0.0);
+  rows.add("reflections off the first of two panes 4 mm apart", lab.host_and_tracer(), 1.0, off_first, 0.0);
+  rows.add("reflections off the second, through the first", lab.host_and_tracer(), 1.0, off_second, 0.0);
 }
 
 void n24_grazing(const Lab& lab, Rows& rows) {
@@ -185,7 +185,7 @@ void n24_grazing(const Lab& lab, Rows& rows) {
   for (const Path& path : paths)
     if (path.interactions.size() == 1)
       error = std::abs(path.delay_s * speed_of_light / std::hypot(1800.0, 2.0 * height) - 1.0);
-  rows.add("reflections at 89.99 degrees", both, 1.0, count_of(paths, 1), 0.0);
+  rows.add("reflections at 89.99 degrees", lab.host_and_tracer(), 1.0, count_of(paths, 1), 0.0);
   rows.add("relative error of delay", host, 0.0, error, 1e-12);
 }
 
@@ -227,7 +227,7 @@ void n07_paths_at_utm(const Lab& lab, Rows& rows) {
     for (size_t i = 0; i < std::min(a[r].size(), b[r].size()); ++i)
       worst = std::max(worst, std::abs(a[r][i].length_m - b[r][i].length_m));
   }
-  rows.add("largest change of length at UTM coordinates, m", both, 0.0, worst, 1e-9);
+  rows.add("largest change of length at UTM coordinates, m", lab.host_and_tracer(), 0.0, worst, 1e-9);
 }
 
 void n25_alone(const Lab& lab, Rows& rows) {
@@ -239,7 +239,7 @@ void n25_alone(const Lab& lab, Rows& rows) {
   double differ = 0.0;
   for (const size_t r : {0u, 13u, 57u, 99u})
     differ += !same_bits(all[r], links.solve(transmitter, lab.given(receivers[r])));
-  rows.add("receivers alone that differ from those among 100", both, 0.0, differ, 0.0);
+  rows.add("receivers alone that differ from those among 100", lab.host_and_tracer(), 0.0, differ, 0.0);
 }
 
 void n63_threads_of_the_search(const Lab& lab, Rows& rows) {
@@ -254,7 +254,7 @@ void n63_threads_of_the_search(const Lab& lab, Rows& rows) {
   double differ = 0.0;
   for (size_t i = 1; i < found.size(); ++i)
     for (size_t r = 0; r < receivers.size(); ++r) differ += !same_bits(found[0][r], found[i][r]);
-  rows.add("links that differ with 2 or 16 threads", both, 0.0, differ, 0.0);
+  rows.add("links that differ with 2 or 16 threads", lab.host_and_tracer(), 0.0, differ, 0.0);
 }
 
 void n52_both_directions(const Lab& lab, Rows& rows) {
@@ -275,7 +275,8 @@ void n52_both_directions(const Lab& lab, Rows& rows) {
     for (size_t tx = 0; tx < 2; ++tx)
       for (size_t k = 0; k < 16; ++k)
         worst = std::max(worst, std::abs(there[(rx * 2 + tx) * 16 + k] - back[(tx * 2 + rx) * 16 + k]));
-  rows.add("change of H in the other direction, of its largest value", both, 0.0, worst / largest, 1e-6);
+  rows.add("change of H in the other direction, of its largest value", lab.host_and_tracer(), 0.0,
+           worst / largest, 1e-6);
 }
 
 void n64_no_paths(const Lab& lab, Rows& rows) {
@@ -285,7 +286,7 @@ void n64_no_paths(const Lab& lab, Rows& rows) {
   Links links(lab, scene, {.max_depth = 2});
   // The receiver is outside of the closed box.
   const auto paths = links.solve({0.25, 0.125, 0.5}, {lab.given(1.0) == 1.0 ? 5.0 : 0.5, 0.75, 0.25});
-  rows.add("paths out of a closed box", both, 0.0, static_cast<double>(paths.size()), 0.0);
+  rows.add("paths out of a closed box", lab.host_and_tracer(), 0.0, static_cast<double>(paths.size()), 0.0);
   double sum = 0.0;
   for (const auto& value : rf::frequency_response(paths, antenna(), antenna(), {3.5e9, 30e3, 64, 1, 1e-3}))
     sum += std::abs(value);

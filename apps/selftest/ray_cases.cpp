@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 
 #include "apps/selftest/catalogue.h"
 #include "core/units.h"
@@ -16,7 +17,7 @@ namespace greatx::apps::selftest {
 
 namespace {
 
-using scene::Tracer;
+using gpu::Tracer;
 using shared::ProbeHit;
 using shared::ProbeRay;
 
@@ -45,13 +46,16 @@ struct Aimed {
 void add_closed(const Lab& lab, Rows& rows, const Stage& opaque, const Stage& thin, const Aimed& aimed) {
   const double count = static_cast<double>(aimed.rays.size());
   const scene::Scene solid = opaque.build(), sheet = thin.build();
-  rows.add("segments blocked", driver, count, blocked_of(lab.crossings(solid, aimed.segments)), 0.0);
   const auto once = [](const rf::Crossing& c) { return !c.blocked && c.walls.size() == 1; };
-  const std::vector<rf::Crossing> passed = lab.crossings(sheet, aimed.segments, true);
-  rows.add("thin walls passed once", driver, count, static_cast<double>(std::ranges::count_if(passed, once)),
-           0.0);
-  rows.add("rays that hit", name_of(Tracer::tree), count, hits_of(lab.probe(solid, aimed.rays, Tracer::tree)),
-           0.0);
+  for (const Tracer tracer : lab.tracers()) {
+    rows.add("segments blocked", precision_of(tracer), count,
+             blocked_of(lab.crossings(solid, aimed.segments, tracer)), 0.0);
+    const std::vector<rf::Crossing> passed = lab.crossings(sheet, aimed.segments, tracer, true);
+    rows.add("thin walls passed once", precision_of(tracer), count,
+             static_cast<double>(std::ranges::count_if(passed, once)), 0.0);
+  }
+  rows.add("rays that hit", precision_of(Tracer::tree), count,
+           hits_of(lab.probe(solid, aimed.rays, Tracer::tree)), 0.0);
 }
 
 /// Makes the same stage twice: of an opaque material, and of a thin wall that lets waves through.
@@ -123,13 +127,15 @@ void n05_slivers(const Lab& lab, Rows& rows) {
     aimed.add(from, {cut + (i % 2) * random.uniform(0, 1e-4), random.uniform(-0.999, 0.999), 1});
     general.push_back({vec3(from), vec3(random_direction(random))});
   }
-  rows.add("segments blocked", driver, ray_count, blocked_of(lab.crossings(scene, aimed.segments)), 0.0);
-  rows.add("rays that hit", name_of(Tracer::driver), ray_count,
-           hits_of(lab.probe(scene, general, Tracer::driver)), 0.0);
   std::vector<ProbeRay> all_rays = general;
   all_rays.insert(all_rays.end(), aimed.rays.begin(), aimed.rays.end());
-  rows.add("rays that hit", name_of(Tracer::tree), 2.0 * ray_count,
-           hits_of(lab.probe(scene, all_rays, Tracer::tree)), 0.0);
+  for (const Tracer tracer : lab.tracers()) {
+    rows.add("segments blocked", precision_of(tracer), ray_count,
+             blocked_of(lab.crossings(scene, aimed.segments, tracer)), 0.0);
+    const std::vector<ProbeRay>& rays = tracer == Tracer::tree ? all_rays : general;
+    rows.add("rays that hit", precision_of(tracer), static_cast<double>(rays.size()),
+             hits_of(lab.probe(scene, rays, tracer)), 0.0);
+  }
 }
 
 void n06_in_the_plane(const Lab& lab, Rows& rows) {
@@ -149,12 +155,12 @@ void n06_in_the_plane(const Lab& lab, Rows& rows) {
     const auto exit = [](double at, double speed) { return (std::copysign(1.0, speed) - at) / speed; };
     expected.push_back(std::min(exit(from.x, along.x), exit(from.y, along.y)));
   }
-  for (const Tracer tracer : tracers) {
+  for (const Tracer tracer : lab.tracers()) {
     double worst = 0.0;
     const std::vector<ProbeHit> hits = lab.probe(scene, rays, tracer);
     for (size_t i = 0; i < hits.size(); ++i) worst = std::max(worst, std::abs(hits[i].t - expected[i]));
     // A distance of up to 2 m has a rounding of 1.2e-7 m; the corners and the ray have three more each.
-    rows.add("largest error of distance, m", name_of(tracer), 0.0, worst, 1e-6);
+    rows.add("largest error of distance, m", precision_of(tracer), 0.0, worst, 1e-6);
   }
 }
 
@@ -178,11 +184,11 @@ void n07_utm(const Lab& lab, Rows& rows) {
     shifted.push_back({vec3(lab.given(from)), vec3(along)});
   }
   const scene::Scene here = stage.build(), there = stage.build(utm, utm);
-  for (const Tracer tracer : tracers) {
+  for (const Tracer tracer : lab.tracers()) {
     const std::vector<ProbeHit> near = lab.probe(here, rays, tracer), far = lab.probe(there, shifted, tracer);
     double differ = 0.0;
     for (size_t i = 0; i < near.size(); ++i) differ += std::memcmp(&near[i], &far[i], sizeof(ProbeHit)) != 0;
-    rows.add("answers that differ at UTM coordinates", name_of(tracer), 0.0, differ, 0.0);
+    rows.add("answers that differ at UTM coordinates", precision_of(tracer), 0.0, differ, 0.0);
   }
 }
 
@@ -199,10 +205,10 @@ void n08_tiny_part(const Lab& lab, Rows& rows) {
     const dvec3 target = part + 1e-4 * dvec3(u, v, 0);
     rays.push_back(ray_towards(target + dvec3(random.uniform(-2, 2), random.uniform(-2, 2), 4), target));
   }
-  for (const Tracer tracer : tracers) {
+  for (const Tracer tracer : lab.tracers()) {
     double part_hits = 0.0;
     for (const ProbeHit& hit : lab.probe(scene, rays, tracer)) part_hits += hit.primitive == 2;
-    rows.add("rays that hit 0.1 mm beside 10 km", name_of(tracer), ray_count, part_hits, 0.0);
+    rows.add("rays that hit 0.1 mm beside 10 km", precision_of(tracer), ray_count, part_hits, 0.0);
   }
 }
 
@@ -228,7 +234,8 @@ void add_sphere(Stage& stage, double radius) {
 }
 
 void n10_self_hits(const Lab& lab, Rows& rows) {
-  double tried = 0.0, blocked = 0.0, inside = 0.0, held = 0.0;
+  std::map<Tracer, double> blocked, held;
+  double inside = 0.0;
   for (const double radius : {1e-2, 1.0, 100.0, 1e4}) {
     Stage stage = lab.stage();
     add_sphere(stage, radius);
@@ -245,13 +252,17 @@ void n10_self_hits(const Lab& lab, Rows& rows) {
         outwards.push_back({.a = f.centroid, .b = f.centroid + 3.0 * radius * along, .facet_a = facet});
       }
     }
-    tried += static_cast<double>(outwards.size());
-    blocked += blocked_of(lab.crossings(scene, outwards));
     inside += 128.0;
-    held += blocked_of(lab.crossings(scene, through));
+    for (const Tracer tracer : lab.tracers()) {
+      blocked[tracer] += blocked_of(lab.crossings(scene, outwards, tracer));
+      held[tracer] += blocked_of(lab.crossings(scene, through, tracer));
+    }
   }
-  rows.add("rays off a convex solid that hit it, of 1e-2 to 1e4 m", driver, 0.0, blocked, 0.0);
-  rows.add("segments out of the solid that are blocked", driver, inside, held, 0.0);
+  for (const Tracer tracer : lab.tracers()) {
+    rows.add("rays off a convex solid that hit it, of 1e-2 to 1e4 m", precision_of(tracer), 0.0,
+             blocked[tracer], 0.0);
+    rows.add("segments out of the solid that are blocked", precision_of(tracer), inside, held[tracer], 0.0);
+  }
 }
 
 void n11_on_a_surface(const Lab& lab, Rows& rows) {
@@ -268,10 +279,12 @@ void n11_on_a_surface(const Lab& lab, Rows& rows) {
     // Half of the eyes are in front of the surface, like the point.
     in_front.push_back({.a = eye, .b = at + dvec3(0, 0, 5e-3)});
   }
-  rows.add("points on a surface that a side does not see", driver, 0.0, blocked_of(lab.crossings(scene, on)),
-           0.0);
-  rows.add("points 5 mm in front that only one side sees", driver, 0.5 * ray_count,
-           blocked_of(lab.crossings(scene, in_front)), 0.0);
+  for (const Tracer tracer : lab.tracers()) {
+    rows.add("points on a surface that a side does not see", precision_of(tracer), 0.0,
+             blocked_of(lab.crossings(scene, on, tracer)), 0.0);
+    rows.add("points 5 mm in front that only one side sees", precision_of(tracer), 0.5 * ray_count,
+             blocked_of(lab.crossings(scene, in_front, tracer)), 0.0);
+  }
 }
 
 void n64_nothing_to_hit(const Lab& lab, Rows& rows) {
@@ -280,11 +293,13 @@ void n64_nothing_to_hit(const Lab& lab, Rows& rows) {
   stage.object("empty");
   const scene::Scene scene = stage.build();
   const std::vector<ProbeRay> rays(64, {vec3(0.0f), vec3(0, 0, 1)});
-  for (const Tracer tracer : tracers)
-    rows.add("hits in an empty scene", name_of(tracer), 0.0, hits_of(lab.probe(scene, rays, tracer)), 0.0);
   const std::vector<rf::Segment> segments(64, {.a = dvec3(0.0), .b = dvec3(0, 0, 9)});
-  rows.add("segments blocked in an empty scene", driver, 0.0, blocked_of(lab.crossings(scene, segments)),
-           0.0);
+  for (const Tracer tracer : lab.tracers()) {
+    rows.add("hits in an empty scene", precision_of(tracer), 0.0, hits_of(lab.probe(scene, rays, tracer)),
+             0.0);
+    rows.add("segments blocked in an empty scene", precision_of(tracer), 0.0,
+             blocked_of(lab.crossings(scene, segments, tracer)), 0.0);
+  }
 }
 
 constexpr Case list_of_ray_cases[] = {

@@ -207,15 +207,16 @@ void n61_split_beam(const Lab& lab, Rows& rows) {
   render::LidarDesc desc = along({{1, 0, 0}});
   desc.divergence = 0.004;
   desc.rings = 8;
-  for (const scene::Tracer tracer : tracers) {
+  for (const gpu::Tracer tracer : lab.tracers()) {
     const render::LidarScan scan = lab.sweep(scene, desc, tracer);
     double share = 0.0;
     for (const float part : scan.share) share += part;
-    rows.add("returns of a beam over two depths", name_of(tracer), 2.0, static_cast<double>(scan.size()),
+    rows.add("returns of a beam over two depths", precision_of(tracer), 2.0, static_cast<double>(scan.size()),
              0.0);
-    rows.add("sum of their shares of the energy", name_of(tracer), 1.0, share, 1e-6);
+    rows.add("sum of their shares of the energy", precision_of(tracer), 1.0, share, 1e-6);
     // The rays of the beam, tilted by up to 2 mrad, lengthen the mean range by less than 0.1 mm.
-    rows.add("range of the first, m", name_of(tracer), 20.0, scan.size() > 0 ? scan.range_m[0] : 0.0, 1e-3);
+    rows.add("range of the first, m", precision_of(tracer), 20.0, scan.size() > 0 ? scan.range_m[0] : 0.0,
+             1e-3);
   }
 }
 
@@ -231,7 +232,7 @@ void n61_ranges(const Lab& lab, Rows& rows) {
     const dvec3 direction = random_direction(random);
     if (direction.x > 0.67) directions.push_back(direction);  // 80 m / 0.67 is within 120 m
   }
-  for (const scene::Tracer tracer : tracers) {
+  for (const gpu::Tracer tracer : lab.tracers()) {
     const render::LidarScan scan = lab.sweep(scene, along(directions), tracer);
     double range = 0.0, intensity = 0.0;
     for (size_t i = 0; i < scan.size(); ++i) {
@@ -239,10 +240,10 @@ void n61_ranges(const Lab& lab, Rows& rows) {
       range = std::max(range, std::abs(scan.range_m[i] - 80.0 / cosine));
       intensity = std::max(intensity, std::abs(static_cast<double>(scan.points[i].w) - cosine));
     }
-    rows.add("returns of 2048 shots", name_of(tracer), 2048.0, static_cast<double>(scan.size()), 0.0);
+    rows.add("returns of 2048 shots", precision_of(tracer), 2048.0, static_cast<double>(scan.size()), 0.0);
     // Eight roundings of coordinates and distances below 128 m, 3.8e-6 m each.
-    rows.add("largest error of range, m", name_of(tracer), 0.0, range, 3e-5);
-    rows.add("largest error of rho cos(theta)", name_of(tracer), 0.0, intensity, 1e-6);
+    rows.add("largest error of range, m", precision_of(tracer), 0.0, range, 3e-5);
+    rows.add("largest error of rho cos(theta)", precision_of(tracer), 0.0, intensity, 1e-6);
   }
 }
 

@@ -139,7 +139,7 @@ void n34_vacuum_wall(const Lab& lab, Rows& rows) {
   const dvec3 from(0.0), to(10, 3, 2);
   const auto walled = rf::frequency_response_fp64(through.solve(from, to), antenna(), antenna(), grid);
   const auto open = rf::frequency_response_fp64(free.solve(from, to), antenna(), antenna(), grid);
-  rows.add("change of H by a wall of vacuum", "host, fp64 + driver, fp32", 0.0,
+  rows.add("change of H by a wall of vacuum", lab.host_and_tracer(), 0.0,
            std::abs(walled[0] - open[0]) / std::abs(open[0]), 1e-12);
 }
 

@@ -106,6 +106,8 @@ class Simulation:
                 the sun, `azimuth_deg` and `elevation_deg` of `sun` replace them together; one angle alone is
                 an error
     device      index of a Vulkan device, or part of its name; empty: $GREATX_DEVICE, else the best device
+    tracer      how rays meet triangles: "auto" ($GREATX_TRACER, else the tree on a CPU or without ray queries),
+                "driver" (ray queries) or "tree" (trees of greatx's own)
     validation  if true, runs under the Vulkan validation layer, whose messages raise a RuntimeError
 
     The scene is loaded and the device is opened when they are first needed. Faulty input raises a
@@ -127,9 +129,10 @@ class Simulation:
         effects: Optional[Mapping[str, str]] = None,
         environment: Optional[Mapping[str, Any]] = None,
         device: str = "",
+        tracer: str = "auto",
         validation: bool = False,
     ):
-        options = ("" if assets is None else os.fspath(assets), device, validation)
+        options = ("" if assets is None else os.fspath(assets), device, validation, tracer)
         embedded = _native.embedded_scenarios()
         if isinstance(scenario, Mapping):
             session = _call(_native.Session.parse, _text(scenario), "scenario", *options)
@@ -197,7 +200,7 @@ class Simulation:
 
     @property
     def device(self) -> Dict[str, str]:
-        """Returns the name, the type, the driver and the Vulkan version of the device."""
+        """Returns the name, the type, the driver and the Vulkan version of the device, and the tracer."""
         return json.loads(_call(self._native.device_facts))
 
     @property

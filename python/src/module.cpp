@@ -222,21 +222,28 @@ struct ReleasedDelete {
 };
 using SessionHolder = std::unique_ptr<Session, ReleasedDelete>;
 
+gpu::DeviceOptions device_options(const std::string& device, bool validation, const std::string& tracer) {
+  const std::optional<gpu::Tracer> named = gpu::tracer_of(tracer);
+  if (!named) throw_user_error("tracer: expected auto, driver or tree, found '{}'", tracer);
+  return {device, validation, *named};
+}
+
 void bind_session(py::module_& module) {
   py::class_<Session, SessionHolder>(module, "Session")
       .def_static(
           "load",
-          [](const std::string& file, const std::string& assets, const std::string& device, bool validation) {
+          [](const std::string& file, const std::string& assets, const std::string& device, bool validation,
+             const std::string& tracer) {
             return SessionHolder(new Session(sim::load_scenario(file, assets), assets,
-                                             gpu::DeviceOptions{device, validation}));
+                                             device_options(device, validation, tracer)));
           },
           Released())
       .def_static(
           "parse",
           [](const std::string& text, const std::string& name, const std::string& assets,
-             const std::string& device, bool validation) {
+             const std::string& device, bool validation, const std::string& tracer) {
             return SessionHolder(new Session(sim::parse_scenario(text, name, ".", assets), assets,
-                                             gpu::DeviceOptions{device, validation}));
+                                             device_options(device, validation, tracer)));
           },
           Released())
       .def("add_nodes", &Session::add_nodes, Released())

@@ -211,8 +211,13 @@ std::string Session::explain() {
 
 std::string Session::device_facts() {
   const std::lock_guard lock(mutex_);
-  const gpu::DeviceInfo& info = gpu()->device.info();
-  return Json{{"name", info.name}, {"type", info.type}, {"driver", info.driver}, {"vulkan", info.api_version}}
+  const gpu::Device& device = gpu()->device;
+  const gpu::DeviceInfo& info = device.info();
+  return Json{{"name", info.name},
+              {"type", info.type},
+              {"driver", info.driver},
+              {"vulkan", info.api_version},
+              {"tracer", gpu::name_of(device.tracer())}}
       .dump();
 }
 

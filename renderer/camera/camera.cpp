@@ -125,7 +125,7 @@ void CameraPass::sort_primitives() {
 void CameraPass::build_pipelines() {
   gpu::Device& device = scene_->device();
   gpu::GraphicsDesc draw;
-  draw.bindings = scene::GpuScene::bindings(false);
+  draw.bindings = scene::GpuScene::raster_bindings();
   draw.push_constant_bytes = sizeof(shared::CameraConstants);
   draw.color_formats = {visibility_format};
   draw.depth_format = depth_format;
@@ -148,7 +148,7 @@ void CameraPass::build_pipelines() {
 
   gpu::ComputeDesc shade;
   shade.shader = multisampled() ? "camera/shade_multisampled.comp" : "camera/shade.comp";
-  shade.bindings = scene::GpuScene::bindings(false);
+  shade.bindings = scene::GpuScene::raster_bindings();
   for (const gpu::Binding& binding : SceneLighting::bindings()) shade.bindings.push_back(binding);
   for (const gpu::Binding& binding : SurfaceTables::bindings()) shade.bindings.push_back(binding);
   shade.bindings.push_back({shared::lights_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});

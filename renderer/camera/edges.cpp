@@ -11,7 +11,7 @@ EdgePass::EdgePass(const SceneLighting& lighting, const CameraDesc& desc)
     : lighting_(&lighting), width_(desc.width), height_(desc.height), scope_(desc.name + " edges") {
   gpu::ComputeDesc edges;
   edges.shader = "camera/edges.comp";
-  edges.bindings = scene::GpuScene::bindings(false);
+  edges.bindings = scene::GpuScene::raster_bindings();
   for (const gpu::Binding& binding : SurfaceTables::bindings()) edges.bindings.push_back(binding);
   edges.bindings.push_back({shared::lens_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
   for (const uint32_t slot :

@@ -49,7 +49,7 @@ TruthPass::TruthPass(const SceneLighting& lighting, const CameraDesc& desc, cons
                "camera {}: no truth is wanted, or nothing keeps what is seen", desc.name);
   gpu::ComputeDesc truth;
   truth.shader = "camera/truth.comp";
-  truth.bindings = scene::GpuScene::bindings(false);
+  truth.bindings = scene::GpuScene::raster_bindings();
   truth.bindings.push_back({shared::truth_seen_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   truth.bindings.push_back({shared::truth_triangle_primitives_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   truth.push_constant_bytes = sizeof(shared::TruthConstants);

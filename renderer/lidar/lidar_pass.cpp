@@ -93,20 +93,17 @@ LidarPass::LidarPass(scene::GpuScene& scene, const LidarDesc& desc, std::string_
 gpu::ComputePipeline LidarPass::build_pipeline() const {
   const bool textured = desc_.alpha_mask || desc_.textured_reflectance;
   gpu::ComputeDesc compute;
-  compute.shader = textured ? "lidar/sweep_textured.comp" : "lidar/sweep.comp";
-  compute.bindings = scene::GpuScene::bindings(true);
-  for (uint32_t slot = shared::lidar_beams_binding; slot <= shared::lidar_motions_binding; ++slot)
-    compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
-  compute.push_constant_bytes = sizeof(shared::LidarConstants);
   compute.specialization = {desc_.excluded_body.has_value(), desc_.rings > 0, desc_.glass,
                             desc_.target_motion};
-  if (textured) {
+  if (textured)
     compute.specialization.insert(compute.specialization.end(),
                                   {desc_.alpha_mask, desc_.textured_reflectance,
                                    scene_->textures().arrays_of(&scene::MaterialTextures::base_color)});
-    compute.textures = &scene_->textures().table();
-  }
-  scene_->specialize_tracer(compute.specialization);
+  if (textured) compute.textures = &scene_->textures().table();
+  scene_->prepare_tracing(compute, textured ? "lidar/sweep_textured.comp" : "lidar/sweep.comp");
+  for (uint32_t slot = shared::lidar_beams_binding; slot <= shared::lidar_motions_binding; ++slot)
+    compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  compute.push_constant_bytes = sizeof(shared::LidarConstants);
   return gpu::ComputePipeline(scene_->device(), compute, name_);
 }
 

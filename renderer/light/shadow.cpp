@@ -65,7 +65,7 @@ gpu::GraphicsPipeline ShadowMaps::pipeline(bool moving, bool masked) const {
     desc.textures = &scene_->textures().table();
     desc.specialization = {scene_->textures().arrays_of(&scene::MaterialTextures::base_color)};
   }
-  desc.bindings = scene::GpuScene::bindings(false);
+  desc.bindings = scene::GpuScene::raster_bindings();
   if (moving) {
     desc.bindings.push_back({shared::lighting_binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER});
     desc.bindings.push_back({shared::shadow_tiles_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});

@@ -8,12 +8,9 @@ namespace {
 constexpr uint32_t rays_slot = shared::first_pass_binding, hits_slot = shared::first_pass_binding + 1;
 }
 
-ProbePass::ProbePass(const scene::GpuScene& scene, const std::vector<uint32_t>& tracer) : scene_(&scene) {
-  GREATX_CHECK(scene.tlas().handle() != VK_NULL_HANDLE, "the scene has no acceleration structure");
+ProbePass::ProbePass(const scene::GpuScene& scene) : scene_(&scene) {
   gpu::ComputeDesc desc;
-  desc.shader = "probe/rays.comp";
-  desc.specialization = tracer;
-  desc.bindings = scene::GpuScene::bindings(true);
+  scene.prepare_tracing(desc, "probe/rays.comp");
   desc.bindings.push_back({rays_slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   desc.bindings.push_back({hits_slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   desc.push_constant_bytes = sizeof(shared::ProbeConstants);

@@ -17,9 +17,8 @@ namespace greatx::render {
 
 class ProbePass {
  public:
-  /// `tracer`: the constants of GpuScene::specialize_tracer; empty: the driver's ray queries. Throws
-  /// ContractError if `scene` was uploaded without acceleration structures.
-  explicit ProbePass(const scene::GpuScene& scene, const std::vector<uint32_t>& tracer = {});
+  /// Throws ContractError if `scene` was uploaded without a tracer.
+  explicit ProbePass(const scene::GpuScene& scene);
   /// Records the rays (local coordinates). Hits of `excluded_body` are passed through. Returns the place of
   /// shared::ProbeHit [rays] once the slot's submission is done.
   gpu::Slice record(gpu::TickSlot& slot, std::span<const shared::ProbeRay> rays,

@@ -128,14 +128,13 @@ CrossingPass::CrossingPass(scene::GpuScene& scene, const FacetKinds& kinds, uint
   foliage_ = gpu::upload_buffer(device, std::as_bytes(std::span(boxes)), "foliage boxes");
 
   gpu::ComputeDesc compute;
-  compute.shader = "rf/crossings.comp";
-  compute.bindings = scene::GpuScene::bindings(true);
+  compute.specialization = {walls_ ? 1u : 0u, foliage_boxes_ > 0 ? 1u : 0u};
+  scene.prepare_tracing(compute, "rf/crossings.comp");
   for (const uint32_t slot : {shared::crossings_segments_binding, shared::crossings_planes_binding,
                               shared::crossings_foliage_binding, shared::crossings_results_binding,
                               shared::crossings_leaders_binding})
     compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   compute.push_constant_bytes = sizeof(shared::CrossingConstants);
-  compute.specialization = {walls_ ? 1u : 0u, foliage_boxes_ > 0 ? 1u : 0u};
   pipeline_ = gpu::ComputePipeline(device, compute, "crossings");
 }
 

@@ -153,16 +153,15 @@ CandidateSearch::CandidateSearch(scene::GpuScene& scene, const CandidateSearchOp
   kinds_ = gpu::upload_buffer(device, std::as_bytes(std::span(kind_words)), "candidate facet kinds");
   keys_ = gpu::Buffer(device, sizeof(uint32_t) * words(part_rays_), gpu::Memory::device, "candidate keys");
   gpu::ComputeDesc compute;
-  compute.shader = "rf/candidates.comp";
-  compute.bindings = scene::GpuScene::bindings(true);
-  for (const uint32_t slot : {shared::candidates_directions_binding, shared::candidates_kinds_binding,
-                              shared::candidates_keys_binding})
-    compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
-  compute.push_constant_bytes = sizeof(shared::CandidateConstants);
   const uint32_t mask =
       options.moving_bodies ? shared::static_mask | shared::moving_mask : shared::static_mask;
   compute.specialization = {mask, foliage_ ? 1u : 0u, walls_ ? options.max_transmissions : 0u,
                             walls_ ? options.max_depth : 1u, counts_left_out_ ? 1u : 0u};
+  scene.prepare_tracing(compute, "rf/candidates.comp");
+  for (const uint32_t slot : {shared::candidates_directions_binding, shared::candidates_kinds_binding,
+                              shared::candidates_keys_binding})
+    compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  compute.push_constant_bytes = sizeof(shared::CandidateConstants);
   pipeline_ = gpu::ComputePipeline(device, compute, "candidate search");
 }
 

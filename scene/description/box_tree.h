@@ -3,7 +3,7 @@
 //
 // Defines a tree of boxes for searches on the host: triangles near a segment, facets within a beam, pieces of
 // a facet within a tube. These trees have their own layout and are elsewhere: EchoTracer (eight children side
-// by side), TargetImages (points, four side by side), and StaticTree (for shaders).
+// by side), TargetImages (points, four side by side), and SahTree (for shaders).
 #pragma once
 
 #include <cstdint>

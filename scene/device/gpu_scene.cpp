@@ -8,8 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include "core/activity.h"
-#include "scene/device/static_tree.h"
-#include "shaders/shared/tree.h"
+#include "scene/device/scene_trees.h"
 
 namespace greatx::scene {
 
@@ -58,20 +57,28 @@ bool same(const Pose& a, const Pose& b) { return a.position == b.position && a.o
 }  // namespace
 
 GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const GpuSceneOptions& options)
-    : device_(&device), scene_(&scene), options_(options) {
+    : device_(&device),
+      scene_(&scene),
+      options_(options),
+      tracer_(options.tracer == gpu::Tracer::automatic ? device.tracer() : options.tracer) {
   // Without textures the table still has a layout, which pipelines need.
   textures_ = GpuTextures(device, options.textures ? std::span(scene.textures) : std::span<const Texture>(),
                           scene.materials);
   upload_geometry();
-  if (options.acceleration_structure) build_structures();
+  if (!traces()) return;
+  if (tracer_ == gpu::Tracer::tree)
+    build_trees();
+  else
+    build_structures();
 }
 
 void GpuScene::upload_geometry() {
   const Activity activity("uploading the scene");
   gpu::Device& device = *device_;
   const VkBufferUsageFlags build_input =
-      options_.acceleration_structure ? VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR
-                                      : 0;
+      traces() && tracer_ == gpu::Tracer::driver
+          ? VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR
+          : 0;
   positions_ = upload(device, scene_->positions, "positions", build_input);
   normals_ = upload(device, scene_->normals, "normals");
   tangents_ = upload(device, scene_->tangents, "tangents");
@@ -115,28 +122,35 @@ void GpuScene::build_structures() {
     blas_body_.push_back(body);
   }
   tlas_ = gpu::Tlas(*device_, static_cast<uint32_t>(blas_.size()), "tlas");
-  tree_ = upload(*device_, std::vector<uint32_t>{0, 0, 0, shared::tree_none}, "no tree");
 }
 
-bool GpuScene::wants_tree() const {
-  if (!options_.acceleration_structure || options_.tracer == Tracer::driver) return false;
-  return options_.tracer == Tracer::tree || device_->info().type == "cpu";
+void GpuScene::build_trees() {
+  const SceneTrees trees = make_scene_trees(*scene_);
+  const size_t bytes = trees.words.size() * sizeof(uint32_t);
+  if (bytes > device_->limits().maxStorageBufferRange)
+    throw_user_error(
+        "the trees of {} triangles: expected at most {} bytes in a storage buffer of '{}', found {}",
+        trees.triangles, device_->limits().maxStorageBufferRange, device_->info().name, bytes);
+  trees_ = upload(*device_, trees.words, "trees of triangles");
+  body_tree_ = BodyTree(*scene_);
+  spdlog::debug("trees of {} bodies: {} triangles, {} inner nodes, {} leaves, {} deep, {} KiB",
+                scene_->bodies.size(), trees.triangles, trees.inner_nodes, trees.leaves, trees.depth,
+                bytes / 1024);
 }
 
-void GpuScene::specialize_tracer(std::vector<uint32_t>& specialization) {
-  GREATX_CHECK(specialization.size() <= shared::trace_tree_id, "{} specialization constants",
-               specialization.size());
-  if (wants_tree() && !has_tree_) {
-    const StaticTree tree = make_static_tree(*scene_);
-    const size_t bytes = tree.words.size() * sizeof(uint32_t);
-    has_tree_ = bytes <= device_->limits().maxStorageBufferRange;
-    if (has_tree_) tree_ = upload(*device_, tree.words, "static tree");
-    spdlog::debug("static tree: {} triangles, {} inner nodes, {} leaves, {} deep, {} KiB{}", tree.triangles,
-                  tree.inner_nodes, tree.leaves, tree.depth, bytes / 1024,
-                  has_tree_ ? "" : ": too large, the driver traces");
-  }
-  specialization.resize(shared::trace_tree_id);
-  specialization.push_back(has_tree_ ? 1u : 0u);
+void GpuScene::prepare_tracing(gpu::ComputeDesc& compute, std::string_view name) const {
+  GREATX_CHECK(traces(), "{} traces rays through a scene without a tracer", name);
+  GREATX_CHECK(compute.specialization.size() <= shared::has_moving_bodies_id, "{} specialization constants",
+               compute.specialization.size());
+  const bool tree = tracer_ == gpu::Tracer::tree;
+  compute.shader = fmt::format("{}{}", name, tree ? ".tree" : "");
+  compute.bindings = raster_bindings();
+  compute.bindings.push_back(
+      tree ? gpu::Binding{shared::body_tree_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}
+           : gpu::Binding{shared::tlas_binding, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR});
+  if (tree) compute.bindings.push_back({shared::tree_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  compute.specialization.resize(shared::has_moving_bodies_id);
+  compute.specialization.push_back(body_tree_.empty() ? 0u : 1u);
 }
 
 void GpuScene::record_poses(gpu::TickSlot& slot, std::span<const Pose> body_poses) {
@@ -149,10 +163,14 @@ void GpuScene::record_poses(gpu::TickSlot& slot, std::span<const Pose> body_pose
 
 void GpuScene::record_update(gpu::TickSlot& slot, std::span<const Pose> body_poses) {
   record_poses(slot, body_poses);
-  if (!options_.acceleration_structure) return;
-  std::vector<Pose> poses(body_poses.begin(), body_poses.end());
-  poses[0] = Pose{};
+  if (!traces()) return;
+  if (tracer_ == gpu::Tracer::driver) return record_tlas(slot, {body_poses.begin(), body_poses.end()});
+  body_words_ = slot.upload.allocate_for<uint32_t>(body_tree_.word_count());
+  body_tree_.write(body_poses, body_words_.as<uint32_t>().first(body_tree_.word_count()));
+}
 
+void GpuScene::record_tlas(gpu::TickSlot& slot, std::vector<Pose> poses) {
+  poses[0] = Pose{};
   const bool moved =
       !tlas_.built() || !std::equal(poses.begin(), poses.end(), last_poses_.begin(), last_poses_.end(), same);
   if (!moved) return;
@@ -173,21 +191,18 @@ std::vector<gpu::Descriptor> GpuScene::raster_descriptors() const {
 
 std::vector<gpu::Descriptor> GpuScene::descriptors() const {
   std::vector<gpu::Descriptor> all = raster_descriptors();
-  if (options_.acceleration_structure) {
+  if (tracer_ == gpu::Tracer::tree) {
+    all.push_back(gpu::Descriptor::buffer(shared::body_tree_binding, body_words_));
+    all.push_back(gpu::Descriptor::buffer(shared::tree_binding, trees_));
+  } else {
     all.push_back(gpu::Descriptor::acceleration(shared::tlas_binding, tlas_));
-    all.push_back(gpu::Descriptor::buffer(shared::tree_binding, tree_));
   }
   return all;
 }
 
-std::vector<gpu::Binding> GpuScene::bindings(bool trace) {
-  std::vector<gpu::Binding> all{{shared::scene_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-                                {shared::bodies_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}};
-  if (trace) {
-    all.push_back({shared::tlas_binding, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR});
-    all.push_back({shared::tree_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
-  }
-  return all;
+std::vector<gpu::Binding> GpuScene::raster_bindings() {
+  return {{shared::scene_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+          {shared::bodies_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}};
 }
 
 }  // namespace greatx::scene

@@ -53,6 +53,12 @@ GpuTextures::GpuTextures(gpu::Device& device, std::span<const Texture> textures,
   limits.tiled_bytes = cpu ? most_tiled_bytes : 0;
   TextureLayers layers = plan_texture_layers(textures, materials, limits);
   materials_ = std::move(layers.materials);
+  // The table needs one image at least, which nothing samples if there are no textures.
+  const Texture white{.width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
+  if (layers.arrays.empty()) {
+    layers.arrays.push_back({.width = 1, .height = 1, .layers = {{.texture = 0}}});
+    textures = std::span(&white, 1);
+  }
   std::vector<VkDescriptorImageInfo> infos;
   for (const TextureLayers::Array& array : layers.arrays) {
     const std::string name = fmt::format("textures of {} x {}", array.width, array.height);
@@ -62,8 +68,15 @@ GpuTextures::GpuTextures(gpu::Device& device, std::span<const Texture> textures,
     infos.push_back(
         {samplers_.back().handle(), arrays_.back().view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
   }
-  table_ = gpu::TextureTable(device, infos, "scene textures");
-  tries_arrays_ = arrays_.size() == 1 || (cpu && arrays_.size() <= shared::most_tried_arrays);
+  const bool any_number = device.info().has_texture_table();
+  if (!any_number && arrays_.size() > shared::most_tried_arrays)
+    throw_user_error(
+        "the scene's textures: expected at most {} different sizes, colour spaces and wrappings on '{}', "
+        "which "
+        "has no table of textures (greatx info), found {}",
+        shared::most_tried_arrays, device.info().name, arrays_.size());
+  tries_arrays_ = arrays_.size() <= 1 || !any_number || (cpu && arrays_.size() <= shared::most_tried_arrays);
+  table_ = gpu::TextureTable(device, infos, tries_arrays_, "scene textures");
 }
 
 uint32_t GpuTextures::arrays_of(TextureReference MaterialTextures::*use) const {

@@ -18,7 +18,8 @@ namespace greatx::scene {
 class GpuTextures {
  public:
   GpuTextures() = default;
-  /// Uploads the textures that `materials` name.
+  /// Uploads the textures that `materials` name. Throws UserError if they need more arrays than the device's
+  /// shaders can tell apart.
   GpuTextures(gpu::Device& device, std::span<const Texture> textures, std::span<const Material> materials);
 
   /// Returns the array images: sampler2DArray [arrays] in set 1, binding 0.
@@ -27,7 +28,7 @@ class GpuTextures {
   const MaterialTextures& of_material(size_t material) const { return materials_[material]; }
   /// Returns the arrays that hold the textures of one use, one bit each, for a specialization constant
   /// (shaders/lib/textures.glsl). The shader then tests them one by one. With 0 the shader selects an array
-  /// by a number that differs between its lanes.
+  /// by a number that differs between its lanes, or no material has such a texture.
   uint32_t arrays_of(TextureReference MaterialTextures::*use) const;
 
  private:

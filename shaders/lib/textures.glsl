@@ -3,14 +3,22 @@
 //
 // Samples the scene's textures (scene/device/gpu_textures.h), which are named by references
 // (texture_array_shift). `arrays` is a specialization constant with one bit for each array that the texture
-// may be in (GpuTextures::arrays_of); 0: any.
+// may be in (GpuTextures::arrays_of); 0: any. The variant of a shader with GREATX_FEW_TEXTURES knows each
+// array by a constant index, so it runs on devices that have no table of variable size or cannot index one by
+// a number that differs between lanes.
 #ifndef GREATX_LIB_TEXTURES_GLSL
 #define GREATX_LIB_TEXTURES_GLSL
+#ifndef GREATX_FEW_TEXTURES
 #extension GL_EXT_nonuniform_qualifier : require
+#endif
 #extension GL_EXT_control_flow_attributes : require
 #include "shared/scene.h"
 
+#ifdef GREATX_FEW_TEXTURES
+layout(set = 1, binding = 0) uniform sampler2DArray textures[most_tried_arrays];
+#else
 layout(set = 1, binding = 0) uniform sampler2DArray textures[];
+#endif
 
 uint texture_array(uint reference) { return reference >> texture_array_shift; }
 
@@ -32,7 +40,9 @@ vec4 texture_by_gradient(uint arrays, uint reference, vec2 uv, vec2 dx, vec2 dy)
   vec3 at = texture_place(reference, uv * scale);
   dx *= scale;
   dy *= scale;
+#ifndef GREATX_FEW_TEXTURES
   if (arrays == 0u) return textureGrad(textures[nonuniformEXT(array)], at, dx, dy);
+#endif
   vec4 value = vec4(1.0);
   [[unroll]] for (uint i = 0u; i < most_tried_arrays; ++i)
     if ((arrays >> i & 1u) != 0u && array == i) value = textureGrad(textures[i], at, dx, dy);
@@ -43,7 +53,9 @@ vec4 texture_by_gradient(uint arrays, uint reference, vec2 uv, vec2 dx, vec2 dy)
 vec4 texture_of_level_0(uint arrays, uint reference, vec2 uv) {
   uint array = texture_array(reference);
   vec3 at = texture_place(reference, uv * texture_scale(reference));
+#ifndef GREATX_FEW_TEXTURES
   if (arrays == 0u) return textureLod(textures[nonuniformEXT(array)], at, 0.0);
+#endif
   vec4 value = vec4(1.0);
   [[unroll]] for (uint i = 0u; i < most_tried_arrays; ++i)
     if ((arrays >> i & 1u) != 0u && array == i) value = textureLod(textures[i], at, 0.0);

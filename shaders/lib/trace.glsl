@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Traces rays, with one interface and two back ends. One is the driver's ray query. The other, switched on by
-// the specialization constant trace_tree, is a tree of our own for the static world in trace_closest,
-// trace_closest_masked and trace_closest_except (lib/tree.glsl). The driver is then asked only for bodies
-// that move, and only by rays that come near one.
+// Traces rays, with one interface and two back ends. One is the driver's ray query (lib/driver_walk.glsl).
+// The other, in the variant of a shader that is compiled with GREATX_TRACE_TREE, is trees of our own over the
+// static world and the moving bodies (lib/tree_walk.glsl); it runs on devices without ray queries.
 //
 // These rules hold for every back end:
 // - t_min < t < t_max. A hit exactly at an end may or may not be reported, so callers leave room for
 //   rounding.
 // - Both sides of a triangle are solid. Degenerate triangles and triangles in the ray's plane are never hit.
 // - direction need not be a unit vector, but it must not be zero. Nothing may be NaN.
-// - Where several triangles share the nearest t (an edge, a vertex, duplicates), one of them is returned.
+// - Where several triangles share the nearest t (an edge, a vertex, duplicates), one of them is returned: by
+//   the trees the one of lowest index, by a driver any one.
 //
 // Watertightness: Vulkan asks for it. However, a traversal whose box test is not rounded outwards (T. Ize,
 // "Robust BVH ray traversal", JCGT 2(2), 2013) lets a ray slip between two triangles if it passes within
@@ -19,26 +19,28 @@
 // direction has no more chance of that than of hitting a line (see tests/gpu/trace_test.cpp), so the plain
 // functions trust the driver. The functions called *_watertight look again along two rays right beside the
 // first. They are for rays that aim at edges and corners, and for callers that must not let anything through.
+// The trees are watertight by themselves, except between two bodies.
 //
 // With GREATX_TRACE_ALPHA defined (which needs lib/alpha.glsl and the texture table), texels below the
 // cut-off of a masked material let rays through in the functions that say so. Everywhere else masked
 // triangles are solid.
 #ifndef GREATX_LIB_TRACE_GLSL
 #define GREATX_LIB_TRACE_GLSL
+#ifndef GREATX_TRACE_TREE
 #extension GL_EXT_ray_query : require
+#endif
 #include "lib/scene.glsl"
 #ifdef GREATX_TRACE_ALPHA
 #include "lib/alpha.glsl"
 #endif
-layout(constant_id = trace_tree_id) const bool trace_tree = false;
+/// Whether bodies move. Without them the trees' walk has no second level.
+layout(constant_id = has_moving_bodies_id) const bool has_moving_bodies = true;
 
 // The bodies that the rays of this shader may meet (static_mask, moving_mask). They are all bodies unless the
 // shader says otherwise.
 #ifndef GREATX_TRACE_MASK
 #define GREATX_TRACE_MASK 0xffu
 #endif
-
-layout(set = 0, binding = tlas_binding) uniform accelerationStructureEXT tlas;
 
 const uint no_body = ~0u;
 const uint no_facet = ~0u;
@@ -54,116 +56,78 @@ struct Hit {
 
 Hit no_hit(float t_max) { return Hit(false, t_max, 0u, 0u, vec2(0.0), true); }
 
+/// Describes a triangle that a ray passes through, which a walk decides about (lib/walk.glsl).
+struct Candidate {
+  float t;
+  vec2 barycentric;
+  uint triangle, primitive, facet, body, owner;
+  bool masked;  // its material may have holes
+};
+
+#ifdef GREATX_TRACE_TREE
 #include "lib/tree.glsl"
+#else
+layout(set = 0, binding = tlas_binding) uniform accelerationStructureEXT tlas;
+#endif
 
-/// Returns the hit that a query has found, else `hit`.
-Hit committed_hit(rayQueryEXT query, Hit hit) {
-  if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionTriangleEXT) {
-    hit.hit = true;
-    hit.t = rayQueryGetIntersectionTEXT(query, true);
-    hit.primitive = uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, true)) +
-                    uint(rayQueryGetIntersectionGeometryIndexEXT(query, true));
-    hit.triangle = scene_primitive(hit.primitive).first_triangle +
-                   uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, true));
-    hit.barycentric = rayQueryGetIntersectionBarycentricsEXT(query, true);
-    hit.front = rayQueryGetIntersectionFrontFaceEXT(query, true);
-  }
-  return hit;
-}
-Hit committed_hit(rayQueryEXT query, float t_max) { return committed_hit(query, no_hit(t_max)); }
-
-/// For trace_tree: stores the answer of the tree in `hit` and leaves in `mask` the bodies that the tree does
-/// not hold. Returns whether the driver need not be asked. `body`, `facet` and `masks` are as below.
-bool tree_answers(vec3 origin, float t_min, vec3 direction, uint body, uint facet, bool masks,
-                  inout uint mask, inout Hit hit) {
-  if ((mask & static_mask) != 0u && body != 0u)
-    hit = tree_closest(origin, t_min, direction, hit.t, facet, masks);
-  mask &= moving_mask;
-  return mask == 0u || !tree_near_moving(origin, t_min, direction, hit.t, body);
+/// Returns whether a candidate stops a ray. If `masks`, texels below the cut-off of a masked material do not
+/// (GREATX_TRACE_ALPHA).
+bool stops_ray(Candidate candidate, bool masks) {
+#ifdef GREATX_TRACE_ALPHA
+  if (masks && candidate.masked)
+    return alpha_is_solid(scene_primitive(candidate.primitive), candidate.triangle, candidate.barycentric);
+#endif
+  return true;
 }
 
-uint candidate_primitive(rayQueryEXT query) {
-  return uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, false)) +
-         uint(rayQueryGetIntersectionGeometryIndexEXT(query, false));
-}
-uint candidate_triangle(rayQueryEXT query, GpuPrimitive primitive) {
-  return primitive.first_triangle + uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
-}
-
+/// Hit trace_closest(vec3 origin, float t_min, vec3 direction, float t_max)
 /// Returns the first triangle along origin + t * direction. Masked texels count as solid.
-Hit trace_closest(vec3 origin, float t_min, vec3 direction, float t_max) {
-  Hit hit = no_hit(t_max);
-  uint mask = GREATX_TRACE_MASK;
-  if (trace_tree && tree_answers(origin, t_min, direction, no_body, no_facet, false, mask, hit)) return hit;
-  rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsOpaqueEXT, mask, origin, t_min, direction, hit.t);
-  while (rayQueryProceedEXT(query)) {}
-  return committed_hit(query, hit);
-}
+#define GREATX_WALK trace_closest
+#define GREATX_WALK_PARAMETERS
+#define GREATX_WALK_SOLID true
+#define GREATX_WALK_OPAQUE
+#include "lib/walk.glsl"
 
+/// Hit trace_closest_except(..., uint body, uint facet, bool masks)
 /// Returns the first triangle that is not of `body`, its parts included, nor of `facet` (no_body, no_facet:
 /// none). The exclusion is exactly by name: these triangles are passed over one by one, whatever else is at
 /// the same distance. If `masks`, masked texels are passed over as well (GREATX_TRACE_ALPHA).
-Hit trace_closest_except(vec3 origin, float t_min, vec3 direction, float t_max, uint body, uint facet,
-                         bool masks) {
-  Hit hit = no_hit(t_max);
-  uint mask = GREATX_TRACE_MASK;
-  if (trace_tree && tree_answers(origin, t_min, direction, body, facet, masks, mask, hit)) return hit;
-  rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, mask, origin, t_min, direction, hit.t);
-  while (rayQueryProceedEXT(query)) {
-    GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
-    uint triangle = candidate_triangle(query, primitive);
-    bool solid = primitive.owner != body && (facet == no_facet || scene_facet(triangle) != facet);
-#ifdef GREATX_TRACE_ALPHA
-    if (masks)
-      solid = solid && alpha_is_solid(primitive, triangle,
-                                      rayQueryGetIntersectionBarycentricsEXT(query, false));
-#endif
-    if (solid) rayQueryConfirmIntersectionEXT(query);
-  }
-  return committed_hit(query, hit);
-}
+#define GREATX_WALK trace_closest_except
+#define GREATX_WALK_PARAMETERS , uint except_body, uint except_facet, bool masks
+#define GREATX_WALK_SKIPS owner == except_body
+#define GREATX_WALK_SOLID \
+  (except_facet == no_facet || candidate.facet != except_facet) && stops_ray(candidate, masks)
+#include "lib/walk.glsl"
 
+/// Hit trace_closest_of_body(..., uint of_body, uint except_facet, bool masks)
 /// Returns the first triangle of one moving body, without those of one facet (no_facet: none). `masks` is as
 /// above.
-Hit trace_closest_of_body(vec3 origin, float t_min, vec3 direction, float t_max, uint body, uint facet,
-                          bool masks) {
-  rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, moving_mask, origin, t_min, direction, t_max);
-  while (rayQueryProceedEXT(query)) {
-    GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
-    if (primitive.body != body) continue;
-    uint triangle = candidate_triangle(query, primitive);
-    bool solid = facet == no_facet || scene_facet(triangle) != facet;
-#ifdef GREATX_TRACE_ALPHA
-    if (masks)
-      solid = solid && alpha_is_solid(primitive, triangle,
-                                      rayQueryGetIntersectionBarycentricsEXT(query, false));
-#endif
-    if (solid) rayQueryConfirmIntersectionEXT(query);
-  }
-  return committed_hit(query, t_max);
-}
+#define GREATX_WALK trace_closest_of_body
+#define GREATX_WALK_PARAMETERS , uint of_body, uint except_facet, bool masks
+#define GREATX_WALK_BODY of_body
+#define GREATX_WALK_SOLID \
+  (except_facet == no_facet || candidate.facet != except_facet) && stops_ray(candidate, masks)
+#include "lib/walk.glsl"
 
 #ifdef GREATX_TRACE_ALPHA
-/// Returns the first solid texel. Only geometries that were uploaded as not opaque (those with a mask) are
-/// looked at one by one.
-Hit trace_closest_masked(vec3 origin, float t_min, vec3 direction, float t_max) {
-  Hit hit = no_hit(t_max);
-  uint mask = GREATX_TRACE_MASK;
-  if (trace_tree && tree_answers(origin, t_min, direction, no_body, no_facet, true, mask, hit)) return hit;
-  rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoneEXT, mask, origin, t_min, direction, hit.t);
-  while (rayQueryProceedEXT(query)) {
-    GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
-    uint triangle = candidate_triangle(query, primitive);
-    if (alpha_is_solid(primitive, triangle, rayQueryGetIntersectionBarycentricsEXT(query, false)))
-      rayQueryConfirmIntersectionEXT(query);
-  }
-  return committed_hit(query, hit);
-}
+/// Hit trace_closest_masked(vec3 origin, float t_min, vec3 direction, float t_max)
+/// Returns the first solid texel.
+#define GREATX_WALK trace_closest_masked
+#define GREATX_WALK_PARAMETERS
+#define GREATX_WALK_MASKED
+#define GREATX_WALK_SOLID stops_ray(candidate, true)
+#include "lib/walk.glsl"
 #endif
+
+/// Hit meet_any(..., uint except_facet_a, uint except_facet_b)
+/// Returns some triangle that is of neither facet (those at the ends of a segment; no_facet: none). Masked
+/// texels count as solid.
+#define GREATX_WALK meet_any
+#define GREATX_WALK_PARAMETERS , uint except_facet_a, uint except_facet_b
+#define GREATX_WALK_ANY
+#define GREATX_WALK_SOLID \
+  candidate.facet == no_facet || (candidate.facet != except_facet_a && candidate.facet != except_facet_b)
+#include "lib/walk.glsl"
 
 /// One of the looks of a ray: the given ray, then two rays beside it. At every distance these are some
 /// rounding errors of the traversal away: 2^-21 of the distance to the side plus 2^-22 of the origin's
@@ -200,19 +164,9 @@ Hit trace_closest_watertight(vec3 origin, float t_min, vec3 direction, float t_m
   return hit;
 }
 
-/// Returns whether anything lies between t_min and t_max. Triangles of two facets do not count (those at the
-/// ends of a segment; no_facet: none). Masked texels count as solid.
+/// Returns whether anything lies between t_min and t_max, except triangles of two facets.
 bool trace_any(vec3 origin, float t_min, vec3 direction, float t_max, uint skip_facet_a, uint skip_facet_b) {
-  rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT,
-                        GREATX_TRACE_MASK, origin, t_min, direction, t_max);
-  while (rayQueryProceedEXT(query)) {
-    uint triangle = candidate_triangle(query, scene_primitive(candidate_primitive(query)));
-    uint facet = scene_facet(triangle);
-    if (facet == no_facet || (facet != skip_facet_a && facet != skip_facet_b))
-      rayQueryConfirmIntersectionEXT(query);
-  }
-  return rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;
+  return meet_any(origin, t_min, direction, t_max, skip_facet_a, skip_facet_b).hit;
 }
 bool trace_any_watertight(vec3 origin, float t_min, vec3 direction, float t_max, uint skip_facet_a,
                           uint skip_facet_b) {

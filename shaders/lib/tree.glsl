@@ -1,21 +1,44 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Traces the tree of the static world (shared/tree.h) without the driver, one ray an invocation. It is made
-// for drivers that run eight invocations in a CPU's vector registers. There a load is expensive however few
-// words it brings, so a node is two quadruples. The rules for every back end (lib/trace.glsl) hold here, and
-// also these:
+// The parts of a walk through the trees of shared/tree.h, one ray an invocation; lib/tree_walk.glsl puts them
+// together. They are made for drivers that run eight invocations in a CPU's vector registers. There a load
+// is a branch for each invocation and each component, with a test of the buffer's size, and takes most of a
+// walk's time. Therefore a node is 32 bytes, read as four components of 64 bits. The rules for every back end
+// (lib/trace.glsl) hold here, and also these:
 //
 // - The tracing is watertight: the triangle test is S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle
 //   intersection", JCGT 2(1), 2013. A ray exactly on an edge is inside both of its triangles, which needs no
 //   fp64. The difference of two rounded products never has the wrong sign, so no ray between the triangles of
 //   an edge or a fan is outside all of them.
 // - Boxes are met with a margin above all rounding errors, of the box test and of the triangle test.
+// - A ray is taken into the frame of a moving body, which is rigid: lengths along the ray stay.
 #ifndef GREATX_LIB_TREE_GLSL
 #define GREATX_LIB_TREE_GLSL
 #include "shared/tree.h"
 
-layout(set = 0, binding = tree_binding, scalar) readonly buffer TreeBlock { uvec4 tree[]; };
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+
+// Quadruples of words, as 64 bits twice, and pairs of quadruples.
+layout(set = 0, binding = tree_binding, scalar) readonly buffer TreeQuads { u64vec2 tree_quads[]; };
+layout(set = 0, binding = tree_binding, scalar) readonly buffer TreePairs { u64vec4 tree_pairs[]; };
+layout(set = 0, binding = body_tree_binding, scalar) readonly buffer BodyTreePairs {
+  u64vec4 body_tree_pairs[];
+};
+
+struct QuadPair {
+  uvec4 first, second;
+};
+QuadPair pair_of(u64vec4 words) {
+  return QuadPair(uvec4(unpack32(words.x), unpack32(words.y)), uvec4(unpack32(words.z), unpack32(words.w)));
+}
+/// Returns the quadruple of an even index and the one after it.
+QuadPair tree_pair(uint quad) { return pair_of(tree_pairs[quad >> 1]); }
+QuadPair body_tree_pair(uint quad) { return pair_of(body_tree_pairs[quad >> 1]); }
+uvec4 tree_quad(uint quad) {
+  u64vec2 words = tree_quads[quad];
+  return uvec4(unpack32(words.x), unpack32(words.y));
+}
 
 /// Holds the rows of the shear that takes the ray to the z axis at unit speed. Their elements are 0, 1 and
 /// ratios of the direction's elements, so that rows times a corner round as Woop's permuted corners do.
@@ -31,19 +54,14 @@ TreeShear tree_shear(vec3 direction) {
   return TreeShear(x - z * (dot(x, direction) / speed), y - z * (dot(y, direction) / speed), z / speed);
 }
 
-struct TreeHit {
+/// Holds the place where a ray meets a triangle's plane.
+struct TriangleMeet {
+  bool inside;  // the ray passes through the triangle
   float t;
-  uint triangle, primitive;  // tree_none: nothing yet
   vec2 barycentric;
-  float orientation;  // positive: wound counter-clockwise seen along the shear's -z
+  bool front;
 };
-
-/// Keeps the triangle of the three quadruples from `quad` on if it is hit before `best`.
-void tree_triangle(uint quad, vec3 origin, TreeShear shear, float t_min, uint facet, bool masks,
-                   inout TreeHit best) {
-  uvec4 first = tree[quad], second = tree[quad + 1u], third = tree[quad + 2u];
-  vec3 a = uintBitsToFloat(first.xyz) - origin, b = uintBitsToFloat(second.xyz) - origin,
-       c = uintBitsToFloat(third.xyz) - origin;
+TriangleMeet meet_triangle(vec3 a, vec3 b, vec3 c, TreeShear shear) {
   precise float ax = a.x * shear.x.x + a.y * shear.x.y + a.z * shear.x.z;
   precise float ay = a.x * shear.y.x + a.y * shear.y.y + a.z * shear.y.z;
   precise float bx = b.x * shear.x.x + b.y * shear.x.y + b.z * shear.x.z;
@@ -52,17 +70,12 @@ void tree_triangle(uint quad, vec3 origin, TreeShear shear, float t_min, uint fa
   precise float cy = c.x * shear.y.x + c.y * shear.y.y + c.z * shear.y.z;
   precise float u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
   float sum = u + v + w;
-  bool inside = (min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0) && sum != 0.0;
-  float t = (u * dot(shear.z, a) + v * dot(shear.z, b) + w * dot(shear.z, c)) / sum;
-  if (inside && t > t_min && t < best.t && (facet == no_facet || third.w != facet)) {
-    vec2 barycentric = vec2(v, w) / sum;
-    bool solid = true;
-#ifdef GREATX_TRACE_ALPHA
-    if (masks && (second.w & tree_masked) != 0u)
-      solid = alpha_is_solid(scene_primitive(second.w & ~tree_masked), first.w, barycentric);
-#endif
-    if (solid) best = TreeHit(t, first.w, second.w & ~tree_masked, barycentric, sum);
-  }
+  TriangleMeet meet;
+  meet.inside = (min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0) && sum != 0.0;
+  meet.t = (u * dot(shear.z, a) + v * dot(shear.z, b) + w * dot(shear.z, c)) / sum;
+  meet.barycentric = vec2(v, w) / sum;
+  meet.front = (sum > 0.0) == (shear.z.x + shear.z.y + shear.z.z > 0.0);
+  return meet;
 }
 
 // These are selections, which are one instruction. min and max must treat NaN and are three.
@@ -71,7 +84,7 @@ float upper(float a, float b) { return a > b ? a : b; }
 vec3 lower(vec3 a, vec3 b) { return vec3(lower(a.x, b.x), lower(a.y, b.y), lower(a.z, b.z)); }
 vec3 upper(vec3 a, vec3 b) { return vec3(upper(a.x, b.x), upper(a.y, b.y), upper(a.z, b.z)); }
 
-/// Describes a ray in steps of the tree's frame: t at step s of an axis is s * slope + near or far, which
+/// Describes a ray in steps of a tree's frame: t at step s of an axis is s * slope + near or far, which
 /// include the margin.
 struct TreeRay {
   vec3 slope, near, far;
@@ -96,64 +109,53 @@ TreeSpan tree_span(uvec4 box, TreeRay ray, float t_min, float t_max) {
                   lower(lower(leave.x, leave.y), lower(leave.z, t_max)));
 }
 
-/// Returns the first triangle of the static world that is not of `facet` (no_facet: any). If `masks`, texels
-/// below the cut-off are passed over (GREATX_TRACE_ALPHA).
-Hit tree_closest(vec3 origin, float t_min, vec3 direction, float t_max, uint facet, bool masks) {
-  TreeShear shear = tree_shear(direction);
-  uvec4 frame = tree[0];
-  TreeRay ray = tree_ray(origin, direction, uintBitsToFloat(frame.xyz), uintBitsToFloat(tree[1].xyz));
-  TreeHit best = TreeHit(t_max, tree_none, 0u, vec2(0.0), 0.0);
-  uint later[tree_most_depth + 1u];
-  later[0] = tree_none;
-  uint waiting = 1u, node = frame.w;
-  while (node != tree_none) {
-    while (node < tree_leaf) {
-      uvec4 left = tree[node], right = tree[node + 1u];
-      TreeSpan in_left = tree_span(left, ray, t_min, best.t), in_right = tree_span(right, ray, t_min, best.t);
-      bool meets_left = in_left.from <= in_left.to, meets_right = in_right.from <= in_right.to;
-      bool right_first = !meets_left || (meets_right && in_right.from < in_left.from);
-      node = right_first ? right.w : left.w;
-      if (meets_left && meets_right) {
-        later[waiting] = right_first ? left.w : right.w;
-        ++waiting;
-      } else if (!meets_left && !meets_right) {
-        --waiting;
-        node = later[waiting];
-      }
-    }
-    if (node != tree_none) {
-      uint quad = node & (tree_most_quads - 1u),
-           end = quad + 3u * (node >> tree_count_shift & tree_most_in_leaf);
-      for (; quad < end; quad += 3u) tree_triangle(quad, origin, shear, t_min, facet, masks, best);
-      --waiting;
-      node = later[waiting];
-    }
-  }
-  Hit hit = no_hit(t_max);
-  if (best.triangle != tree_none)
-    hit = Hit(true, best.t, best.primitive, best.triangle, best.barycentric,
-              (best.orientation > 0.0) == (dot(shear.z, vec3(1.0)) > 0.0));
-  return hit;
+/// The walk through the tree of the tick. A shader makes one walk at a time, so there is one state.
+TreeRay bodies_ray;
+uint bodies_node, bodies_waiting, bodies_later[body_tree_most_depth + 1u];
+
+void start_bodies(vec3 origin, float t_min, vec3 direction, float t_max) {
+  QuadPair head = body_tree_pair(0u);
+  uvec4 frame = head.first;
+  bodies_later[0] = tree_none;
+  bodies_waiting = 1u;
+  bodies_node = frame.w;
+  if (frame.w == tree_none) return;
+  bodies_ray = tree_ray(origin, direction, uintBitsToFloat(frame.xyz), uintBitsToFloat(head.second.xyz));
+  const uint all = 0xffffu;
+  TreeSpan whole = tree_span(uvec4(0u, all << 16, all | all << 16, 0u), bodies_ray, t_min, t_max);
+  if (whole.from > whole.to) bodies_node = tree_none;
 }
 
-/// Returns whether the ray comes near a moving body that is not of `owner` (no_body: any), so that the driver
-/// has to be asked.
-bool tree_near_moving(vec3 origin, float t_min, vec3 direction, float t_max, uint owner) {
-  float squared = dot(direction, direction), size = sqrt(squared);
-  uint count = tree[1].w;
-  bool meets = false;
-  for (uint i = 0u; i < count; ++i) {
-    vec4 sphere = uintBitsToFloat(tree[tree_bodies + 2u * i]);
-    uvec4 whose = tree[tree_bodies + 2u * i + 1u];
-    vec3 center = body_point(whose.x, sphere.xyz);
-    // Some rounding errors of the coordinates and of the pose are added to the radius.
-    float radius = sphere.w * 1.000002 + 1.9073486e-6 * dot(abs(center) + abs(origin), vec3(1.0));
-    // The cross product is used, since differences of squares of hundreds of metres would lose the body.
-    vec3 to = center - origin, side = cross(to, direction);
-    float along = dot(to, direction), reach = radius * size;
-    meets = meets || (whose.y != owner && dot(side, side) <= reach * reach &&
-                      along + reach >= t_min * squared && along - reach <= t_max * squared);
+/// Returns the next body whose box the ray meets, nearer boxes first; no_body: none is left.
+uint next_body(float t_min, float t_max) {
+  while (bodies_node < tree_leaf) {
+    QuadPair node = body_tree_pair(bodies_node);
+    TreeSpan in_left = tree_span(node.first, bodies_ray, t_min, t_max),
+             in_right = tree_span(node.second, bodies_ray, t_min, t_max);
+    bool meets_left = in_left.from <= in_left.to, meets_right = in_right.from <= in_right.to;
+    bool right_first = !meets_left || (meets_right && in_right.from < in_left.from);
+    bodies_node = right_first ? node.second.w : node.first.w;
+    if (meets_left && meets_right) {
+      bodies_later[bodies_waiting] = right_first ? node.first.w : node.second.w;
+      ++bodies_waiting;
+    } else if (!meets_left && !meets_right) {
+      --bodies_waiting;
+      bodies_node = bodies_later[bodies_waiting];
+    }
   }
-  return meets;
+  if (bodies_node == tree_none) return no_body;
+  uint body = bodies_node & ~tree_leaf;
+  --bodies_waiting;
+  bodies_node = bodies_later[bodies_waiting];
+  return body;
+}
+
+/// Takes a ray into the frame of a moving body.
+void enter_body(uint body, inout vec3 origin, inout vec3 direction) {
+  GpuBody pose = bodies[body];
+  // The columns of the inverse of a rotation are its rows.
+  mat3 body_from_local = mat3(pose.row0.xyz, pose.row1.xyz, pose.row2.xyz);
+  origin = body_from_local * (origin - vec3(pose.row0.w, pose.row1.w, pose.row2.w));
+  direction = body_from_local * direction;
 }
 #endif

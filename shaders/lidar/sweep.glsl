@@ -47,8 +47,12 @@ struct ShotHit {
 /// Returns the first surface among the bodies of `trace_mask` where they stand at the tick. `behind` is the
 /// facet that the ray leaves.
 Hit first_surface(vec3 origin, float t_min, vec3 direction, uint behind) {
-  // The tree takes the same path in all cases, since passing over triangles costs it nothing.
-  if (trace_tree || (glass && behind != no_facet))
+#ifdef GREATX_TRACE_TREE
+  // The trees take the same path in all cases, since passing over triangles costs them nothing.
+  return trace_closest_except(origin, t_min, direction, constants.max_range,
+                              exclude_body ? constants.excluded_body : no_body, behind, alpha_mask);
+#else
+  if (glass && behind != no_facet)
     return trace_closest_except(origin, t_min, direction, constants.max_range,
                                 exclude_body ? constants.excluded_body : no_body, behind, alpha_mask);
   Hit hit;
@@ -63,6 +67,7 @@ Hit first_surface(vec3 origin, float t_min, vec3 direction, uint behind) {
     hit = trace_closest_except(origin, t_min, direction, constants.max_range, constants.excluded_body,
                                no_facet, alpha_mask);
   return hit;
+#endif
 }
 
 /// Returns whether the ray comes near a body somewhere between its ends. The cross product is used, since

@@ -31,16 +31,14 @@ Hit next_hit(vec3 origin, vec3 direction, uint facet) {
   return hit;
 }
 
+#define GREATX_WALK meet_obstacle
+#define GREATX_WALK_PARAMETERS , uint except_facet
+#define GREATX_WALK_SKIPS owner == constants.source_body || owner == constants.receiver_body
+#define GREATX_WALK_SOLID candidate.facet != except_facet
+#define GREATX_WALK_ANY
+#include "lib/walk.glsl"
 bool sees_receiver(vec3 start, uint facet) {
-  rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT,
-                        GREATX_TRACE_MASK, start, 0.0, constants.receiver - start, 1.0);
-  while (rayQueryProceedEXT(query)) {
-    GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
-    if (primitive.owner == constants.source_body || primitive.owner == constants.receiver_body) continue;
-    if (scene_facet(candidate_triangle(query, primitive)) != facet) rayQueryConfirmIntersectionEXT(query);
-  }
-  return rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
+  return !meet_obstacle(start, 0.0, constants.receiver - start, 1.0, facet).hit;
 }
 
 void main() {

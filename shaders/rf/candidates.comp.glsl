@@ -41,17 +41,15 @@ struct Way {
   uint transmissions;  // walls passed
 };
 
+#define GREATX_WALK trace_past_foliage
+#define GREATX_WALK_PARAMETERS , uint left_facet
+#define GREATX_WALK_SOLID candidate.facet != left_facet && kinds[candidate.facet] < facet_kind_foliage
+#include "lib/walk.glsl"
+
 /// Returns the next hit of a way. Foliage is passed over.
 Hit next_hit(Way way) {
-  if (!has_foliage) return trace_leaving(way.origin, way.direction, infinite_range, way.left_facet);
-  rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, GREATX_TRACE_MASK, way.origin, 0.0,
-                        way.direction, infinite_range);
-  while (rayQueryProceedEXT(query)) {
-    uint facet = scene_facet(candidate_triangle(query, scene_primitive(candidate_primitive(query))));
-    if (facet != way.left_facet && kinds[facet] < facet_kind_foliage) rayQueryConfirmIntersectionEXT(query);
-  }
-  return committed_hit(query, infinite_range);
+  if (has_foliage) return trace_past_foliage(way.origin, 0.0, way.direction, infinite_range, way.left_facet);
+  return trace_leaving(way.origin, way.direction, infinite_range, way.left_facet);
 }
 
 /// Splits a way at a hit into the two ways that go on from it.

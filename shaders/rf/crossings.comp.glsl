@@ -139,16 +139,16 @@ bool add_wall(inout Walls walls, uint most, uint facet, GpuFacetPlane plane, flo
 /// Returns whether the surface met at `at` along a ray, 0 to 1, ends the segment. Walls and foliage that do
 /// not end it are added. `open` is set if fp32 cannot tell. A ray beside the segment (`beside`) ends nothing:
 /// what it meets and the segment has not met leaves the segment open.
-bool stops(GpuSegment segment, Ray ray, bool beside, GpuPrimitive primitive, uint triangle, float at,
-           inout Walls walls, inout Depth depth, inout bool open) {
+bool stops(GpuSegment segment, Ray ray, bool beside, Candidate candidate, inout Walls walls,
+           inout Depth depth, inout bool open) {
   vec3 direction = ray.direction;
-  if (primitive.owner == segment.body_a || primitive.owner == segment.body_b) return false;
-  uint facet = scene_facet(triangle);
+  float at = candidate.t;
+  uint facet = candidate.facet;
   if (facet == rf_none) return true;
   if (facet == segment.facet_a || facet == segment.facet_b || facet == segment.other_a ||
       facet == segment.other_b)
     return false;
-  GpuFacetPlane plane = posed_plane(facet, primitive.body);
+  GpuFacetPlane plane = posed_plane(facet, candidate.body);
   if (has_foliage && plane.kind == facet_kind_foliage) {
     add_crossing(depth, plane, direction, at);
     return false;
@@ -167,7 +167,7 @@ bool stops(GpuSegment segment, Ray ray, bool beside, GpuPrimitive primitive, uin
     return !known;  // nothing more to learn from this ray
   }
   float reach = max(largest(segment.a), largest(segment.b));
-  if (near_edge(triangle, primitive.body, ray, at, crossings_edge_band(reach))) {
+  if (near_edge(candidate.triangle, candidate.body, ray, at, crossings_edge_band(reach))) {
     open = true;
     return false;
   }
@@ -176,19 +176,18 @@ bool stops(GpuSegment segment, Ray ray, bool beside, GpuPrimitive primitive, uin
                    largest(segment.a));
 }
 
+#define GREATX_WALK meet_obstacle
+#define GREATX_WALK_PARAMETERS \
+  , GpuSegment segment, Ray ray, bool beside, inout Walls walls, inout Depth depth, inout bool open
+#define GREATX_WALK_SKIPS owner == segment.body_a || owner == segment.body_b
+#define GREATX_WALK_SOLID stops(segment, ray, beside, candidate, walls, depth, open)
+#define GREATX_WALK_ANY
+#include "lib/walk.glsl"
+
 bool blocked_along(GpuSegment segment, Ray ray, bool beside, inout Walls walls, out Depth depth,
                    inout bool open) {
   depth = Depth(0, 0);
-  rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT,
-                        GREATX_TRACE_MASK, ray.origin, 0.0, ray.direction, 1.0);
-  while (rayQueryProceedEXT(query)) {
-    GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
-    float at = rayQueryGetIntersectionTEXT(query, false);
-    if (stops(segment, ray, beside, primitive, candidate_triangle(query, primitive), at, walls, depth, open))
-      rayQueryConfirmIntersectionEXT(query);
-  }
-  return rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;
+  return meet_obstacle(ray.origin, 0.0, ray.direction, 1.0, segment, ray, beside, walls, depth, open).hit;
 }
 
 /// Returns the segment itself (0), or one of three parallel segments around it, a third of a turn apart. The
@@ -259,19 +258,22 @@ vec2 line_through_foliage(GpuSegment segment, vec3 d) {
   return part;
 }
 
+/// Adds a candidate of foliage, whose t is between the ends of `part`. Nothing ends the walk.
+bool measures(Candidate candidate, vec3 direction, vec2 part, inout Depth depth) {
+  if (candidate.facet != rf_none && planes[candidate.facet].kind == facet_kind_foliage)
+    add_crossing(depth, posed_plane(candidate.facet, candidate.body), direction,
+                 mix(part.x, part.y, candidate.t));
+  return false;
+}
+#define GREATX_WALK measure_foliage
+#define GREATX_WALK_PARAMETERS , GpuSegment segment, vec2 part, inout Depth depth
+#define GREATX_WALK_SKIPS owner == segment.body_a || owner == segment.body_b
+#define GREATX_WALK_SOLID measures(candidate, direction, part, depth)
+#include "lib/walk.glsl"
+
 Depth depth_along(GpuSegment segment, Ray ray, vec2 part) {
   Depth depth = Depth(0, 0);
-  rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, GREATX_TRACE_MASK, ray.origin, 0.0,
-                        ray.direction, 1.0);
-  while (rayQueryProceedEXT(query)) {
-    GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
-    if (primitive.owner == segment.body_a || primitive.owner == segment.body_b) continue;
-    uint facet = scene_facet(candidate_triangle(query, primitive));
-    if (facet == rf_none || planes[facet].kind != facet_kind_foliage) continue;
-    add_crossing(depth, posed_plane(facet, primitive.body), ray.direction,
-                 mix(part.x, part.y, rayQueryGetIntersectionTEXT(query, false)));
-  }
+  measure_foliage(ray.origin, 0.0, ray.direction, 1.0, segment, part, depth);
   return depth;
 }
 

@@ -20,9 +20,8 @@ const uint material_flag_reflectance_1550nm = 8u;
 const uint static_mask = 1u;
 const uint moving_mask = 2u;
 
-// The specialization constant of shaders that trace the static world through the tree of tree.h instead of
-// the driver.
-const uint trace_tree_id = 15u;
+// The specialization constant of shaders that trace: whether bodies move.
+const uint has_moving_bodies_id = 15u;
 
 /// The most texture arrays that a shader tests one by one (scene/device/gpu_textures.h).
 const uint most_tried_arrays = 24u;
@@ -82,9 +81,10 @@ struct GpuSceneAddresses {
 // Every pass over the scene shares these bindings of set 0. A pass's own bindings start at
 // first_pass_binding.
 const uint scene_binding = 0u;
-const uint tlas_binding = 1u;
+const uint tlas_binding = 1u;       // for the driver's tracer
+const uint body_tree_binding = 1u;  // for the trees, in place of the TLAS; their layout: tree.h
 const uint bodies_binding = 2u;
-const uint tree_binding = 3u;  // with the TLAS; its layout: tree.h
+const uint tree_binding = 3u;
 const uint first_pass_binding = 4u;
 
 GREATX_SHARED_END

@@ -23,6 +23,7 @@ io::DatasetInfo dataset_info(const Experiment& experiment, const gpu::Device& de
   run["device"] = device.info().name;
   run["driver"] = device.info().driver;
   run["vulkan"] = device.info().api_version;
+  run["tracer"] = gpu::name_of(device.tracer());
   run["local_origin_m"] = {scene.origin.x, scene.origin.y, scene.origin.z};
   run["semantic_classes"] = scene::semantic_class_names();
   run["instances"] = nlohmann::json::array();

@@ -22,12 +22,10 @@ namespace {
 void plan_rays(EffectPlan& plan, Planner& planner, const Offers& offers) {
   const bool rays = plan.lidar.on || plan.radar.on || plan.channel.on || plan.consistency.on;
   planner.decide(plan.acceleration_structure, rays,
-                 rays ? "LiDAR, radar, radio or the consistency check trace "
-                        "rays; a LiDAR on a CPU through a tree of greatx's own"
-                      : "nothing traces rays");
+                 rays ? "LiDAR, radar, radio or the consistency check trace rays" : "nothing traces rays");
   planner.decide(plan.scene_motion, offers.moving_triangles,
-                 offers.moving_triangles ? "a mesh follows a moving node: refitted when it moved"
-                                         : "no mesh moves: built once, never refitted");
+                 offers.moving_triangles ? "a mesh follows a moving node: posed at every tick"
+                                         : "no mesh moves: built once");
 }
 
 /// Throws UserError if the plan has effects of radio that this program was built without.

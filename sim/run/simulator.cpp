@@ -284,12 +284,19 @@ void Simulator::compare(const Packet& packet) {
   comparer_.compare(sequence_, packet.tick, witnesses);
 }
 
+std::string Simulator::tracer_note() const {
+  if (gpu_scene_.tracer() == gpu::Tracer::driver) return "driver: rays meet triangles by ray queries";
+  const gpu::DeviceInfo& info = gpu_scene_.device().info();
+  const std::string why = !info.has_ray_query() ? "the device has no ray queries"
+                          : info.best_tracer() == gpu::Tracer::tree
+                              ? "the device is a CPU, where they are faster than its ray queries"
+                              : "chosen";
+  return fmt::format("tree: rays meet triangles in trees of greatx's own ({})", why);
+}
+
 RunStatistics Simulator::statistics() const {
   RunStatistics statistics = statistics_;
-  if (gpu_scene_.has_tree())
-    statistics.notes.emplace_back("tracer",
-                                  "the device is a CPU: LiDAR rays meet the static world in a tree of "
-                                  "greatx's own, all others in the driver's");
+  if (gpu_scene_.traces()) statistics.notes.emplace_back("tracer", tracer_note());
   statistics.consistency = comparer_.totals();
   statistics.rows = comparer_.rows();
   for (const RunSensor& run : sensors_) {

@@ -94,6 +94,8 @@ class Simulator {
   void add_passes(InFlight& in_flight);
   double simulated_ms(int64_t tick) const;
   void compare(const Packet& packet);
+  /// Returns which tracer the passes use, and why, for the run's summary.
+  std::string tracer_note() const;
   class HostScope;
 
   const Scenario& scenario_;

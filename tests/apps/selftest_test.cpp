@@ -99,10 +99,12 @@ TEST(SelftestReport, EveryTracerAndPrecisionIsThere) {
   std::map<std::string, size_t> by;
   for (const Case& item : catalogue())
     for (const Row& row : rows_of(item, Fault::none)) ++by[row.by];
-  for (const char* name :
-       {"driver, fp32", "tree, fp32", "host, fp64", "host, complex64", "host, fp64 + driver, fp32",
-        "device, fp32", "device rays, fp32 + fp64", "host rays, fp32 + fp64"})
+  for (const char* name : {"tree, fp32", "host, fp64", "host, complex64", "device, fp32",
+                           "device rays, fp32 + fp64", "host rays, fp32 + fp64"})
     EXPECT_GE(by[name], 3u) << name;
+  const Lab lab(test::device());
+  EXPECT_GE(by[lab.host_and_tracer()], 3u);
+  for (const gpu::Tracer tracer : lab.tracers()) EXPECT_GE(by[precision_of(tracer)], 3u);
 }
 
 }  // namespace

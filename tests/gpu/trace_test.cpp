@@ -17,7 +17,7 @@ using namespace test::tracing;
 using test::TinyScene;
 using test::Triangle;
 
-TEST(Trace, HitsWhatItShould) {
+GREATX_TRACER_TEST(Trace, HitsWhatItShould) {
   TinyScene tiny;
   tiny.quad({-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5})
       .quad({-1, -1, 7}, {1, -1, 7}, {1, 1, 7}, {-1, 1, 7});
@@ -26,7 +26,7 @@ TEST(Trace, HitsWhatItShould) {
   skipping.skip_facet = 0;
   TraceTestRay short_one = ray({0.25, -0.5, 0}, {0, 0, 1}, 4.9);
   const auto results =
-      trace(tiny.build(), std::vector{through, skipping, ray({3, 0, 0}, {0, 0, 1}), short_one});
+      trace(tracer, tiny.build(), std::vector{through, skipping, ray({3, 0, 0}, {0, 0, 1}), short_one});
   EXPECT_EQ(results[0].triangle, 0u);
   EXPECT_FLOAT_EQ(results[0].t, 2.5f);  // in units of the length of the direction
   EXPECT_EQ(results[0].next_triangle, 2u);
@@ -42,7 +42,7 @@ TEST(Trace, HitsWhatItShould) {
   EXPECT_EQ(results[3].any, 0u);
 }
 
-TEST(Trace, PassesOverABodyExactly) {
+GREATX_TRACER_TEST(Trace, PassesOverABodyExactly) {
   // A body's face and a wall are at the same place. The ray may hit the wall only.
   TinyScene tiny;
   tiny.object("wall").quad({-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5});
@@ -51,13 +51,13 @@ TEST(Trace, PassesOverABodyExactly) {
   TraceTestRay up = ray({0.3, 0.1, 0}, {0, 0, 1});
   up.skip_body = body;
   const std::vector<Pose> poses{Pose{}, Pose{{0, 0, 3}, {1, 0, 0, 0}}};
-  const auto results = trace(tiny.build(), std::vector{up}, poses);
+  const auto results = trace(tracer, tiny.build(), std::vector{up}, poses);
   EXPECT_FLOAT_EQ(results[0].t, 5.0f);
   EXPECT_EQ(results[0].except_triangle, 0u);
   EXPECT_FLOAT_EQ(results[0].except_t, 5.0f);
 }
 
-TEST(HardCase, N01_SharedEdgeIsHitExactlyOnce) {
+GREATX_TRACER_TEST(HardCase, N01_SharedEdgeIsHitExactlyOnce) {
   RandomStream random(1, 1);
   for (int scene = 0; scene < 4; ++scene) {
     const dmat3 turn = random_rotation(random);
@@ -70,7 +70,7 @@ TEST(HardCase, N01_SharedEdgeIsHitExactlyOnce) {
           ray_towards(turn * dvec3(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(5, 40)),
                       a + random.uniform(0.02, 0.98) * (b - a)));
     int missed = 0, twice = 0;
-    for (const TraceTestResult& result : trace(tiny.build(), rays)) {
+    for (const TraceTestResult& result : trace(tracer, tiny.build(), rays)) {
       missed += result.triangle == none;
       twice += result.triangle != none && result.next_triangle != none;
     }
@@ -79,7 +79,7 @@ TEST(HardCase, N01_SharedEdgeIsHitExactlyOnce) {
   }
 }
 
-TEST(HardCase, N02_VertexOfAClosedFanIsHitExactlyOnce) {
+GREATX_TRACER_TEST(HardCase, N02_VertexOfAClosedFanIsHitExactlyOnce) {
   RandomStream random(2, 1);
   const dvec3 tip(0.3, -0.2, 1.7);
   TinyScene tiny;
@@ -92,7 +92,7 @@ TEST(HardCase, N02_VertexOfAClosedFanIsHitExactlyOnce) {
   for (int i = 0; i < 8192; ++i)
     rays.push_back(ray_towards({random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(5, 40)}, tip));
   int missed = 0, twice = 0;
-  for (const TraceTestResult& result : trace(tiny.build(), rays)) {
+  for (const TraceTestResult& result : trace(tracer, tiny.build(), rays)) {
     missed += result.triangle == none;
     twice += result.triangle != none && result.next_triangle != none;
   }
@@ -100,7 +100,7 @@ TEST(HardCase, N02_VertexOfAClosedFanIsHitExactlyOnce) {
   EXPECT_EQ(twice, 0);
 }
 
-TEST(HardCase, N03_TwoStaticObjectsThatShareAnEdgeDoNotLeak) {
+GREATX_TRACER_TEST(HardCase, N03_TwoStaticObjectsThatShareAnEdgeDoNotLeak) {
   // Two instances belong to one body and so to one acceleration structure, whose edges are watertight.
   TinyScene tiny;
   tiny.object("left").triangle({-3, 0, 0.5}, {0, -5, 0}, {0, 5, 0});
@@ -114,11 +114,11 @@ TEST(HardCase, N03_TwoStaticObjectsThatShareAnEdgeDoNotLeak) {
     rays.push_back(ray_towards({random.uniform(-1, 1), random.uniform(-2, 2), random.uniform(5, 40)},
                                {0, random.uniform(-4.8, 4.8), 0}));
   int missed = 0;
-  for (const TraceTestResult& result : trace(scene, rays)) missed += result.triangle == none;
+  for (const TraceTestResult& result : trace(tracer, scene, rays)) missed += result.triangle == none;
   EXPECT_EQ(missed, 0);
 }
 
-TEST(HardCase, N04_DegenerateTrianglesAreNeverHit) {
+GREATX_TRACER_TEST(HardCase, N04_DegenerateTrianglesAreNeverHit) {
   TinyScene tiny;
   tiny.triangle({0, 0, 3}, {1, 0, 3}, {2, 0, 3})   // three corners on a line
       .triangle({0, 0, 2}, {0, 0, 2}, {0, 0, 2})   // a point
@@ -129,7 +129,7 @@ TEST(HardCase, N04_DegenerateTrianglesAreNeverHit) {
     rays.push_back(ray(dvec3(target.x, target.y, 0), {0, 0, 1}));
     rays.push_back(ray_towards({0.1, 0.2, 0}, target));
   }
-  for (const TraceTestResult& result : trace(tiny.build(), rays)) {
+  for (const TraceTestResult& result : trace(tracer, tiny.build(), rays)) {
     EXPECT_GE(result.triangle, 3u);  // the quad behind them
     EXPECT_LE(result.triangle, 4u);
     EXPECT_TRUE(std::isfinite(result.t));
@@ -137,7 +137,7 @@ TEST(HardCase, N04_DegenerateTrianglesAreNeverHit) {
   }
 }
 
-TEST(HardCase, N05_SliversOfAClosedMeshDoNotLeak) {
+GREATX_TRACER_TEST(HardCase, N05_SliversOfAClosedMeshDoNotLeak) {
   // The lid of the box is made of strips 1e-4 m wide next to wide ones.
   TinyScene tiny;
   tiny.quad({-1, -1, -1}, {-1, 1, -1}, {1, 1, -1}, {1, -1, -1})
@@ -161,11 +161,11 @@ TEST(HardCase, N05_SliversOfAClosedMeshDoNotLeak) {
     rays.push_back(i % 3 == 2 ? ray(from, random_direction(random)) : ray_towards(from, to));
   }
   int leaked = 0;
-  for (const TraceTestResult& result : trace(tiny.build(), rays)) leaked += result.triangle == none;
+  for (const TraceTestResult& result : trace(tracer, tiny.build(), rays)) leaked += result.triangle == none;
   EXPECT_EQ(leaked, 0);
 }
 
-TEST(Trace, RaysInGeneralDirectionsDoNotLeakThroughTheDriver) {
+GREATX_TRACER_TEST(Trace, RaysInGeneralDirectionsDoNotLeak) {
   // The rays start inside a closed room of 2400 tiles. The LiDAR and the candidate search rely on this
   // property.
   TinyScene tiny;
@@ -187,7 +187,7 @@ TEST(Trace, RaysInGeneralDirectionsDoNotLeakThroughTheDriver) {
     rays.push_back(ray({random.uniform(0.5, 6.5), random.uniform(0.5, 4.5), random.uniform(0.5, 2.5)},
                        random_direction(random)));
   size_t leaked = 0, differ = 0;
-  for (const TraceTestResult& result : trace(tiny.build(), rays)) {
+  for (const TraceTestResult& result : trace(tracer, tiny.build(), rays)) {
     leaked += result.plain_triangle == none;
     differ += result.plain_triangle != result.triangle;
   }
@@ -195,7 +195,7 @@ TEST(Trace, RaysInGeneralDirectionsDoNotLeakThroughTheDriver) {
   EXPECT_EQ(differ, 0u);
 }
 
-TEST(HardCase, N06_RaysInTheTrianglesPlaneAreFiniteAndDoNotLeak) {
+GREATX_TRACER_TEST(HardCase, N06_RaysInTheTrianglesPlaneAreFiniteAndDoNotLeak) {
   TinyScene tiny;
   tiny.box({-1, -1, -1}, {1, 1, 1}).quad({-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0});
   RandomStream random(6, 1);
@@ -205,7 +205,7 @@ TEST(HardCase, N06_RaysInTheTrianglesPlaneAreFiniteAndDoNotLeak) {
     rays.push_back(ray({random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), 0},
                        {std::cos(azimuth), std::sin(azimuth), 0}));
   }
-  for (const TraceTestResult& result : trace(tiny.build(), rays)) {
+  for (const TraceTestResult& result : trace(tracer, tiny.build(), rays)) {
     ASSERT_NE(result.triangle, none);  // the wall of the box
     ASSERT_LT(result.triangle, 12u);   // not the quad in whose plane the ray runs
     ASSERT_GE(result.t, 0.6f - 1e-6f);
@@ -214,7 +214,7 @@ TEST(HardCase, N06_RaysInTheTrianglesPlaneAreFiniteAndDoNotLeak) {
   }
 }
 
-TEST(HardCase, N07_SceneAtUtmCoordinatesGivesTheSameBytes) {
+GREATX_TRACER_TEST(HardCase, N07_SceneAtUtmCoordinatesGivesTheSameBytes) {
   const dvec3 utm(500000.0, 5411000.0, 35.0);
   RandomStream random(7, 1);
   TinyScene here, there;
@@ -231,11 +231,11 @@ TEST(HardCase, N07_SceneAtUtmCoordinatesGivesTheSameBytes) {
   std::vector<TraceTestRay> rays;
   for (int i = 0; i < 4096; ++i)
     rays.push_back(ray({random.uniform(-50, 50), 1.0, 2.0}, random_direction(random)));
-  const auto near = trace(here.build(), rays), far = trace(there.build(utm), rays);
+  const auto near = trace(tracer, here.build(), rays), far = trace(tracer, there.build(utm), rays);
   EXPECT_EQ(std::memcmp(near.data(), far.data(), near.size() * sizeof(near[0])), 0);
 }
 
-TEST(HardCase, N08_ATinyPartBesideAHugeTileIsStillHit) {
+GREATX_TRACER_TEST(HardCase, N08_ATinyPartBesideAHugeTileIsStillHit) {
   TinyScene tiny;
   tiny.quad({-5000, -5000, 0}, {5000, -5000, 0}, {5000, 5000, 0}, {-5000, 5000, 0});
   const dvec3 part(3, 4, 1);
@@ -248,11 +248,11 @@ TEST(HardCase, N08_ATinyPartBesideAHugeTileIsStillHit) {
     rays.push_back(ray_towards(target + dvec3(random.uniform(-2, 2), random.uniform(-2, 2), 4), target));
   }
   int hit = 0;
-  for (const TraceTestResult& result : trace(tiny.build(), rays)) hit += result.triangle == 2;
+  for (const TraceTestResult& result : trace(tracer, tiny.build(), rays)) hit += result.triangle == 2;
   EXPECT_EQ(hit, 4096);
 }
 
-TEST(HardCase, N09_AStartPointIsMovedByItsErrorAndNoMore) {
+GREATX_TRACER_TEST(HardCase, N09_AStartPointIsMovedByItsErrorAndNoMore) {
   // At 5e5 m without a local origin, the usual integer offset moves the point by 8 m.
   const dvec3 far(5e5, 4e5, 0);
   TinyScene tiny;
@@ -263,7 +263,7 @@ TEST(HardCase, N09_AStartPointIsMovedByItsErrorAndNoMore) {
   for (int i = 0; i < 4096; ++i)
     rays.push_back(ray_towards(far + dvec3(random.uniform(-200, 200), -200, 300),
                                far + dvec3(random.uniform(-40, 40), 10.0, 24.0)));
-  for (const TraceTestResult& result : trace(tiny.build(), rays)) {
+  for (const TraceTestResult& result : trace(tracer, tiny.build(), rays)) {
     ASSERT_NE(result.triangle, none);
     // The bound is seven roundings of coordinates of 5e5 m, projected on the normal: below 0.3 m, where a
     // rounding is 0.03 m.
@@ -274,11 +274,11 @@ TEST(HardCase, N09_AStartPointIsMovedByItsErrorAndNoMore) {
   // Near the local origin the offset is a few micrometres.
   TinyScene near;
   near.quad({-5, -5, 1}, {5, -5, 1}, {5, 5, 2}, {-5, 5, 2});
-  const auto results = trace(near.build(), std::vector{ray({1, 1, 9}, {0, 0, -1})});
+  const auto results = trace(tracer, near.build(), std::vector{ray({1, 1, 9}, {0, 0, -1})});
   EXPECT_LE(glm::length(results[0].start - results[0].point), 5e-6f);
 }
 
-TEST(HardCase, N10_SelfHitSweep) {
+GREATX_TRACER_TEST(HardCase, N10_SelfHitSweep) {
   // Convex solids have sizes from a millimetre to ten kilometres, some off the origin. A ray that is
   // reflected off a solid from outside meets nothing.
   RandomStream random(10, 1);
@@ -292,7 +292,7 @@ TEST(HardCase, N10_SelfHitSweep) {
         rays.push_back(ray_towards(center + 3.0 * radius * random_direction(random),
                                    center + 0.9 * radius * random_direction(random)));
       int hits = 0, again = 0;
-      for (const TraceTestResult& result : trace(tiny.build(), rays)) {
+      for (const TraceTestResult& result : trace(tracer, tiny.build(), rays)) {
         hits += result.triangle != none;
         again += result.triangle != none && result.leaving_triangle != none;
       }
@@ -302,8 +302,8 @@ TEST(HardCase, N10_SelfHitSweep) {
   }
 }
 
-TEST(HardCase, N64_NothingToHit) {
-  const auto results = trace(TinyScene().build(), std::vector{ray({0, 0, 0}, {0, 0, 1})});
+GREATX_TRACER_TEST(HardCase, N64_NothingToHit) {
+  const auto results = trace(tracer, TinyScene().build(), std::vector{ray({0, 0, 0}, {0, 0, 1})});
   EXPECT_EQ(results[0].triangle, none);
   EXPECT_EQ(results[0].any, 0u);
   EXPECT_EQ(results[0].except_triangle, none);

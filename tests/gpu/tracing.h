@@ -31,16 +31,31 @@ inline TraceTestRay ray_towards(const dvec3& origin, const dvec3& target) {
   return {vec3(origin), 0.0f, vec3(target) - vec3(origin), 1e30f, none, none};
 }
 
+/// Returns the tracers of the device, one of which may be missing.
+inline std::vector<gpu::Tracer> tracers() {
+  std::vector<gpu::Tracer> all{gpu::Tracer::tree};
+  if (test::device().info().has_ray_query()) all.push_back(gpu::Tracer::driver);
+  return all;
+}
+
+/// Defines a test that runs once with each tracer of the device, which its body calls `tracer`.
+#define GREATX_TRACER_TEST(suite, name)                         \
+  void suite##_##name(gpu::Tracer tracer);                      \
+  TEST(suite, name) {                                           \
+    for (const gpu::Tracer tracer : test::tracing::tracers()) { \
+      SCOPED_TRACE(gpu::name_of(tracer));                       \
+      suite##_##name(tracer);                                   \
+    }                                                           \
+  }                                                             \
+  void suite##_##name([[maybe_unused]] gpu::Tracer tracer)
+
 /// Returns the result of a shader of shaders/tests/trace_test.h for each ray.
 template <typename Result>
 std::vector<Result> answers_of(const char* shader, scene::GpuScene& gpu_scene,
-                               std::span<const TraceTestRay> rays, const std::vector<Pose>& bodies,
-                               const std::vector<uint32_t>& specialization = {}) {
+                               std::span<const TraceTestRay> rays, const std::vector<Pose>& bodies) {
   gpu::Device& device = gpu_scene.device();
   gpu::ComputeDesc desc;
-  desc.shader = shader;
-  desc.specialization = specialization;
-  desc.bindings = scene::GpuScene::bindings(true);
+  gpu_scene.prepare_tracing(desc, shader);
   desc.bindings.push_back({shared::trace_test_rays_binding});
   desc.bindings.push_back({shared::trace_test_results_binding});
   desc.push_constant_bytes = sizeof(uint32_t);
@@ -64,9 +79,12 @@ std::vector<Result> answers_of(const char* shader, scene::GpuScene& gpu_scene,
   return {answers.begin(), answers.end()};
 }
 
-inline std::vector<TraceTestResult> trace(const scene::Scene& scene, std::span<const TraceTestRay> rays,
+inline std::vector<TraceTestResult> trace(gpu::Tracer tracer, const scene::Scene& scene,
+                                          std::span<const TraceTestRay> rays,
                                           const std::vector<Pose>& bodies = {Pose{}}) {
-  scene::GpuScene gpu_scene(test::device(), scene, {});
+  scene::GpuSceneOptions options;
+  options.tracer = tracer;
+  scene::GpuScene gpu_scene(test::device(), scene, options);
   return answers_of<TraceTestResult>("tests/trace.comp", gpu_scene, rays, bodies);
 }
 

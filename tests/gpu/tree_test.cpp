@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Checks the tree of the static world (scene/device/static_tree.h, shaders/lib/tree.glsl) against the
+// Checks the trees of a scene (scene/device/scene_trees.h, shaders/lib/tree_walk.glsl) against the
 // driver's ray queries, and along the edges and vertices of closed meshes, where every ray must hit.
 #include "shaders/shared/tree.h"
 
@@ -12,14 +12,14 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/device/static_tree.h"
+#include "scene/device/scene_trees.h"
 #include "tests/gpu/tracing.h"
 
 namespace greatx {
 namespace {
 
 using namespace test::tracing;
-using scene::Tracer;
+using gpu::Tracer;
 using shared::TreeTestResult;
 using test::TinyScene;
 using test::Triangle;
@@ -29,10 +29,7 @@ std::vector<TreeTestResult> hits(const scene::Scene& scene, std::span<const Trac
   scene::GpuSceneOptions options;
   options.tracer = tracer;
   scene::GpuScene gpu_scene(test::device(), scene, options);
-  std::vector<uint32_t> specialization;
-  gpu_scene.specialize_tracer(specialization);
-  EXPECT_EQ(gpu_scene.has_tree(), tracer == Tracer::tree);
-  return answers_of<TreeTestResult>("tests/tree.comp", gpu_scene, rays, bodies, specialization);
+  return answers_of<TreeTestResult>("tests/tree.comp", gpu_scene, rays, bodies);
 }
 
 /// Makes triangles of all sizes and directions, some of them in clusters.
@@ -211,7 +208,7 @@ TEST(Tree, OneTriangleNoneAndThoseWithoutArea) {
     EXPECT_EQ(result.triangle, none);
   TinyScene flat;
   flat.triangle({0, 0, 0}, {1, 0, 0}, {2, 0, 0}).triangle({0.2, 0.2, 0}, {0.2, 0.2, 0}, {0.2, 0.2, 0});
-  EXPECT_EQ(scene::make_static_tree(flat.build()).triangles, 0u);
+  EXPECT_EQ(scene::make_scene_trees(flat.build()).triangles, 0u);
   for (const TreeTestResult& result : hits(flat.build(), rays, Tracer::tree))
     EXPECT_EQ(result.triangle, none);
 }
@@ -224,7 +221,7 @@ TEST(Tree, ManyAtOnePlaceStayWithinTheDepth) {
     const double size = std::ldexp(1.0, -2 * i);
     tiny.triangle({10 * size, 0, 0}, {12 * size, size, 0}, {10 * size, size, size});
   }
-  const scene::StaticTree tree = scene::make_static_tree(tiny.build());
+  const scene::SceneTrees tree = scene::make_scene_trees(tiny.build());
   EXPECT_EQ(tree.triangles, 360u);
   EXPECT_EQ(tree.leaves, tree.inner_nodes + 1);
   EXPECT_LE(tree.depth, shared::tree_most_depth);
@@ -235,7 +232,7 @@ TEST(Tree, ManyAtOnePlaceStayWithinTheDepth) {
 TEST(Tree, AnyNumberOfThreadsMakesTheSameWords) {
   RandomStream random(25, 2);
   const scene::Scene scene = clutter(random, 50000, 300.0).build();
-  const scene::StaticTree all = scene::make_static_tree(scene);
+  const scene::SceneTrees all = scene::make_scene_trees(scene);
   cpu_set_t cores;
   ASSERT_EQ(sched_getaffinity(0, sizeof cores, &cores), 0);
   cpu_set_t one;
@@ -243,7 +240,7 @@ TEST(Tree, AnyNumberOfThreadsMakesTheSameWords) {
   for (int core = 0; core < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++core)
     if (CPU_ISSET(core, &cores)) CPU_SET(core, &one);
   ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
-  const scene::StaticTree alone = scene::make_static_tree(scene);
+  const scene::SceneTrees alone = scene::make_scene_trees(scene);
   ASSERT_EQ(sched_setaffinity(0, sizeof cores, &cores), 0);
   EXPECT_EQ(all.words, alone.words);
   EXPECT_EQ(all.depth, alone.depth);
@@ -252,8 +249,8 @@ TEST(Tree, AnyNumberOfThreadsMakesTheSameWords) {
 TEST(Tree, BoxesHoldWhatIsBelowThemAndEveryTriangleIsThereOnce) {
   RandomStream random(25, 1);
   const scene::Scene scene = clutter(random, 5000, 300.0).build();
-  const scene::StaticTree tree = scene::make_static_tree(scene);
-  EXPECT_EQ(tree.words, scene::make_static_tree(scene).words);
+  const scene::SceneTrees tree = scene::make_scene_trees(scene);
+  EXPECT_EQ(tree.words, scene::make_scene_trees(scene).words);
   const auto number = [&](size_t quad, int i) {
     return double{std::bit_cast<float>(tree.words[4 * quad + i])};
   };

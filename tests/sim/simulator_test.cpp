@@ -144,12 +144,20 @@ TEST(Plan, LineOfSightAloneSearchesNoReflection) {
 }
 
 TEST(Plan, AStaticSceneIsNeverRefitted) {
-  const KeptRun still = keep_run(head + city + "nodes:\n" + uav(lidar));
+  if (!test::device().info().has_ray_query()) GTEST_SKIP() << "the driver traces no rays";
+  const KeptRun still = keep_run(head + city + "nodes:\n" + uav(lidar), 0, 0, gpu::Tracer::driver);
   EXPECT_EQ(still.counters.tlas_builds, 1u);
   EXPECT_EQ(still.counters.tlas_refits, 0u);
   EXPECT_FALSE(still.plan.scene_motion.on);
-  const KeptRun moving = keep_run(head + city + "nodes:\n" + uav(lidar, uav_model));
+  const KeptRun moving =
+      keep_run(head + city + "nodes:\n" + uav(lidar, uav_model), 0, 0, gpu::Tracer::driver);
   EXPECT_EQ(moving.counters.tlas_refits, 2u);
+}
+
+TEST(Plan, TheTreeNeedsNoAccelerationStructure) {
+  const KeptRun r = keep_run(head + city + "nodes:\n" + uav(lidar, uav_model), 0, 0, gpu::Tracer::tree);
+  EXPECT_EQ(r.counters.tlas_builds + r.counters.tlas_refits, 0u);
+  EXPECT_THAT(r.note("tracer"), ::testing::StartsWith("tree"));
 }
 
 TEST(Plan, ForcingWhatIsNotNeededChangesNothingBeyondItsBound) {

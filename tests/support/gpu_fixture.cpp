@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -12,21 +13,22 @@ namespace greatx::test {
 
 namespace {
 
-std::unique_ptr<gpu::Device> shared_device;
+std::map<gpu::Tracer, std::unique_ptr<gpu::Device>> shared_devices;
 
 class ValidationListener : public testing::EmptyTestEventListener {
   void OnTestEnd(const testing::TestInfo&) override {
-    if (shared_device == nullptr) return;
-    for (const std::string& message : shared_device->validation_log()->take())
-      ADD_FAILURE() << "validation: " << message;
+    for (const auto& [tracer, device] : shared_devices)
+      for (const std::string& message : device->validation_log()->take())
+        ADD_FAILURE() << "validation: " << message;
   }
 };
 
 }  // namespace
 
-gpu::Device& device() {
-  if (shared_device == nullptr) shared_device = std::make_unique<gpu::Device>(gpu::DeviceOptions{{}, true});
-  return *shared_device;
+gpu::Device& device(gpu::Tracer tracer) {
+  std::unique_ptr<gpu::Device>& device = shared_devices[tracer];
+  if (device == nullptr) device = std::make_unique<gpu::Device>(gpu::DeviceOptions{{}, true, tracer});
+  return *device;
 }
 
 int run(int argc, char** argv) {
@@ -34,13 +36,14 @@ int run(int argc, char** argv) {
   setenv("GREATX_CACHE", "off", 0);  // tests do not use the results of earlier runs
   testing::UnitTest::GetInstance()->listeners().Append(new ValidationListener);
   int result = RUN_ALL_TESTS();
-  if (shared_device == nullptr) return result;
   // The validation layer reports leaks, and objects that outlive the device, while the device is destroyed.
-  const std::shared_ptr<gpu::ValidationLog> log = shared_device->validation_log();
-  shared_device.reset();
-  for (const std::string& message : log->take()) {
-    std::fprintf(stderr, "validation at the end: %s\n", message.c_str());
-    result = 1;
+  for (auto& [tracer, device] : shared_devices) {
+    const std::shared_ptr<gpu::ValidationLog> log = device->validation_log();
+    device.reset();
+    for (const std::string& message : log->take()) {
+      std::fprintf(stderr, "validation at the end: %s\n", message.c_str());
+      result = 1;
+    }
   }
   return result;
 }

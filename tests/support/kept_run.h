@@ -103,7 +103,8 @@ inline gpu::Counters since(const gpu::Counters& before, gpu::Counters after) {
 
 /// Runs `sequence` and returns everything it delivers. The run leaves out ticks before `first_tick`, as a
 /// resumed run does.
-inline KeptRun keep_run(const sim::Experiment& experiment, uint32_t sequence = 0, int64_t first_tick = 0) {
+inline KeptRun keep_run(const sim::Experiment& experiment, uint32_t sequence = 0, int64_t first_tick = 0,
+                        gpu::Tracer tracer = gpu::Tracer::automatic) {
   struct Keep : RecordSink {
     std::vector<Packet> packets;
     void write(Packet packet) override { packets.push_back(std::move(packet)); }
@@ -111,21 +112,23 @@ inline KeptRun keep_run(const sim::Experiment& experiment, uint32_t sequence = 0
   KeptRun run;
   run.plan = experiment.plan;
   run.instances = experiment.scene().instances;
-  const gpu::Counters before = device().counters();
+  const gpu::Counters before = device(tracer).counters();
   {
-    sim::Simulator simulator(device(), experiment);
+    sim::Simulator simulator(device(tracer), experiment);
     run.sensors = simulator.sensors();
     simulator.start(sequence, first_tick);
     while (simulator.step(keep)) {
     }
     run.statistics = simulator.statistics();
   }
-  run.counters = since(before, device().counters());
+  run.counters = since(before, device(tracer).counters());
   run.packets = std::move(keep.packets);
   return run;
 }
-inline KeptRun keep_run(const std::string& yaml, uint32_t sequence = 0, int64_t first_tick = 0) {
-  return keep_run(sim::make_experiment(sim::parse_scenario(yaml, "test.yaml", ".")), sequence, first_tick);
+inline KeptRun keep_run(const std::string& yaml, uint32_t sequence = 0, int64_t first_tick = 0,
+                        gpu::Tracer tracer = gpu::Tracer::automatic) {
+  return keep_run(sim::make_experiment(sim::parse_scenario(yaml, "test.yaml", ".")), sequence, first_tick,
+                  tracer);
 }
 
 /// Expects equal bytes in all records of two packets from the same sensors.

@@ -17,12 +17,11 @@ bool finite(const dvec3& v) { return std::isfinite(v.x + v.y + v.z); }
 EchoPass::EchoPass(scene::GpuScene& scene, uint32_t max_bounces, bool monostatic, bool own_body)
     : scene_(&scene), max_bounces_(max_bounces) {
   gpu::ComputeDesc compute;
-  compute.shader = "radar/echoes.comp";
-  compute.bindings = scene::GpuScene::bindings(true);
+  compute.specialization = {monostatic ? 1u : 0u, own_body ? 1u : 0u};
+  scene.prepare_tracing(compute, "radar/echoes.comp");
   for (const uint32_t slot : {shared::radar_directions_binding, shared::radar_hits_binding})
     compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   compute.push_constant_bytes = sizeof(shared::EchoConstants);
-  compute.specialization = {monostatic ? 1u : 0u, own_body ? 1u : 0u};
   pipeline_ = gpu::ComputePipeline(scene.device(), compute, "radar echoes");
 }
 
