@@ -64,12 +64,9 @@ GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const GpuSceneOption
   // Without textures the table still has a layout, which pipelines need.
   textures_ = GpuTextures(device, options.textures ? std::span(scene.textures) : std::span<const Texture>(),
                           scene.materials);
+  if (traces() && tracer_ == gpu::Tracer::tree) build_trees();
   upload_geometry();
-  if (!traces()) return;
-  if (tracer_ == gpu::Tracer::tree)
-    build_trees();
-  else
-    build_structures();
+  if (traces() && tracer_ == gpu::Tracer::driver) build_structures();
 }
 
 void GpuScene::upload_geometry() {
@@ -102,7 +99,7 @@ void GpuScene::upload_geometry() {
 
   const std::vector<shared::GpuSceneAddresses> addresses{
       {positions_.address(), normals_.address(), tangents_.address(), uvs_.address(), indices_.address(),
-       primitives_.address(), materials_.address(), facet_of_triangle_.address()}};
+       primitives_.address(), materials_.address(), facet_of_triangle_.address(), trees_.address()}};
   addresses_ = upload(device, addresses, "scene addresses");
 }
 
@@ -127,15 +124,13 @@ void GpuScene::build_structures() {
 void GpuScene::build_trees() {
   const SceneTrees trees = make_scene_trees(*scene_);
   const size_t bytes = trees.words.size() * sizeof(uint32_t);
-  if (bytes > device_->limits().maxStorageBufferRange)
-    throw_user_error(
-        "the trees of {} triangles: expected at most {} bytes in a storage buffer of '{}', found {}",
-        trees.triangles, device_->limits().maxStorageBufferRange, device_->info().name, bytes);
   trees_ = upload(*device_, trees.words, "trees of triangles");
+  trees_by_address_ =
+      bytes > std::min<uint64_t>(options_.most_table_bytes, device_->limits().maxStorageBufferRange);
   body_tree_ = BodyTree(*scene_);
-  spdlog::debug("trees of {} bodies: {} triangles, {} inner nodes, {} leaves, {} deep, {} KiB",
+  spdlog::debug("trees of {} bodies: {} triangles, {} inner nodes, {} leaves, {} deep, {} KiB{}",
                 scene_->bodies.size(), trees.triangles, trees.inner_nodes, trees.leaves, trees.depth,
-                bytes / 1024);
+                bytes / 1024, trees_by_address_ ? ", read by address" : "");
 }
 
 void GpuScene::prepare_tracing(gpu::ComputeDesc& compute, std::string_view name) const {
@@ -151,6 +146,7 @@ void GpuScene::prepare_tracing(gpu::ComputeDesc& compute, std::string_view name)
   if (tree) compute.bindings.push_back({shared::tree_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   compute.specialization.resize(shared::has_moving_bodies_id);
   compute.specialization.push_back(body_tree_.empty() ? 0u : 1u);
+  compute.specialization.push_back(trees_by_address_ ? 1u : 0u);
 }
 
 void GpuScene::record_poses(gpu::TickSlot& slot, std::span<const Pose> body_poses) {
@@ -193,7 +189,9 @@ std::vector<gpu::Descriptor> GpuScene::descriptors() const {
   std::vector<gpu::Descriptor> all = raster_descriptors();
   if (tracer_ == gpu::Tracer::tree) {
     all.push_back(gpu::Descriptor::buffer(shared::body_tree_binding, body_words_));
-    all.push_back(gpu::Descriptor::buffer(shared::tree_binding, trees_));
+    // What is read by its address still needs something in its place.
+    all.push_back(trees_by_address_ ? gpu::Descriptor::buffer(shared::tree_binding, addresses_)
+                                    : gpu::Descriptor::buffer(shared::tree_binding, trees_));
   } else {
     all.push_back(gpu::Descriptor::acceleration(shared::tlas_binding, tlas_));
   }

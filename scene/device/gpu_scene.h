@@ -84,6 +84,7 @@ class GpuScene {
   std::vector<Pose> last_poses_;
   // The tree (shaders/shared/tree.h):
   gpu::Buffer trees_;
+  bool trees_by_address_ = false;
   BodyTree body_tree_;
   gpu::Slice body_words_;  ///< of the tick that is being recorded
   gpu::Slice bodies_;      ///< slice of the tick that is being recorded

@@ -19,12 +19,17 @@
 
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
+layout(constant_id = trees_by_address_id) const bool trees_by_address = false;
+
 // Quadruples of words, as 64 bits twice, and pairs of quadruples.
 layout(set = 0, binding = tree_binding, scalar) readonly buffer TreeQuads { u64vec2 tree_quads[]; };
 layout(set = 0, binding = tree_binding, scalar) readonly buffer TreePairs { u64vec4 tree_pairs[]; };
 layout(set = 0, binding = body_tree_binding, scalar) readonly buffer BodyTreePairs {
   u64vec4 body_tree_pairs[];
 };
+
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer FarQuad { u64vec2 words; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer FarPair { u64vec4 words; };
 
 struct QuadPair {
   uvec4 first, second;
@@ -33,10 +38,17 @@ QuadPair pair_of(u64vec4 words) {
   return QuadPair(uvec4(unpack32(words.x), unpack32(words.y)), uvec4(unpack32(words.z), unpack32(words.w)));
 }
 /// Returns the quadruple of an even index and the one after it.
-QuadPair tree_pair(uint quad) { return pair_of(tree_pairs[quad >> 1]); }
+QuadPair tree_pair(uint quad) {
+  if (trees_by_address) return pair_of(FarPair(scene.trees + 16ul * quad).words);
+  return pair_of(tree_pairs[quad >> 1]);
+}
 QuadPair body_tree_pair(uint quad) { return pair_of(body_tree_pairs[quad >> 1]); }
 uvec4 tree_quad(uint quad) {
-  u64vec2 words = tree_quads[quad];
+  u64vec2 words;
+  if (trees_by_address)
+    words = FarQuad(scene.trees + 16ul * quad).words;
+  else
+    words = tree_quads[quad];
   return uvec4(unpack32(words.x), unpack32(words.y));
 }
 

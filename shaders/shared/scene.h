@@ -20,8 +20,10 @@ const uint material_flag_reflectance_1550nm = 8u;
 const uint static_mask = 1u;
 const uint moving_mask = 2u;
 
-// The specialization constant of shaders that trace: whether bodies move.
+// A specialization constant of shaders that trace: whether bodies move.
 const uint has_moving_bodies_id = 15u;
+// Another one: whether the trees are larger than a storage buffer may be, and so are read by their address.
+const uint trees_by_address_id = 16u;
 
 /// The most texture arrays that a shader tests one by one (scene/device/gpu_textures.h).
 const uint most_tried_arrays = 24u;
@@ -76,6 +78,7 @@ struct GpuSceneAddresses {
   uint64_t primitives;         // GpuPrimitive[]
   uint64_t materials;          // GpuMaterial[]
   uint64_t facet_of_triangle;  // uint[]
+  uint64_t trees;              // the buffer of tree_binding; 0 without trees
 };
 
 // Every pass over the scene shares these bindings of set 0. A pass's own bindings start at
@@ -93,6 +96,6 @@ GREATX_SHARED_END
 static_assert(sizeof(greatx::shared::GpuMaterial) == 60);
 static_assert(sizeof(greatx::shared::GpuPrimitive) == 28);
 static_assert(sizeof(greatx::shared::GpuBody) == 48);
-static_assert(sizeof(greatx::shared::GpuSceneAddresses) == 64);
+static_assert(sizeof(greatx::shared::GpuSceneAddresses) == 72);
 #endif
 #endif

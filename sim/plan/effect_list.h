@@ -14,8 +14,8 @@
 
 // clang-format off
 #define GREATX_RAY_EFFECTS(X) \
-  X(acceleration_structure, false, none, "acceleration structures over the scene, for what traces rays") \
-  X(scene_motion, false, none, "acceleration structures follow the meshes that move")
+  X(acceleration_structure, false, none, "trees or acceleration structures over the scene, for what traces rays") \
+  X(scene_motion, false, none, "these structures follow the meshes that move")
 
 #define GREATX_CAMERA_EFFECTS(X) \
   X(camera, false, none, "cameras and event cameras") \

@@ -25,9 +25,11 @@ using test::TinyScene;
 using test::Triangle;
 
 std::vector<TreeTestResult> hits(const scene::Scene& scene, std::span<const TraceTestRay> rays, Tracer tracer,
-                                 const std::vector<Pose>& bodies = {Pose{}}) {
+                                 const std::vector<Pose>& bodies = {Pose{}},
+                                 uint64_t most_table_bytes = ~uint64_t{0}) {
   scene::GpuSceneOptions options;
   options.tracer = tracer;
+  options.most_table_bytes = most_table_bytes;
   scene::GpuScene gpu_scene(test::device(), scene, options);
   return answers_of<TreeTestResult>("tests/tree.comp", gpu_scene, rays, bodies);
 }
@@ -77,6 +79,7 @@ Exact exact_hit(const scene::Scene& scene, const std::vector<Pose>& bodies, cons
 /// rays, which pass an edge within rounding errors, may differ.
 void expect_same(const scene::Scene& scene, std::span<const TraceTestRay> rays, size_t grazing,
                  const std::vector<Pose>& bodies = {Pose{}}) {
+  if (!test::device().info().has_ray_query()) GTEST_SKIP() << "the driver traces no rays";
   const auto tree = hits(scene, rays, Tracer::tree, bodies),
              driver = hits(scene, rays, Tracer::driver, bodies);
   size_t hit = 0, other = 0;
@@ -143,6 +146,72 @@ TEST(Tree, PassesOverFacetsAndBodies) {
   for (const TreeTestResult& result : hits(scene, rays, Tracer::tree, poses))
     of_bodies += result.triangle != none && result.triangle >= 1000;
   EXPECT_GT(of_bodies, 100u);
+}
+
+/// Places `count` bodies of random shapes at random poses around `center`. Returns their poses, [0] of the
+/// static world.
+std::vector<Pose> add_bodies(TinyScene& tiny, RandomStream& random, int count, const dvec3& center,
+                             double reach) {
+  std::vector<Pose> poses{Pose{}};
+  for (int i = 0; i < count; ++i) {
+    const std::string name = "body" + std::to_string(i);
+    tiny.object(name, tiny.body(name));
+    for (const Triangle& t :
+         sphere(i % 3, random.uniform(0.02, 0.1) * reach, 0.05 * reach * dvec3(1, -1, 0.5)))
+      tiny.triangle(t[0], t[1], t[2]);
+    const dvec3 place =
+        center + reach * dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    poses.push_back({place, glm::angleAxis(random.uniform(0, 6), random_direction(random))});
+  }
+  return poses;
+}
+
+TEST(Tree, FindsManyMovingBodies) {
+  // Coordinates reach 1e5 m, as in a scene without a local origin of its own.
+  RandomStream random(26, 1);
+  for (const dvec3& center : {dvec3(0.0), dvec3(1e5, -7e4, 50.0)})
+    for (const int count : {1, 2, 3, 100}) {
+      TinyScene tiny;
+      const double reach = 30.0;
+      const dvec3 low = center - dvec3(reach, reach, reach),
+                  high = center + dvec3(reach, reach, -0.9 * reach);
+      tiny.object("ground").box(low, high);
+      const std::vector<Pose> poses = add_bodies(tiny, random, count, center, reach);
+      std::vector<TraceTestRay> rays;
+      for (int i = 0; i < 4096; ++i) {
+        const Pose& body = poses[1 + random.below(static_cast<uint32_t>(count))];
+        const dvec3 from = center + reach * random_direction(random),
+                    target = body.apply(dvec3(0.05, -0.05, 0.025) * reach);
+        rays.push_back(i % 2 == 0 ? ray_towards(from, target + 0.02 * reach * random_direction(random))
+                                  : ray(from, random_direction(random)));
+        if (i % 5 == 0) rays.back().skip_body = 1 + random.below(static_cast<uint32_t>(count));
+      }
+      const scene::Scene scene = tiny.build();
+      expect_same(scene, rays, glm::length(center) > 0.0 ? 24 : 2, poses);
+      size_t of_bodies = 0;
+      for (const TreeTestResult& result : hits(scene, rays, Tracer::tree, poses))
+        of_bodies += result.triangle != none && result.triangle >= 12;
+      EXPECT_GT(of_bodies, 200u) << count;
+    }
+}
+
+TEST(Tree, OfTrianglesAtOnePlaceTheFirstIsMet) {
+  // Duplicates stand in any order in the tree, and rays along a shared edge are inside both triangles.
+  TinyScene tiny;
+  for (int i = 0; i < 40; ++i) tiny.triangle({-1, -1, 0}, {2, -1, 0}, {-1, 2, 0});
+  std::vector<TraceTestRay> rays;
+  for (int i = 0; i < 64; ++i) rays.push_back(ray({-0.9 + 0.02 * i, -0.9 + 0.01 * i, 3}, {0, 0, -1}));
+  for (const TreeTestResult& result : hits(tiny.build(), rays, Tracer::tree)) EXPECT_EQ(result.triangle, 0u);
+}
+
+TEST(Tree, ReadByItsAddressIsTheSame) {
+  RandomStream random(27, 1);
+  TinyScene tiny = clutter(random, 2000, 30.0);
+  const std::vector<Pose> poses = add_bodies(tiny, random, 5, dvec3(0.0), 30.0);
+  const scene::Scene scene = tiny.build();
+  const std::vector<TraceTestRay> rays = random_rays(random, 8192, 30.0);
+  const auto near = hits(scene, rays, Tracer::tree, poses), far = hits(scene, rays, Tracer::tree, poses, 64);
+  EXPECT_EQ(std::memcmp(near.data(), far.data(), near.size() * sizeof(near[0])), 0);
 }
 
 TEST(Tree, DoesNotLeakAlongEdgesAndVertices) {
