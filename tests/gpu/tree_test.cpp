@@ -187,7 +187,9 @@ TEST(Tree, FindsManyMovingBodies) {
         if (i % 5 == 0) rays.back().skip_body = 1 + random.below(static_cast<uint32_t>(count));
       }
       const scene::Scene scene = tiny.build();
-      expect_same(scene, rays, glm::length(center) > 0.0 ? 24 : 2, poses);
+      // Far away the driver takes rays into a body's frame by products of 1e5 m, which it rounds to
+      // centimetres. The tree subtracts first.
+      expect_same(scene, rays, glm::length(center) > 0.0 ? 64 : 2, poses);
       size_t of_bodies = 0;
       for (const TreeTestResult& result : hits(scene, rays, Tracer::tree, poses))
         of_bodies += result.triangle != none && result.triangle >= 12;
