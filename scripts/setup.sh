@@ -4,6 +4,8 @@
 #
 # Installs the packages that greatx needs to build and run, if they are missing. It prints nothing if there is
 # nothing to do. It supports Debian 12 or newer and Ubuntu 24.04 or newer, as root or with sudo.
+#
+# GREATX_BACKPORTS=1 takes a newer Mesa from the backports suite if the release's own is older than 24.1.
 set -euo pipefail
 
 packages=(
@@ -14,9 +16,11 @@ packages=(
   libgtest-dev libgmock-dev pybind11-dev python3-dev python3-numpy python3-h5py python3-jsonschema
   python3-yaml xvfb xauth fonts-dejavu-core
 )
-# lavapipe, Mesa's software Vulkan driver, supports ray queries from this version on.
+# lavapipe, Mesa's software Vulkan driver, runs greatx from mesa_minimum on: rays go through greatx's own
+# trees. From mesa_newer on it also has ray queries and conditional rendering.
 mesa_package=mesa-vulkan-drivers
-mesa_minimum=24.1
+mesa_minimum=22.3
+mesa_newer=24.1
 
 say() { printf 'setup: %s\n' "$*"; }
 die() { printf 'setup: error: %s\n' "$*" >&2; exit 1; }
@@ -37,15 +41,17 @@ version_of() {
   dpkg-query -W -f '${db:Status-Abbrev} ${Version}' "$1" 2>/dev/null |
     awk '$1 == "ii" {print $2}' | head -n 1
 }
-is_recent() { [ -n "$1" ] && dpkg --compare-versions "$1" ge "$mesa_minimum"; }
+at_least() { [ -n "$1" ] && dpkg --compare-versions "$1" ge "$2"; }
 candidate_of() { LC_ALL=C apt-cache policy "$1" | awk '/Candidate:/ && $2 != "(none)" {print $2}'; }
+mesa_wanted=$mesa_minimum
+[ "${GREATX_BACKPORTS:-0}" = 0 ] || mesa_wanted=$mesa_newer
 
 missing=()
 for package in "${packages[@]}"; do
   [ -n "$(version_of "$package")" ] || missing+=("$package")
 done
 mesa_ready=false
-is_recent "$(version_of "$mesa_package")" && mesa_ready=true
+at_least "$(version_of "$mesa_package")" "$mesa_wanted" && mesa_ready=true
 [ "${#missing[@]}" -gt 0 ] || ! $mesa_ready || exit 0
 
 say "refreshing the package lists"
@@ -57,11 +63,16 @@ if [ "${#missing[@]}" -gt 0 ]; then
 fi
 $mesa_ready && exit 0
 
-if is_recent "$(candidate_of "$mesa_package")"; then
-  say "installing $mesa_package $(candidate_of "$mesa_package")"
+candidate=$(candidate_of "$mesa_package")
+if at_least "$candidate" "$mesa_wanted"; then
+  say "installing $mesa_package $candidate"
   apt_get install -y --no-install-recommends "$mesa_package"
+  at_least "$candidate" "$mesa_newer" ||
+    say "a newer Mesa (GREATX_BACKPORTS=1) would save about half of a run's time; docs/performance.md compares the two"
   exit 0
 fi
+[ "$mesa_wanted" = "$mesa_newer" ] ||
+  die "apt offers $mesa_package '$candidate', but >= $mesa_minimum is needed"
 
 # The Mesa of the distribution is too old, but its backports suite has a newer one. That suite is in the same
 # archive as the release itself, so its address, perhaps that of a mirror, is that of the current apt sources.
@@ -71,11 +82,11 @@ read -r archive signed_by < <(apt-get indextargets \
   awk -v release="$codename" '$2 == release && $3 == "main" {print $1, ($4 ~ /^\// ? $4 : "")}' |
   head -n 1) ||
   die "no apt source with the suite '$codename main' found, so the archive with" \
-    "$mesa_package >= $mesa_minimum is unknown"
+    "$mesa_package >= $mesa_wanted is unknown"
 
 sources=/etc/apt/sources.list.d/greatx-backports.list
 preferences=/etc/apt/preferences.d/greatx-backports
-say "$mesa_package >= $mesa_minimum is not in $codename; taking Mesa alone from $codename-backports:"
+say "$mesa_package >= $mesa_wanted is not in $codename; taking Mesa alone from $codename-backports:"
 say "  adding $sources (the archive this machine uses already)"
 say "  adding $preferences (nothing but Mesa and the libdrm it needs may come from there)"
 options=""
@@ -83,7 +94,7 @@ options=""
 printf 'deb %s%s %s-backports main\n' "$options" "$archive" "$codename" |
   "${as_root[@]}" tee "$sources" >/dev/null
 "${as_root[@]}" tee "$preferences" >/dev/null <<PIN
-# Written by greatx's scripts/setup.sh: ray queries on lavapipe need Mesa >= $mesa_minimum.
+# Written by greatx's scripts/setup.sh: ray queries on lavapipe need Mesa >= $mesa_newer.
 Package: *
 Pin: release n=$codename-backports
 Pin-Priority: -1
@@ -93,8 +104,8 @@ Pin: release n=$codename-backports
 Pin-Priority: 500
 PIN
 apt_get update || say "warning: some package lists could not be refreshed"
-is_recent "$(candidate_of "$mesa_package")" ||
+at_least "$(candidate_of "$mesa_package")" "$mesa_wanted" ||
   die "$codename-backports offers $mesa_package '$(candidate_of "$mesa_package")'," \
-    "but >= $mesa_minimum is needed"
+    "but >= $mesa_wanted is needed"
 say "installing $mesa_package $(candidate_of "$mesa_package")"
 apt_get install -y --no-install-recommends "$mesa_package"
