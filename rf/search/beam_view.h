@@ -89,7 +89,7 @@ class BeamView {
     return {glm::dot(beam_.right, from_apex), glm::dot(beam_.up, from_apex),
             glm::dot(beam_.forward, from_apex)};
   }
-  void add_facet(uint32_t scene_facet, uint32_t transparent_body);
+  void add_facet(uint32_t scene_facet, std::span<const uint32_t> polygons, uint32_t transparent_body);
   bool add_polygon(ViewFacet& view, std::span<const uint32_t> vertices, double least_depth,
                    double least_rise);
   void add_wedge(const BeamWedge& wedge);
