@@ -42,6 +42,8 @@ class BeamCells {
   void settle(const BeamView& view, uint32_t walls, std::vector<BeamHit>& hits,
               std::vector<uint32_t>& wedges);
   uint64_t cells() const { return cells_; }  ///< number of cells examined since the start
+  /// Returns the number of pairs of polygons compared since the start.
+  uint64_t pairs() const { return covers_.compared(); }
 
  private:
   static constexpr uint32_t most_passed = LitPiece::most_passed;
@@ -64,6 +66,7 @@ class BeamCells {
   void drop_hidden(const SlopeRect& rect, size_t first);
   bool covers(uint32_t facet, const SlopeRect& rect);
   void settle_leaf(const SlopeRect& rect, size_t first);
+  void sort_by_place(const SlopeRect& rect);
   std::array<HalfPlane, 8> sides_of(const SlopeRect& rect) const;
   void settle_facet(const SlopeRect& rect, const Entry& entry);
   void settle_polygon(const ViewFacet& facet, const Entry& entry, const Convex& whole);
@@ -80,6 +83,8 @@ class BeamCells {
   std::vector<uint32_t> lists_;  ///< facets of the open cells
   std::vector<Entry> entries_;   ///< facets of the leaf, nearest first
   LeafCovers covers_;            ///< of the leaf
+  std::vector<Entry> by_place_;
+  std::vector<uint64_t> places_;
   LitPieces pieces_;
   std::vector<Interval> intervals_, next_intervals_;
   std::vector<HalfPlane> halves_;

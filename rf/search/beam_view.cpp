@@ -37,6 +37,7 @@ void BeamView::look(const Beam& beam, double clearance_m, uint32_t transparent_b
   polygons_.clear();
   corners_.clear();
   gathered_.clear();
+  examined_ = 0;
   longest_direction_ = longest_direction_in(beam.window);
   const double coordinate = std::max(
       {scene_->largest_coordinate(), std::abs(beam.apex.x), std::abs(beam.apex.y), std::abs(beam.apex.z)});
@@ -115,6 +116,7 @@ void BeamView::add_facet(uint32_t scene_facet, std::span<const uint32_t> polygon
 /// rises above the mirror by more than `least_rise`.
 bool BeamView::add_polygon(ViewFacet& view, std::span<const uint32_t> vertices, double least_depth,
                            double least_rise) {
+  ++examined_;
   constexpr size_t most = Convex::capacity;
   dvec3 at[most];
   const dvec3 normal(view.na, view.nb, view.n);

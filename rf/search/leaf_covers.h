@@ -34,6 +34,8 @@ class LeafCovers {
   /// with a few more and a logarithm.
   template <typename Visit>
   bool visit_until(const SlopeRect& box, double depth, const Visit& visit);
+  /// Returns the number of covers compared with a box since this object was made.
+  uint64_t compared() const { return compared_; }
 
  private:
   /// A range of covers_ with a tree of its own. Each is as large as all before it: what is hidden by covers near
@@ -49,6 +51,7 @@ class LeafCovers {
   std::vector<Block> blocks_;
   std::vector<scene::Bounds> bounds_;
   std::vector<uint32_t> found_;
+  uint64_t compared_ = 0;
 };
 
 template <typename Visit>
@@ -56,6 +59,7 @@ bool LeafCovers::visit_until(const SlopeRect& box, double depth, const Visit& vi
   const size_t near = std::min<size_t>(covers_.size(), first_block);
   for (size_t i = 0; i < near; ++i) {
     if (covers_[i].min_depth > depth) return false;
+    ++compared_;
     if (covers_[i].box.overlaps(box) && visit(covers_[i])) return true;
   }
   const auto outside = [&](const scene::Bounds& bounds) {
@@ -67,6 +71,7 @@ bool LeafCovers::visit_until(const SlopeRect& box, double depth, const Visit& vi
     found_.clear();
     block.tree.visit_until(outside, [&](uint32_t index) {
       const LeafCover& cover = covers_[block.first + index];
+      ++compared_;
       if (cover.min_depth <= depth && cover.box.overlaps(box)) found_.push_back(block.first + index);
       return false;
     });
