@@ -14,6 +14,8 @@ namespace {
 /// Cells with fewer facets than this are not cut, and neither are cells at this level of cuts.
 constexpr size_t facets_of_leaf = 24;
 constexpr uint32_t most_levels = 24;
+/// Leaves with more facets than this do not fit into the processor's fast caches.
+constexpr size_t facets_of_large_leaf = 512;
 /// When an outline is moved outwards, corners sharper than this (sine of half the angle) are blunted.
 constexpr double sharp = 0.3;
 
@@ -30,9 +32,6 @@ std::pair<double, double> depths(const ViewFacet& facet, const SlopeRect& rect) 
   return {most > 0.0 ? std::max(facet.min_depth, facet.distance / most) : facet.max_depth,
           least > 0.0 ? std::min(facet.max_depth, facet.distance / least) : facet.max_depth};
 }
-
-/// Largest number of pieces of one polygon. Further cuts are left out, so that the pieces stay too large.
-constexpr size_t most_pieces = 512;
 
 /// Cuts the part [from, to] of the segment a, b. Returns false if nothing is left.
 bool cut(const HalfPlane& half, const dvec2& a, const dvec2& b, double& from, double& to) {
@@ -212,12 +211,46 @@ void BeamCells::settle_leaf(const SlopeRect& rect, size_t first) {
   std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
     return a.min_depth != b.min_depth ? a.min_depth < b.min_depth : a.facet < b.facet;
   });
+  covers_.clear();
+  for (const Entry& entry : entries_) {
+    const ViewFacet& facet = view_->facets()[entry.facet];
+    for (uint32_t i = 0; facet.hides && i < facet.polygon_count; ++i)
+      if (const SlopeRect& box = view_->polygons(facet)[i].box; box.overlaps(rect))
+        covers_.add({box, entry.min_depth, entry.facet, facet.first_polygon + i});
+  }
+  covers_.build();
+  if (entries_.size() > facets_of_large_leaf) sort_by_place(rect);
   for (const Entry& entry : entries_) {
     if (view_->facets()[entry.facet].is_wedge)
       settle_wedge(rect, entry);
     else
       settle_facet(rect, entry);
   }
+}
+
+/// Sorts the facets so that neighbours in the leaf follow each other. Their covers are then mostly the same and
+/// still in the processor's caches. The result does not depend on the order.
+void BeamCells::sort_by_place(const SlopeRect& rect) {
+  const auto spread = [](double share) {  // 16 bits, with a gap after each
+    uint64_t bits = static_cast<uint64_t>(std::clamp(65535.0 * share, 0.0, 65535.0));
+    bits = (bits | bits << 8) & 0x00ff00ffu;
+    bits = (bits | bits << 4) & 0x0f0f0f0fu;
+    bits = (bits | bits << 2) & 0x33333333u;
+    return (bits | bits << 1) & 0x55555555u;
+  };
+  places_.clear();
+  for (uint32_t i = 0; i < entries_.size(); ++i) {
+    const SlopeRect& box = view_->facets()[entries_[i].facet].box;
+    const double a = 0.5 * (std::max(box.min_a, rect.min_a) + std::min(box.max_a, rect.max_a));
+    const double b = 0.5 * (std::max(box.min_b, rect.min_b) + std::min(box.max_b, rect.max_b));
+    const uint64_t place = spread((a - rect.min_a) / (rect.max_a - rect.min_a)) << 1 |
+                           spread((b - rect.min_b) / (rect.max_b - rect.min_b));
+    places_.push_back(place << 32 | i);
+  }
+  std::sort(places_.begin(), places_.end());
+  by_place_.clear();
+  for (const uint64_t place : places_) by_place_.push_back(entries_[place & 0xffffffffu]);
+  std::swap(entries_, by_place_);
 }
 
 /// Returns the half-plane of slopes where `cover` is in front of `facet`, with unit gradient unless it is
@@ -290,67 +323,32 @@ void BeamCells::settle_facet(const SlopeRect& rect, const Entry& entry) {
 
 /// Subtracts everything in front from a polygon. The rest is lit.
 void BeamCells::settle_polygon(const ViewFacet& facet, const Entry& entry, const Convex& whole) {
-  pieces_.assign(1, Piece{whole, 0, {}});
+  pieces_.start(whole);
   const SlopeRect box = whole.box();
   double cut_by = 0.0;
-  for (const Entry& other : entries_) {
-    if (other.min_depth > entry.max_depth) break;
+  uint32_t front_of = ~0u;
+  HalfPlane front;
+  const bool dark = covers_.visit_until(box, entry.max_depth, [&](const LeafCover& other) {
+    if (other.facet == entry.facet) return false;
     const ViewFacet& cover = view_->facets()[other.facet];
-    if (!cover.hides || other.facet == entry.facet || !cover.box.overlaps(box)) continue;
-    const HalfPlane front = in_front(cover, facet);
-    if (front.most(box) <= 0.0) continue;
-    for (uint32_t i = 0; i < cover.polygon_count && !pieces_.empty(); ++i) {
-      const uint32_t polygon = cover.first_polygon + i;
-      const ViewPolygon& shape = view_->polygons(cover)[i];
-      if (!shape.box.overlaps(box)) continue;
-      const auto constraints = outline(polygon, cover);
-      if (std::any_of(constraints.begin(), constraints.end(),
-                      [&](const HalfPlane& half) { return half.most(box) <= 0.0; }))
-        continue;
-      subtract(other.facet, front, constraints);
-      cut_by = std::max(cut_by, view_->clearance_m() / shape.max_depth);
-    }
-    if (pieces_.empty()) return;
-  }
-  for (const Piece& piece : pieces_)
+    if (other.facet != front_of) front = in_front(cover, facet), front_of = other.facet;
+    if (front.most(box) <= 0.0) return false;
+    const auto constraints = outline(other.polygon, cover);
+    if (std::any_of(constraints.begin(), constraints.end(),
+                    [&](const HalfPlane& half) { return half.most(box) <= 0.0; }))
+      return false;
+    const bool stops = cover.kind == FacetKind::opaque || walls_ == 0;
+    pieces_.subtract(front, constraints, [&](LitPiece& piece) {
+      return !stops && passes_one_more(piece.passed, piece.walls, other.facet);
+    });
+    const ViewPolygon& shape = view_->polygons(cover)[other.polygon - cover.first_polygon];
+    cut_by = std::max(cut_by, view_->clearance_m() / shape.max_depth);
+    return pieces_.empty();
+  });
+  if (dark) return;
+  pieces_.for_each([&](const LitPiece& piece) {
     add_to(regions_[entry.facet * (walls_ + 1) + piece.walls], facet, piece.shape, cut_by);
-}
-
-/// Removes the part inside all constraints, or counts a wall for this part.
-void BeamCells::subtract(uint32_t cover, const HalfPlane& front, std::span<const HalfPlane> outline) {
-  const bool stops = view_->facets()[cover].kind == FacetKind::opaque || walls_ == 0;
-  const size_t count = pieces_.size();
-  for (size_t i = 0; i < count; ++i) {
-    if (!find_cuts(pieces_[i].shape, front, outline)) continue;
-    if (pieces_.size() + cuts_.size() > most_pieces) continue;
-    if (pieces_[i].shape.count + 2 * cuts_.size() > Convex::capacity) continue;
-    Convex inside, outside;
-    for (const HalfPlane& half : cuts_) {
-      split(pieces_[i].shape, half, inside, outside);
-      if (outside.count > 0) {
-        pieces_.push_back(pieces_[i]);
-        pieces_.back().shape = outside;
-      }
-      pieces_[i].shape = inside;
-    }
-    if (stops || !passes_one_more(pieces_[i].passed, pieces_[i].walls, cover)) pieces_[i].shape.count = 0;
-  }
-  std::erase_if(pieces_, [](const Piece& piece) { return piece.shape.count == 0; });
-}
-
-/// Finds the constraints that cut through a polygon. Returns false if the polygon is outside one of them.
-bool BeamCells::find_cuts(const Convex& shape, const HalfPlane& front, std::span<const HalfPlane> outline) {
-  cuts_.clear();
-  const auto look = [&](const HalfPlane& half) {
-    double least = 1e300, most = -1e300;
-    for (uint32_t i = 0; i < shape.count; ++i) {
-      const double value = half.at(shape.at[i]);
-      least = std::min(least, value), most = std::max(most, value);
-    }
-    if (least < 0.0) cuts_.push_back(half);
-    return most > 0.0;
-  };
-  return look(front) && std::all_of(outline.begin(), outline.end(), look);
+  });
 }
 
 /// Does the same for an edge, which is lit if any part of it is lit.
@@ -363,26 +361,21 @@ void BeamCells::settle_wedge(const SlopeRect& rect, const Entry& entry) {
   for (const HalfPlane& side : sides)
     if (!cut(side, a, b, whole.from, whole.to)) return;
   intervals_.assign(1, whole);
-  for (const Entry& other : entries_) {
-    if (other.min_depth > entry.max_depth) break;
+  const bool dark = covers_.visit_until(wedge.box, entry.max_depth, [&](const LeafCover& other) {
     const ViewFacet& cover = view_->facets()[other.facet];
-    if (!cover.hides || !cover.box.overlaps(wedge.box)) continue;
-    if (cover.scene_facet == wedge.wedge_faces[0] || cover.scene_facet == wedge.wedge_faces[1]) continue;
+    if (cover.scene_facet == wedge.wedge_faces[0] || cover.scene_facet == wedge.wedge_faces[1]) return false;
     double from = 0.0, to = 1.0;
-    if (!cut(in_front(cover, wedge), a, b, from, to)) continue;
-    for (uint32_t i = 0; i < cover.polygon_count; ++i) {
-      double part_from = from, part_to = to;
-      const auto constraints = outline(cover.first_polygon + i, cover);
-      if (!std::all_of(constraints.begin(), constraints.end(),
-                       [&](const HalfPlane& half) { return cut(half, a, b, part_from, part_to); }))
-        continue;
-      next_intervals_.clear();
-      for (const Interval& interval : intervals_) subtract(interval, other.facet, part_from, part_to);
-      std::swap(intervals_, next_intervals_);
-    }
-    if (intervals_.empty()) return;
-  }
-  lit_[entry.facet] = 1;
+    if (!cut(in_front(cover, wedge), a, b, from, to)) return false;
+    const auto constraints = outline(other.polygon, cover);
+    if (!std::all_of(constraints.begin(), constraints.end(),
+                     [&](const HalfPlane& half) { return cut(half, a, b, from, to); }))
+      return false;
+    next_intervals_.clear();
+    for (const Interval& interval : intervals_) subtract(interval, other.facet, from, to);
+    std::swap(intervals_, next_intervals_);
+    return intervals_.empty();
+  });
+  if (!dark) lit_[entry.facet] = 1;
 }
 
 void BeamCells::subtract(Interval interval, uint32_t cover, double from, double to) {

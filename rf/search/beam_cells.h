@@ -13,7 +13,8 @@
 #include <vector>
 
 #include "rf/search/beam_view.h"
-#include "shaders/shared/rf.h"
+#include "rf/search/leaf_covers.h"
+#include "rf/search/lit_pieces.h"
 
 namespace greatx::rf {
 
@@ -41,15 +42,11 @@ class BeamCells {
   void settle(const BeamView& view, uint32_t walls, std::vector<BeamHit>& hits,
               std::vector<uint32_t>& wedges);
   uint64_t cells() const { return cells_; }  ///< number of cells examined since the start
+  /// Returns the number of pairs of polygons compared since the start.
+  uint64_t pairs() const { return covers_.compared(); }
 
  private:
-  static constexpr uint32_t most_passed = shared::crossings_max;
-  /// Holds a lit part of a facet: a convex shape, and the walls in front of it.
-  struct Piece {
-    Convex shape;
-    uint32_t walls = 0;
-    std::array<uint32_t, most_passed> passed{};  ///< facets of the view
-  };
+  static constexpr uint32_t most_passed = LitPiece::most_passed;
   /// Describes an obstacle by constraints. Rays that satisfy all of them meet it.
   struct Outline {
     uint32_t first = 0, count = 0;  ///< range in halves_; count 0 if it is not computed yet
@@ -69,6 +66,7 @@ class BeamCells {
   void drop_hidden(const SlopeRect& rect, size_t first);
   bool covers(uint32_t facet, const SlopeRect& rect);
   void settle_leaf(const SlopeRect& rect, size_t first);
+  void sort_by_place(const SlopeRect& rect);
   std::array<HalfPlane, 8> sides_of(const SlopeRect& rect) const;
   void settle_facet(const SlopeRect& rect, const Entry& entry);
   void settle_polygon(const ViewFacet& facet, const Entry& entry, const Convex& whole);
@@ -76,8 +74,6 @@ class BeamCells {
   HalfPlane in_front(const ViewFacet& cover, const ViewFacet& facet) const;
   bool apart(uint32_t wall, uint32_t other) const;
   bool passes_one_more(std::array<uint32_t, most_passed>& passed, uint32_t& walls, uint32_t wall) const;
-  void subtract(uint32_t cover, const HalfPlane& front, std::span<const HalfPlane> outline);
-  bool find_cuts(const Convex& shape, const HalfPlane& front, std::span<const HalfPlane> outline);
   void subtract(Interval interval, uint32_t cover, double from, double to);
   std::span<const HalfPlane> outline(uint32_t polygon, const ViewFacet& facet);
   void add_to(FacetRegion& region, const ViewFacet& facet, const Convex& shape, double pad) const;
@@ -86,8 +82,10 @@ class BeamCells {
   uint32_t walls_ = 0;
   std::vector<uint32_t> lists_;  ///< facets of the open cells
   std::vector<Entry> entries_;   ///< facets of the leaf, nearest first
-  std::vector<Piece> pieces_;
-  std::vector<HalfPlane> cuts_;
+  LeafCovers covers_;            ///< of the leaf
+  std::vector<Entry> by_place_;
+  std::vector<uint64_t> places_;
+  LitPieces pieces_;
   std::vector<Interval> intervals_, next_intervals_;
   std::vector<HalfPlane> halves_;
   std::vector<Outline> outlines_;     ///< [polygons of the view]

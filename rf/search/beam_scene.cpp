@@ -107,6 +107,26 @@ void Pieces::try_to_join(uint32_t first, uint32_t second, uint32_t from, uint32_
   owner_[second] = first;
 }
 
+/// Appends, in ascending order, the boxes that are not outside any of the half-spaces.
+template <typename BoundsOf>
+void gather_boxes(const scene::BoxTree& tree, std::span<const HalfSpace> region, const BoundsOf& bounds_of,
+                  std::vector<uint32_t>& found) {
+  const auto outside = [&](const scene::Bounds& box) {
+    return std::any_of(region.begin(), region.end(), [&](const HalfSpace& half) {
+      const double most = std::max(half.normal.x * box.min.x, half.normal.x * box.max.x) +
+                          std::max(half.normal.y * box.min.y, half.normal.y * box.max.y) +
+                          std::max(half.normal.z * box.min.z, half.normal.z * box.max.z);
+      return most < half.offset;
+    });
+  };
+  const size_t begin = found.size();
+  tree.visit_until(outside, [&](uint32_t index) {
+    if (!outside(bounds_of(index))) found.push_back(index);
+    return false;
+  });
+  std::sort(found.begin() + static_cast<ptrdiff_t>(begin), found.end());
+}
+
 }  // namespace
 
 BeamScene::BeamScene(const FacetWorld& world, const FacetKinds& kinds, std::span<const scene::Wedge> wedges,
@@ -143,7 +163,15 @@ BeamScene::BeamScene(const FacetWorld& world, const FacetKinds& kinds, std::span
   std::vector<scene::Bounds> boxes;
   boxes.reserve(facets_.size());
   for (const BeamFacet& facet : facets_) boxes.push_back(facet.bounds);
-  boxes_ = scene::BoxTree(boxes);
+  facet_tree_ = scene::BoxTree(boxes);
+  polygon_bounds_.resize(polygons_.size());
+  for (size_t i = 0; i < polygons_.size(); ++i)
+    for (const uint32_t corner : this->corners(polygons_[i])) polygon_bounds_[i].add(vertices_[corner]);
+  polygon_tree_ = scene::BoxTree(polygon_bounds_);
+  wedge_bounds_.resize(wedges_.size());
+  for (size_t i = 0; i < wedges_.size(); ++i)
+    for (const dvec3& end : {wedges_[i].a, wedges_[i].b}) wedge_bounds_[i].add(end);
+  wedge_tree_ = scene::BoxTree(wedge_bounds_);
 }
 
 void BeamScene::add(const FacetWorld& world, uint32_t index, FacetKind kind,
@@ -181,7 +209,8 @@ void BeamScene::add_polygons(BeamFacet& facet, std::span<const std::array<uint32
   facet.first_polygon = static_cast<uint32_t>(polygons_.size());
   double longest = 0.0;
   for (const std::vector<uint32_t>& loop : pieces.loops()) {
-    polygons_.push_back({static_cast<uint32_t>(corners_.size()), static_cast<uint32_t>(loop.size())});
+    polygons_.push_back({static_cast<uint32_t>(corners_.size()), static_cast<uint32_t>(loop.size()),
+                         static_cast<uint32_t>(facets_.size())});
     for (size_t i = 0; i < loop.size(); ++i) {
       const dvec3 &from = vertices_[loop[i]], &to = vertices_[loop[(i + 1) % loop.size()]];
       corners_.push_back(loop[i]);
@@ -214,27 +243,21 @@ void BeamScene::add_wedges(std::span<const scene::Wedge> wedges) {
   }
   std::stable_sort(wedges_.begin(), wedges_.end(),
                    [](const BeamWedge& a, const BeamWedge& b) { return a.faces[0] < b.faces[0]; });
-  for (uint32_t i = 0; i < wedges_.size(); ++i) {
-    BeamFacet& facet = facets_[wedges_[i].faces[0]];
-    if (facet.wedge_count++ == 0) facet.first_wedge = i;
-  }
 }
 
 void BeamScene::gather(std::span<const HalfSpace> region, std::vector<uint32_t>& facets) const {
-  const auto outside = [&](const scene::Bounds& box) {
-    return std::any_of(region.begin(), region.end(), [&](const HalfSpace& half) {
-      const double most = std::max(half.normal.x * box.min.x, half.normal.x * box.max.x) +
-                          std::max(half.normal.y * box.min.y, half.normal.y * box.max.y) +
-                          std::max(half.normal.z * box.min.z, half.normal.z * box.max.z);
-      return most < half.offset;
-    });
-  };
-  const size_t begin = facets.size();
-  boxes_.visit_until(outside, [&](uint32_t facet) {
-    if (!outside(facets_[facet].bounds)) facets.push_back(facet);
-    return false;
-  });
-  std::sort(facets.begin() + static_cast<ptrdiff_t>(begin), facets.end());
+  gather_boxes(
+      facet_tree_, region, [&](uint32_t facet) { return facets_[facet].bounds; }, facets);
+}
+
+void BeamScene::gather_polygons(std::span<const HalfSpace> region, std::vector<uint32_t>& polygons) const {
+  gather_boxes(
+      polygon_tree_, region, [&](uint32_t polygon) { return polygon_bounds_[polygon]; }, polygons);
+}
+
+void BeamScene::gather_wedges(std::span<const HalfSpace> region, std::vector<uint32_t>& wedges) const {
+  gather_boxes(
+      wedge_tree_, region, [&](uint32_t wedge) { return wedge_bounds_[wedge]; }, wedges);
 }
 
 }  // namespace greatx::rf

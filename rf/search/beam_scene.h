@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Holds the scene for beams: facets as convex polygons, in a tree of boxes.
+// Holds the scene for beams: facets as convex polygons. Facets, polygons and wedges are in a tree of boxes
+// each. A facet may have thousands of polygons all over the scene, such as the ground of a city, so that a beam
+// must not look at all polygons of a facet that it meets.
 #pragma once
 
 #include <array>
@@ -21,6 +23,7 @@ namespace greatx::rf {
 struct BeamPolygon {
   static constexpr uint32_t most_corners = 8;
   uint32_t first = 0, count = 0;  ///< range of corners
+  uint32_t facet = 0;             ///< facet of the BeamScene
 };
 
 struct BeamFacet {
@@ -28,7 +31,6 @@ struct BeamFacet {
   FacetKind kind = FacetKind::opaque;
   uint32_t owner = 0;  ///< PosedFacet::owner
   uint32_t first_polygon = 0, polygon_count = 0;
-  uint32_t first_wedge = 0, wedge_count = 0;
   dvec3 normal{0.0};  ///< unit
   double offset = 0.0;
   double tolerance_m = 0.0;               ///< PosedFacet::tolerance_m
@@ -69,16 +71,19 @@ class BeamScene {
   std::span<const uint32_t> corners(const BeamPolygon& polygon) const {
     return std::span(corners_).subspan(polygon.first, polygon.count);
   }
-  /// Returns the wedges that belong to a facet. Each wedge belongs to one of its faces.
-  std::span<const BeamWedge> wedges(const BeamFacet& facet) const {
-    return std::span(wedges_).subspan(facet.first_wedge, facet.wedge_count);
-  }
+  const BeamPolygon& polygon(uint32_t index) const { return polygons_[index]; }
+  /// Wedges are ordered by the first of their faces.
+  const BeamWedge& wedge(uint32_t index) const { return wedges_[index]; }
   const dvec3& vertex(uint32_t index) const { return vertices_[index]; }
   /// Returns the largest absolute coordinate of a vertex, metres.
   double largest_coordinate() const { return largest_coordinate_; }
 
   /// Appends, in ascending order, the facets whose boxes are not outside any of the half-spaces.
   void gather(std::span<const HalfSpace> region, std::vector<uint32_t>& facets) const;
+  /// Does the same for polygons. They are ordered by facet.
+  void gather_polygons(std::span<const HalfSpace> region, std::vector<uint32_t>& polygons) const;
+  /// Does the same for wedges.
+  void gather_wedges(std::span<const HalfSpace> region, std::vector<uint32_t>& wedges) const;
 
  private:
   void add(const FacetWorld& world, uint32_t index, FacetKind kind,
@@ -92,7 +97,8 @@ class BeamScene {
   std::vector<BeamPolygon> polygons_;
   std::vector<uint32_t> corners_;
   std::vector<BeamWedge> wedges_;
-  scene::BoxTree boxes_;  ///< boxes of facets_
+  std::vector<scene::Bounds> polygon_bounds_, wedge_bounds_;
+  scene::BoxTree facet_tree_, polygon_tree_, wedge_tree_;
   double largest_coordinate_ = 0.0;
 };
 

@@ -31,7 +31,7 @@ struct Node {
 struct Found {
   std::vector<BeamHit> hits;  ///< their walls count from the source
   std::vector<uint32_t> wedges;
-  uint64_t cells = 0;
+  uint64_t cells = 0, work = 0;
 };
 
 /// Sorts hits by facet and then by walls, and merges their regions.
@@ -89,6 +89,7 @@ void Tree::settle(const Beam& beam, uint32_t depth, uint32_t passed, Found& foun
   cells.settle(view, static_cast<uint32_t>(walls_left(depth, passed)), found.hits, found.wedges);
   for (size_t i = first; i < found.hits.size(); ++i) found.hits[i].walls += passed;
   found.cells += cells.cells();
+  found.work += view.examined() + cells.pairs();
 }
 
 Found Tree::expand_root(uint32_t face) const {
@@ -144,6 +145,7 @@ std::vector<Found> Tree::expand_level(size_t first, size_t end, uint32_t depth, 
       found[0].hits.insert(found[0].hits.end(), face.hits.begin(), face.hits.end());
       found[0].wedges.insert(found[0].wedges.end(), face.wedges.begin(), face.wedges.end());
       found[0].cells += face.cells;
+      found[0].work += face.work;
     }
   } else {
     parallel_for(end - first, options_.threads, [&](size_t i) {
@@ -246,6 +248,7 @@ BeamSearchResult Tree::grow() {
         checkpoint();
         const Found& from = found[i - first];
         result.cells += from.cells;
+        result.work += from.work;
         if (wedges_) {
           result.list.wedges.insert(result.list.wedges.end(), from.wedges.begin(), from.wedges.end());
           if (result.list.wedges.size() > ~0u)

@@ -65,7 +65,9 @@ struct BeamSearchResult {
   /// sequence that fits, and the search has stopped after the depth in which that happened. The number is
   /// then a lower bound.
   uint64_t found = 0;
-  uint64_t cells = 0;  ///< number of cells of beams examined: the cost of the search
+  uint64_t cells = 0;  ///< number of cells of beams examined
+  /// Number of polygons looked at for beams and of pairs of polygons compared: the cost of the search.
+  uint64_t work = 0;
   /// Beams of the sequences [0, beams.size()) of the list, which are all that have fewer than max_depth
   /// facets. The beam of the empty sequence is everything: its rectangle has no meaning.
   std::vector<SequenceBeam> beams;

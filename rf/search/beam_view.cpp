@@ -37,6 +37,7 @@ void BeamView::look(const Beam& beam, double clearance_m, uint32_t transparent_b
   polygons_.clear();
   corners_.clear();
   gathered_.clear();
+  examined_ = 0;
   longest_direction_ = longest_direction_in(beam.window);
   const double coordinate = std::max(
       {scene_->largest_coordinate(), std::abs(beam.apex.x), std::abs(beam.apex.y), std::abs(beam.apex.z)});
@@ -55,12 +56,17 @@ void BeamView::look(const Beam& beam, double clearance_m, uint32_t transparent_b
                               side(beam.up - beam.window.min_b * beam.forward, 0.0),
                               side(beam.window.max_b * beam.forward - beam.up, 0.0),
                               side(beam.forward, beam.near_m)};
-  scene_->gather(region, gathered_);
-  for (const uint32_t facet : gathered_)
-    if (facet != beam.mirror) add_facet(facet, transparent_body);
+  scene_->gather_polygons(region, gathered_);
+  for (size_t first = 0, end = 0; first < gathered_.size(); first = end) {
+    const uint32_t facet = scene_->polygon(gathered_[first]).facet;
+    while (end < gathered_.size() && scene_->polygon(gathered_[end]).facet == facet) ++end;
+    if (facet != beam.mirror)
+      add_facet(facet, std::span(gathered_).subspan(first, end - first), transparent_body);
+  }
   if (!wedges) return;
-  for (const uint32_t facet : gathered_)
-    for (const BeamWedge& wedge : scene_->wedges(scene_->facet(facet))) add_wedge(wedge);
+  gathered_.clear();
+  scene_->gather_wedges(region, gathered_);
+  for (const uint32_t wedge : gathered_) add_wedge(scene_->wedge(wedge));
 }
 
 double BeamView::room_between(const dvec3& normal, const dvec3& other) const {
@@ -69,7 +75,8 @@ double BeamView::room_between(const dvec3& normal, const dvec3& other) const {
   return sine < least_sine ? room_m_ : -clearance_m_ * sine;
 }
 
-void BeamView::add_facet(uint32_t scene_facet, uint32_t transparent_body) {
+void BeamView::add_facet(uint32_t scene_facet, std::span<const uint32_t> polygons,
+                         uint32_t transparent_body) {
   const BeamFacet& facet = scene_->facet(scene_facet);
   const double ahead = facet.offset - glm::dot(facet.normal, beam_.apex);
   if (std::abs(ahead) <= 0.5 * facet.tolerance_m) return;  // edge-on: it neither reflects nor blocks
@@ -91,8 +98,8 @@ void BeamView::add_facet(uint32_t scene_facet, uint32_t transparent_body) {
     least_rise = std::max(0.5 * mirror.tolerance_m, -room_between(facet.normal, mirror.normal));
   }
   bool above = false;
-  for (const BeamPolygon& polygon : scene_->polygons(facet))
-    above = add_polygon(view, scene_->corners(polygon), least_depth, least_rise) || above;
+  for (const uint32_t polygon : polygons)
+    above = add_polygon(view, scene_->corners(scene_->polygon(polygon)), least_depth, least_rise) || above;
   view.polygon_count = static_cast<uint32_t>(polygons_.size()) - view.first_polygon;
   // A facet in the mirror's plane has no path. A facet that rises from this plane by less than the clearance
   // has no path that is clear of edges.
@@ -109,6 +116,7 @@ void BeamView::add_facet(uint32_t scene_facet, uint32_t transparent_body) {
 /// rises above the mirror by more than `least_rise`.
 bool BeamView::add_polygon(ViewFacet& view, std::span<const uint32_t> vertices, double least_depth,
                            double least_rise) {
+  ++examined_;
   constexpr size_t most = Convex::capacity;
   dvec3 at[most];
   const dvec3 normal(view.na, view.nb, view.n);

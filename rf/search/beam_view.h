@@ -72,6 +72,8 @@ class BeamView {
   std::span<const dvec2> corners(const ViewPolygon& polygon) const {
     return std::span(corners_).subspan(polygon.first, polygon.count);
   }
+  /// Returns the number of polygons of the scene that were looked at for this beam.
+  uint64_t examined() const { return examined_; }
   /// Returns BeamSearchOptions::clearance_m with room for the mesh's fp32; 0: none.
   double clearance_m() const { return clearance_m_; }
   /// Returns the room that a cover needs in front and behind if nothing else is known, metres: four times
@@ -89,7 +91,7 @@ class BeamView {
     return {glm::dot(beam_.right, from_apex), glm::dot(beam_.up, from_apex),
             glm::dot(beam_.forward, from_apex)};
   }
-  void add_facet(uint32_t scene_facet, uint32_t transparent_body);
+  void add_facet(uint32_t scene_facet, std::span<const uint32_t> polygons, uint32_t transparent_body);
   bool add_polygon(ViewFacet& view, std::span<const uint32_t> vertices, double least_depth,
                    double least_rise);
   void add_wedge(const BeamWedge& wedge);
@@ -102,6 +104,7 @@ class BeamView {
   std::vector<ViewPolygon> polygons_;
   std::vector<dvec2> corners_;
   std::vector<uint32_t> gathered_;
+  uint64_t examined_ = 0;
 };
 
 }  // namespace greatx::rf

@@ -19,6 +19,10 @@ struct SlopeRect {
     min_a = std::min(min_a, x.x), max_a = std::max(max_a, x.x);
     min_b = std::min(min_b, x.y), max_b = std::max(max_b, x.y);
   }
+  void add(const SlopeRect& other) {
+    min_a = std::min(min_a, other.min_a), max_a = std::max(max_a, other.max_a);
+    min_b = std::min(min_b, other.min_b), max_b = std::max(max_b, other.max_b);
+  }
   bool overlaps(const SlopeRect& other) const {
     return min_a <= other.max_a && other.min_a <= max_a && min_b <= other.max_b && other.min_b <= max_b;
   }
