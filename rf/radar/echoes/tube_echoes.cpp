@@ -25,10 +25,14 @@ PhasePlane phase_plane(const PosedFacet& facet, const dvec3& source, const dvec3
 
 }  // namespace
 
-Polygon tube_part(const std::array<dvec3, 4>& corners, const TubeBeam& beam) {
+std::array<dvec2, 4> tube_corners(const std::array<dvec3, 4>& corners, const TubeBeam& beam) {
   std::array<dvec2, 4> points;
   for (int i = 0; i < 4; ++i) points[i] = beam.uv(beam.source + corners[i]);
-  return Polygon(points);
+  return points;
+}
+
+Polygon tube_part(const std::array<dvec3, 4>& corners, const TubeBeam& beam) {
+  return Polygon(tube_corners(corners, beam));
 }
 
 Polygon on_facet(const PosedFacet& facet, const TubeBeam& beam, const Polygon& part) {
@@ -56,7 +60,7 @@ struct TubeEchoes::Place {
 struct TubeEchoes::Job {
   uint32_t tube = 0;
   std::array<uint32_t, 8> ring{};
-  std::array<dvec3, 4> corners{};             ///< corners of the whole tube
+  std::array<dvec2, 4> corners{};             ///< corners of the whole tube in its own coordinates
   std::array<TubeBeam, most_surfaces> beams;  ///< [number of bounces before]
   std::array<uint32_t, most_surfaces> chain{};
   Polygon part;  ///< quadrilateral of the whole tube
@@ -163,8 +167,8 @@ void TubeEchoes::solve(uint32_t tube, Job& job) const {
   };
   if (empty(tube) && std::all_of(job.ring.begin(), job.ring.end(), empty)) return;
   job.beams[0] = TubeBeam(source_, grid_.axis(tube));
-  job.corners = grid_.corners(tube);
-  job.part = tube_part(job.corners, job.beams[0]);
+  job.corners = tube_corners(grid_.corners(tube), job.beams[0]);
+  job.part = Polygon(job.corners);
   follow(job, 0, job.part, {}, true);
 }
 
@@ -267,9 +271,7 @@ uint32_t TubeEchoes::omitted_sides(const Job& job, uint32_t bounce, const PosedF
     const bool cancels = border && other != RayGrid::outside && grid_.same_level(job.tube, other) &&
                          whole_[size_t{other} * bounces_ + bounce] == Whole::border;
     if (other != RayGrid::outside && !cancels) continue;
-    const dvec2 a = job.beams[0].uv(source_ + job.corners[side]),
-                b = job.beams[0].uv(source_ + job.corners[(side + 1) % 4]);
-    const dvec2 along = b - a;
+    const dvec2 a = job.corners[side], along = job.corners[(side + 1) % 4] - a;
     const double length = glm::length(along);
     if (length == 0.0) continue;
     if (!std::exchange(placed, true))

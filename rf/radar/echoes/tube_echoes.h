@@ -118,7 +118,8 @@ class TubeEchoes {
   std::vector<Whole> whole_;  ///< [tubes * bounces]
 };
 
-/// Returns the quadrilateral of a tube in the coordinates of `beam`.
+/// Returns the corners of a tube in the coordinates of `beam`, and its quadrilateral.
+std::array<dvec2, 4> tube_corners(const std::array<dvec3, 4>& corners, const TubeBeam& beam);
 Polygon tube_part(const std::array<dvec3, 4>& corners, const TubeBeam& beam);
 /// Returns a part of a beam on a facet, in the plane coordinates of the facet. Returns an empty polygon if a
 /// corner of the part does not fall on the plane.
