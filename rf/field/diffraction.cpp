@@ -41,7 +41,7 @@ struct FaceReflection {
 /// cosine between the ray and the edge from a to b, with phi counted from that face. With N = sqrt(cos^2
 /// angle + cos^2 beta_0 sin^2 angle), s = k x n is (-cos angle, cos beta_0 sin angle)/N on (beta_0', phi')
 /// and (cos angle, cos beta_0 sin angle)/N on (beta_0, phi); p = k x s.
-FaceReflection face_reflection(double angle, double cos_beta0, const FresnelCoefficients& r) {
+FaceReflection face_reflection(double angle, double cos_beta0, const ReflectionCoefficients& r) {
   double c = std::cos(angle), d = cos_beta0 * std::sin(angle);
   const double norm = std::hypot(c, d);
   // At normal incidence r_TE = -r_TM, and any s gives the same result.
@@ -66,10 +66,10 @@ Face face_of(uint32_t facet, const dvec3& exterior_normal, const FacetWorld& wor
   return {posed_facet.material, glm::dot(posed_facet.normal, exterior_normal) > 0.0, posed_facet.tolerance_m};
 }
 
-FresnelCoefficients fresnel(const Face& face, double cos_theta, const RadioSurfaces& surfaces,
-                            const SpecularShare& share) {
+ReflectionCoefficients fresnel(const Face& face, double cos_theta, const RadioSurfaces& surfaces,
+                               const SpecularShare& share) {
   const double cosine = std::clamp(cos_theta, 0.0, 1.0);  // removes only rounding
-  FresnelCoefficients r = surfaces.reflect(face.material, face.from_front, cosine);
+  ReflectionCoefficients r = surfaces.reflect(face.material, face.from_front, cosine);
   const double kept = share ? share(face.material, cosine) : 1.0;
   r.r_te *= kept;
   r.r_tm *= kept;

@@ -110,7 +110,7 @@ class Travelling {
 
   void reflect(const PosedFacet& facet, const dvec3& in, const dvec3& out, Complex weight) {
     const double towards = glm::dot(in, facet.normal), cosine = std::min(1.0, std::abs(towards));
-    const FresnelCoefficients fresnel = model_.surfaces->reflect(facet.material, towards < 0.0, cosine);
+    const ReflectionCoefficients fresnel = model_.surfaces->reflect(facet.material, towards < 0.0, cosine);
     const double kept = specular_share(facet.material, cosine);
     const dvec3 s = across(in, facet.normal);
     map(s, glm::cross(in, s), s, glm::cross(out, s),
@@ -131,7 +131,7 @@ class Travelling {
     GREATX_CHECK(area_m2 > 0.0, "patch {} of facet {} has {} m^2", patch.patch, patch.element, area_m2);
     const double towards = glm::dot(in, facet.normal), cosine = std::min(1.0, std::abs(towards));
     const dvec3 normal = towards < 0.0 ? facet.normal : -facet.normal;
-    const FresnelCoefficients fresnel = model_.surfaces->reflect(facet.material, towards < 0.0, cosine);
+    const ReflectionCoefficients fresnel = model_.surfaces->reflect(facet.material, towards < 0.0, cosine);
     const DiffuseScattering& surface = model_.surfaces->surface(facet.material).scattering;
     const double amplitude =
         surface.coefficient * std::sqrt(scattering_pattern(surface, in, out, normal) * cosine * area_m2);

@@ -17,8 +17,11 @@ namespace greatx::rf {
 
 using Complex = std::complex<double>;
 
-struct FresnelCoefficients {
+struct ReflectionCoefficients {
   Complex r_te{0.0}, r_tm{0.0};  ///< ratio of reflected to incident field at the outer face
+};
+
+struct FresnelCoefficients : ReflectionCoefficients {
   /// Ratio of transmitted to incident field: behind the face of a half-space, or behind the last layer.
   Complex t_te{0.0}, t_tm{0.0};
 };
@@ -39,12 +42,16 @@ Complex normal_component(Complex eta, double cos_theta);
 ///   r_TE = -(eta - 1)/(C + A)^2, r_TM = (eta - 1)((eta + 1)C^2 - 1)/(eta C + A)^2.
 /// At cos_theta = 0 the result is r = -1, t = 0. For eta = 1 it is r = 0, t = 1.
 FresnelCoefficients half_space(Complex eta, double cos_theta);
+/// Returns the reflection of half_space() alone, to the last bit.
+ReflectionCoefficients half_space_reflection(Complex eta, double cos_theta);
 
 /// Returns the coefficients of a slab with vacuum on both sides (P.2040-4, 2.2.2, eq. 43 and 44), with q = 2
 /// pi d A / lambda:
 ///   R = r(1 - e^{-2jq})/(1 - r^2 e^{-2jq}), T = (1 - r^2)e^{-jq}/(1 - r^2 e^{-2jq}).
 /// T is the field at the rear face over the field at the front face, both at the foot of the same normal.
 FresnelCoefficients slab(const DielectricLayer& layer, double wavelength_m, double cos_theta);
+/// Returns the reflection of slab() alone, to the last bit.
+ReflectionCoefficients slab_reflection(const DielectricLayer& layer, double wavelength_m, double cos_theta);
 
 /// Returns the coefficients of any number of layers, the outermost first, with vacuum behind them (P.2040-4,
 /// 2.2.2 and Attachment 1). The transfer-matrix recursion divides each matrix by its growing exponential: a

@@ -90,8 +90,11 @@ const std::vector<DielectricLayer>& RadioSurfaces::layers(uint32_t material, boo
   return from_front ? surfaces_[material].front : surfaces_[material].back;
 }
 
-FresnelCoefficients RadioSurfaces::reflect(uint32_t material, bool from_front, double cos_theta) const {
-  return fresnel(layers(material, from_front), wavelength_m_, cos_theta);
+ReflectionCoefficients RadioSurfaces::reflect(uint32_t material, bool from_front, double cos_theta) const {
+  const std::vector<DielectricLayer>& wall = layers(material, from_front);
+  if (wall.size() > 1) return multilayer(wall, wavelength_m_, cos_theta);
+  if (wall[0].thickness_m == 0.0) return half_space_reflection(wall[0].eta, cos_theta);
+  return slab_reflection(wall[0], wavelength_m_, cos_theta);
 }
 
 SheetTransmission RadioSurfaces::transmit(uint32_t material, bool from_front, double cos_theta) const {

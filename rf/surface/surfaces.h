@@ -68,7 +68,7 @@ class RadioSurfaces {
   double wavelength_m() const { return wavelength_m_; }
   /// Returns the reflection of the smooth wall. `from_front` is true if the wave comes from the side that the
   /// normal of the facet points to.
-  FresnelCoefficients reflect(uint32_t material, bool from_front, double cos_theta) const;
+  ReflectionCoefficients reflect(uint32_t material, bool from_front, double cos_theta) const;
   /// Returns the transmission through all layers of a wall, which must be penetrable. The result of a thick
   /// lossy wall underflows to 0.
   SheetTransmission transmit(uint32_t material, bool from_front, double cos_theta) const;

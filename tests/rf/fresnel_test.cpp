@@ -274,6 +274,24 @@ TEST(Fresnel, QuarterWaveCoatingDoesNotReflect) {
   EXPECT_NEAR(std::norm(found.t_tm) * std::sqrt(6.31), 1.0, 1e-14);
 }
 
+TEST(Fresnel, ReflectionAloneHasTheBitsOfAll) {
+  // At the fourth permittivity the normal component is 0 at a cosine of 0.5 (the critical angle).
+  for (const Complex eta : {concrete(), Complex(6.31), Complex(1.0), Complex(0.75), Complex(1.0, -1e14)})
+    for (const double c : {1.0, 0.8, 0.5, 1e-2, 1e-9, 0.0}) {
+      const FresnelCoefficients face = half_space(eta, c);
+      const ReflectionCoefficients of_face = half_space_reflection(eta, c);
+      EXPECT_EQ(of_face.r_te, face.r_te);
+      EXPECT_EQ(of_face.r_tm, face.r_tm);
+      for (const double thickness : {1e-4, 0.006, 0.2}) {
+        const FresnelCoefficients wall = slab({eta, thickness}, wavelength_m, c);
+        const ReflectionCoefficients of_wall = slab_reflection({eta, thickness}, wavelength_m, c);
+        EXPECT_EQ(of_wall.r_te, wall.r_te);
+        EXPECT_EQ(of_wall.r_tm, wall.r_tm);
+      }
+    }
+  EXPECT_THROW(slab_reflection({Complex(1.0), 0.1}, wavelength_m, 1.5), ContractError);
+}
+
 TEST(RadioSurface, IsWhatTheMaterialSays) {
   testing::HandScene hand;
   const uint32_t ground = hand.material("ground", 4.0);

@@ -204,7 +204,7 @@ TEST(Scattering, EnergyBalanceOfAPatch) {
       const FacetWorld world(patch.hand.scene);
       const RadioSurfaces surfaces(patch.hand.scene, scattered_hz);
       const dvec3 in = incoming(zenith, 0.8), tx = point - 4.0 * in;
-      const FresnelCoefficients fresnel = surfaces.reflect(0, true, std::cos(zenith));
+      const ReflectionCoefficients fresnel = surfaces.reflect(0, true, std::cos(zenith));
       double received[4]{};
       for (const Direction& direction : hemisphere({0, 0, 1}, 27)) {
         const Path path = path_field(patch.over(tx, point, point + 7.0 * direction.out), {&world, &surfaces},

@@ -123,7 +123,7 @@ TEST(PathStory, LearnsAnglesAndLossesFromTheScene) {
   const double angle = std::atan2(4.0, 5.0);
   ASSERT_TRUE(told.angle && told.loss_db);
   EXPECT_NEAR(*told.angle, angle, 1e-12);
-  const rf::FresnelCoefficients r =
+  const rf::ReflectionCoefficients r =
       facts.model().surfaces.reflect(facts.scene().facets[*stop.facet].material, true, std::cos(angle));
   // The wall is finite, and its share of the Fresnel zones is a part of the loss. Its edges diffract.
   const rf::ReflectionSight sight{facts.scene().to_local(stop.at), glm::normalize(stop.at - story.start),

@@ -31,7 +31,7 @@ std::optional<double> loss_of(const PathStop& stop, const rf::RadioModel& model,
   if (surface.front.empty()) return {};
   const rf::FieldEffects& effects = model.effects.field;
   if (stop.type == rf::InteractionType::reflection) {
-    const rf::FresnelCoefficients r = model.surfaces.reflect(material, from_front, cosine);
+    const rf::ReflectionCoefficients r = model.surfaces.reflect(material, from_front, cosine);
     return loss_db_of(
         r.r_te, r.r_tm,
         rf::specular_share(surface, cosine, model.surfaces.wavelength_m(),

@@ -42,7 +42,7 @@ Bounce bounce(const RadioSurfaces& surfaces, const PosedFacet& facet, const Fiel
   b.normal = towards < 0.0 ? facet.normal : -facet.normal;
   b.cosine = std::min(1.0, std::abs(towards));
   b.out = in - 2.0 * towards * facet.normal;
-  const FresnelCoefficients fresnel = surfaces.reflect(facet.material, towards < 0.0, b.cosine);
+  const ReflectionCoefficients fresnel = surfaces.reflect(facet.material, towards < 0.0, b.cosine);
   const dvec3 s = across(in, b.normal);
   b.reflected.add(fresnel.r_te * field.along(s), s);
   b.reflected.add(fresnel.r_tm * field.along(glm::cross(in, s)), glm::cross(b.out, s));
@@ -74,17 +74,19 @@ EchoField::EchoField(const FacetWorld& world, const RadioSurfaces& surfaces, con
 
 FieldVector EchoField::radiated(const dvec3& departure) const {
   Jones jones[1];
+  const Angles at = angles_of(departure);
   transmitter_.respond(departure, jones);
   FieldVector field;
-  field.add(jones[0].theta, theta_hat(departure));
-  field.add(jones[0].phi, phi_hat(departure));
+  field.add(jones[0].theta, at.theta_hat());
+  field.add(jones[0].phi, at.phi_hat());
   return field;
 }
 
 Complex EchoField::received(const FieldVector& field, const dvec3& arrival) const {
   Jones jones[1];
+  const Angles at = angles_of(arrival);
   receiver_.respond(arrival, jones);
-  return jones[0].theta * field.along(theta_hat(arrival)) + jones[0].phi * field.along(phi_hat(arrival));
+  return jones[0].theta * field.along(at.theta_hat()) + jones[0].phi * field.along(at.phi_hat());
 }
 
 double EchoField::coherent_share(uint32_t material, double cos_in, double cos_out) const {
@@ -151,7 +153,7 @@ Complex EchoField::diffuse(const EchoPoint& point, double area_m2) const {
   const double towards = glm::dot(in, facet.normal);
   const dvec3 normal = towards < 0.0 ? facet.normal : -facet.normal;
   const double cosine = std::min(1.0, std::abs(towards));
-  const FresnelCoefficients fresnel = surfaces_.reflect(facet.material, towards < 0.0, cosine);
+  const ReflectionCoefficients fresnel = surfaces_.reflect(facet.material, towards < 0.0, cosine);
   const double amplitude =
       surface.coefficient * std::sqrt(scattering_pattern(surface, in, out, normal) * cosine * area_m2);
   const ScatteringMatrix m = scattering_matrix(surface.cross_polarization, options_.seed, point.chain.back(),

@@ -181,7 +181,8 @@ uint32_t EchoTracer::build(Build& work, uint32_t first, uint32_t count) {
   return index;
 }
 
-inline void EchoTracer::test(const Piece& piece, const Side* sides, Query& query) {
+inline void EchoTracer::test(const Piece* pieces, uint32_t index, const Side* sides, Query& query) {
+  const Piece& piece = pieces[index];
   if (piece.facet == query.leaving) return;
   const double towards = glm::dot(piece.normal, query.direction);
   const double t = (piece.offset - glm::dot(piece.normal, query.origin)) / towards;
@@ -191,7 +192,7 @@ inline void EchoTracer::test(const Piece& piece, const Side* sides, Query& query
     const Side& side = sides[piece.first_side + i];
     if (glm::dot(side.normal, at) + side.offset < -piece.room) return;
   }
-  query.nearest = t, query.facet = piece.facet;
+  query.nearest = t, query.facet = piece.facet, query.piece = index;
 }
 
 GREATX_LANES void EchoTracer::meet(const Node* nodes, const Piece* pieces, const Side* sides, uint32_t root,
@@ -228,7 +229,7 @@ GREATX_LANES void EchoTracer::meet(const Node* nodes, const Piece* pieces, const
     for (; met != 0; met &= met - 1) {
       const uint32_t k = static_cast<uint32_t>(std::countr_zero(met));
       if (node.count[k] > 0) {
-        for (uint32_t i = 0; i < node.count[k]; ++i) test(pieces[node.child[k] + i], sides, query);
+        for (uint32_t i = 0; i < node.count[k]; ++i) test(pieces, node.child[k] + i, sides, query);
         if (query.any && query.facet != ~0u) return;
         continue;
       }
@@ -256,10 +257,11 @@ std::vector<EchoTracer::Standing> EchoTracer::standing(const FacetWorld& world, 
   return all;
 }
 
-void EchoTracer::meet_all(std::span<const Standing> trees, Query& query) const {
+void EchoTracer::meet_all(std::span<const Standing> trees, Query& query, uint32_t guess) const {
   const double squared = glm::dot(query.direction, query.direction);
   for (const Standing& one : trees) {
     if (one.tree->body == 0) {
+      if (guess != Query::none) test(pieces_.data(), guess, sides_.data(), query);
       meet(nodes_.data(), pieces_.data(), sides_.data(), one.tree->root, query);
     } else {
       const dvec3 across = glm::cross(one.center - query.origin, query.direction);
@@ -267,7 +269,8 @@ void EchoTracer::meet_all(std::span<const Standing> trees, Query& query) const {
       Query own = query;
       own.origin = one.back.apply(query.origin), own.direction = one.back.rotate(query.direction);
       meet(nodes_.data(), pieces_.data(), sides_.data(), one.tree->root, own);
-      query.nearest = own.nearest, query.facet = own.facet;
+      query.nearest = own.nearest;
+      if (query.facet != own.facet) query.facet = own.facet, query.piece = Query::none;
     }
     if (query.any && query.facet != ~0u) return;
   }
@@ -307,13 +310,16 @@ EchoTracer::Answer EchoTracer::trace(const FacetWorld& world, const EchoRays& ra
   answer.direct = !monostatic && sees(both, rays.source, rays.receiver, ~0u);
   parallel_for((tubes + tubes_at_once - 1) / tubes_at_once, threads, [&](size_t part) {
     const uint32_t first = static_cast<uint32_t>(part) * tubes_at_once;
+    // Neighbouring rays mostly meet the same pieces.
+    std::vector<uint32_t> guesses(max_bounces, Query::none);
     for (uint32_t tube = first; tube < std::min(tubes, first + tubes_at_once); ++tube) {
       Query query{rays.source, grid.axis(tube)};
       uint32_t most = max_bounces, before = ~0u;
       for (uint32_t bounce = 0; bounce < most; ++bounce) {
-        query.nearest = 1e30, query.facet = ~0u;
-        meet_all(own, query);
+        query.nearest = 1e30, query.facet = ~0u, query.piece = Query::none;
+        meet_all(own, query, guesses[bounce]);
         if (query.facet == ~0u) break;
+        if (query.piece != Query::none) guesses[bounce] = query.piece;
         if (bounce == 1) most = last(before, query.facet);
         before = query.facet;
         const PosedFacet& facet = world.facet(query.facet);

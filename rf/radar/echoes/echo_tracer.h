@@ -87,17 +87,20 @@ class EchoTracer {
     double nearest = 1e30;  ///< in units of the length of `direction`
     uint32_t leaving = ~0u, facet = ~0u;
     bool any = false;
+    uint32_t piece = none;  ///< index of the piece that was met last
+    static constexpr uint32_t none = ~0u;
   };
   using Hidden = std::array<uint32_t, 2>;  ///< owners of the bodies that rays pass through; 0: none
 
   Piece piece_of(const scene::Facet& facet, uint32_t index, std::span<const dvec3> corners);
   uint32_t build(Build& work, uint32_t first, uint32_t count);
   static void meet(const Node* nodes, const Piece* pieces, const Side* sides, uint32_t root, Query& query);
-  static void test(const Piece& piece, const Side* sides, Query& query);
+  static void test(const Piece* pieces, uint32_t index, const Side* sides, Query& query);
   /// Returns all trees except those of hidden bodies.
   std::vector<Standing> standing(const FacetWorld& world, const Hidden& hidden) const;
-  /// Tests the ray against all bodies. `query` is in local coordinates.
-  void meet_all(std::span<const Standing> trees, Query& query) const;
+  /// Tests the ray against all bodies. `query` is in local coordinates. `guess` is a piece of the static body
+  /// that the ray probably meets, or Query::none: it is tested first, so that farther boxes are passed over.
+  void meet_all(std::span<const Standing> trees, Query& query, uint32_t guess = Query::none) const;
   bool sees(std::span<const Standing> trees, const dvec3& from, const dvec3& to, uint32_t leaving) const;
 
   std::vector<Node> nodes_;

@@ -105,8 +105,18 @@ FacetTrees::FacetTrees(const scene::Scene& scene) : trees_(scene.facets.size()) 
     first_piece_.push_back(first);
     for (const Corners& corners : joined.pieces) {
       if (corners.empty()) continue;
-      pieces_.push_back({static_cast<uint32_t>(corners_.size()), static_cast<uint32_t>(corners.size())});
-      for (const uint32_t id : corners) corners_.push_back(joined.points[id]);
+      Piece& piece = pieces_.emplace_back();
+      piece.first = static_cast<uint32_t>(corners_.size()),
+      piece.count = static_cast<uint32_t>(corners.size());
+      scene::Bounds box;
+      for (const uint32_t id : corners) {
+        corners_.push_back(joined.points[id]);
+        box.add(joined.points[id]);
+      }
+      piece.ball.center = box.center();
+      for (const uint32_t id : corners)
+        piece.ball.radius = std::max(piece.ball.radius, glm::length(joined.points[id] - piece.ball.center));
+      piece.ball.radius += 1e-6 + 1e-12 * glm::length(piece.ball.center);
     }
     const uint32_t count = static_cast<uint32_t>(pieces_.size()) - first;
     if (count <= small_facet) continue;

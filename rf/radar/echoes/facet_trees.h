@@ -46,6 +46,17 @@ class FacetTrees {
   /// static one.
   std::span<const dvec3> corners(const FacetWorld& world, uint32_t facet, uint32_t piece,
                                  std::array<dvec3, most_corners>& room) const;
+  /// Holds a ball around a piece, in local coordinates. It is 1 um larger than the piece, far more than the
+  /// rounding errors of its corners.
+  struct Ball {
+    dvec3 center{0.0};
+    double radius = 0.0;
+  };
+  Ball ball(const FacetWorld& world, uint32_t facet, uint32_t piece) const {
+    const uint32_t body = world.facet(facet).body;
+    if (body == 0) return pieces_[piece].ball;
+    return {world.motion(body).pose.apply(pieces_[piece].ball.center), pieces_[piece].ball.radius};
+  }
   /// Returns FacetWorld::contains for a point in local coordinates. Uses the tree if the facet has one; a
   /// point then counts as inside up to 1e-9 of the length of a side beyond that side.
   bool contains(const FacetWorld& world, uint32_t facet, const dvec3& point) const;
@@ -54,6 +65,7 @@ class FacetTrees {
   static constexpr uint32_t small_facet = 8;
   struct Piece {
     uint32_t first = 0, count = 0;  ///< range of corners_
+    Ball ball;                      ///< in the frame of the body
   };
   scene::Bounds bounds_of(uint32_t piece) const;
 

@@ -225,12 +225,28 @@ std::array<uint32_t, 8> RayGrid::neighbours(uint32_t tube) const {
   const Tube& t = tubes_[tube];
   const int n = count_[t.cell];
   std::array<uint32_t, 8> found;
+  if (t.x > 0 && t.y > 0 && t.x + 1 < n && t.y + 1 < n) {  // all of them are in the same cell
+    const uint32_t row = static_cast<uint32_t>(n);
+    return {tube - row,     tube + 1,       tube + row,     tube - 1,
+            tube - row - 1, tube - row + 1, tube + row + 1, tube + row - 1};
+  }
+  const uint32_t own_column = t.cell % columns_, own_row = t.cell / columns_;
+  if (n == 1 && own_column > 0 && own_row > 0 && own_column + 1 < columns_ && own_row + 1 < rows_) {
+    bool undivided = true;
+    for (int i = 0; i < 8; ++i) {
+      const int off = steps[i][1] * static_cast<int>(columns_) + steps[i][0];
+      const uint32_t cell = t.cell + static_cast<uint32_t>(off);
+      undivided = undivided && count_[cell] == 1;
+      found[i] = first_[cell];
+    }
+    if (undivided) return found;
+  }
   for (int i = 0; i < 8; ++i) {
     found[i] = outside;
     const int x = t.x + steps[i][0], y = t.y + steps[i][1];
     const int over_x = x < 0 ? -1 : x >= n ? 1 : 0, over_y = y < 0 ? -1 : y >= n ? 1 : 0;
-    int column = static_cast<int>(t.cell % columns_) + over_x;
-    const int row = static_cast<int>(t.cell / columns_) + over_y;
+    int column = static_cast<int>(own_column) + over_x;
+    const int row = static_cast<int>(own_row) + over_y;
     if (wraps_) column = (column + static_cast<int>(columns_)) % static_cast<int>(columns_);
     if (column < 0 || row < 0 || column >= static_cast<int>(columns_) || row >= static_cast<int>(rows_))
       continue;

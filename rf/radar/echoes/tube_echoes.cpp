@@ -25,10 +25,14 @@ PhasePlane phase_plane(const PosedFacet& facet, const dvec3& source, const dvec3
 
 }  // namespace
 
-Polygon tube_part(const std::array<dvec3, 4>& corners, const TubeBeam& beam) {
+std::array<dvec2, 4> tube_corners(const std::array<dvec3, 4>& corners, const TubeBeam& beam) {
   std::array<dvec2, 4> points;
   for (int i = 0; i < 4; ++i) points[i] = beam.uv(beam.source + corners[i]);
-  return Polygon(points);
+  return points;
+}
+
+Polygon tube_part(const std::array<dvec3, 4>& corners, const TubeBeam& beam) {
+  return Polygon(tube_corners(corners, beam));
 }
 
 Polygon on_facet(const PosedFacet& facet, const TubeBeam& beam, const Polygon& part) {
@@ -42,16 +46,27 @@ Polygon on_facet(const PosedFacet& facet, const TubeBeam& beam, const Polygon& p
   return Polygon(std::span(points.data(), part.size()));
 }
 
+/// Holds what the echo of a contribution takes from its place alone. Two sides of a piece contribute at the
+/// corner between them.
+struct TubeEchoes::Place {
+  dvec2 at{0.0};
+  Complex density;  ///< 0 if nothing comes back from there
+  dvec3 point{0.0}, departure{0.0}, arrival{0.0};
+  dvec3 over{0.0};  ///< point on the mirror that reflects the way to the receiver
+  double length_m = 0.0;
+};
+
 /// Holds the state of a tube while it is processed.
 struct TubeEchoes::Job {
   uint32_t tube = 0;
   std::array<uint32_t, 8> ring{};
-  std::array<dvec3, 4> corners{};             ///< corners of the whole tube
+  std::array<dvec2, 4> corners{};             ///< corners of the whole tube in its own coordinates
   std::array<TubeBeam, most_surfaces> beams;  ///< [number of bounces before]
   std::array<uint32_t, most_surfaces> chain{};
   Polygon part;  ///< quadrilateral of the whole tube
   RawEchoes* out = nullptr;
   std::vector<Contribution> contributions;
+  std::vector<Place> places;  ///< of the contributions of one piece so far
   std::vector<uint32_t> facets;
   std::array<std::vector<VisibleCell>, most_surfaces> cells;
   VisibleScratch scratch;
@@ -152,8 +167,8 @@ void TubeEchoes::solve(uint32_t tube, Job& job) const {
   };
   if (empty(tube) && std::all_of(job.ring.begin(), job.ring.end(), empty)) return;
   job.beams[0] = TubeBeam(source_, grid_.axis(tube));
-  job.corners = grid_.corners(tube);
-  job.part = tube_part(job.corners, job.beams[0]);
+  job.corners = tube_corners(grid_.corners(tube), job.beams[0]);
+  job.part = Polygon(job.corners);
   follow(job, 0, job.part, {}, true);
 }
 
@@ -256,9 +271,7 @@ uint32_t TubeEchoes::omitted_sides(const Job& job, uint32_t bounce, const PosedF
     const bool cancels = border && other != RayGrid::outside && grid_.same_level(job.tube, other) &&
                          whole_[size_t{other} * bounces_ + bounce] == Whole::border;
     if (other != RayGrid::outside && !cancels) continue;
-    const dvec2 a = job.beams[0].uv(source_ + job.corners[side]),
-                b = job.beams[0].uv(source_ + job.corners[(side + 1) % 4]);
-    const dvec2 along = b - a;
+    const dvec2 a = job.corners[side], along = job.corners[(side + 1) % 4] - a;
     const double length = glm::length(along);
     if (length == 0.0) continue;
     if (!std::exchange(placed, true))
@@ -291,6 +304,19 @@ IntegralLimits TubeEchoes::limits_of(const PosedFacet& facet, const Polygon& pie
   return limits;
 }
 
+template <typename Look>
+const TubeEchoes::Place& TubeEchoes::place_of(Job& job, const dvec2& at, const Look& look) {
+  // A corner comes back after a few contributions at most, or not at all.
+  constexpr size_t looked_at = 16;
+  const size_t count = job.places.size();
+  for (size_t i = count; i > 0 && i + looked_at > count; --i)
+    if (job.places[i - 1].at == at) return job.places[i - 1];
+  Place& place = job.places.emplace_back();
+  place.at = at;
+  look(place);
+  return place;
+}
+
 void TubeEchoes::send_over(Job& job, uint32_t last, const Polygon& part, uint32_t mirror, Over way_home,
                            bool whole) const {
   const PosedFacet &posed = world_.facet(job.chain[last]), &wall = world_.facet(mirror);
@@ -299,33 +325,41 @@ void TubeEchoes::send_over(Job& job, uint32_t last, const Polygon& part, uint32_
   if (posed.distance(beam.source) * posed.distance(image) <= 0.0) return;
   const Polygon piece = on_facet(posed, beam, part);
   if (piece.empty()) return;
-  job.contributions.clear();
+  job.contributions.clear(), job.places.clear();
   const uint32_t omitted = way_home == Over::other ? 0 : omitted_sides(job, last, posed, piece, whole);
   job.out->below_floor += integrate(phase_plane(posed, beam.source, image, field_.wavenumber()), piece,
                                     omitted, job.contributions, limits_of(posed, piece, beam.source, image));
-  for (const Contribution& c : job.contributions) {
-    const dvec3 point = point_of(posed, c.at), way = image - point;
-    const double before = glm::distance(point, beam.source), after = glm::length(way);
-    const double share = -wall.distance(point) / glm::dot(wall.normal, way);
-    const dvec3 over = point + share * way;
-    if (!(share > 0.0 && share < 1.0)) continue;
+  const auto look = [&](Place& place) {
+    place.density = 0.0;
+    place.point = point_of(posed, place.at);
+    const dvec3 way = image - place.point;
+    const double before = glm::distance(place.point, beam.source), after = glm::length(way);
+    const double share = -wall.distance(place.point) / glm::dot(wall.normal, way);
+    place.over = place.point + share * way;
+    if (!(share > 0.0 && share < 1.0)) return;
     // A tube that came over the mirror directly to this surface returns over the mirror in the same way.
-    if (!(way_home == Over::first && last == 1) && !trees_.contains(world_, mirror, over)) continue;
-    const dvec3 departure = glm::normalize(job.beams[0].along(beam.uv(point)));
-    const Complex amplitude =
-        c.value * field_.density({departure, before, point, std::span(job.chain.data(), last + 1), mirror});
+    if (!(way_home == Over::first && last == 1) && !trees_.contains(world_, mirror, place.over)) return;
+    place.departure = glm::normalize(job.beams[0].along(beam.uv(place.point)));
+    place.density =
+        field_.density({place.departure, before, place.point, std::span(job.chain.data(), last + 1), mirror});
+    place.arrival = glm::normalize(place.over - field_.receiver_at());
+    place.length_m = before + after;
+  };
+  for (const Contribution& c : job.contributions) {
+    const Place& place = place_of(job, c.at, look);
+    const Complex amplitude = c.value * place.density;
     if (amplitude == 0.0) continue;
-    const dvec3 arrival = glm::normalize(over - field_.receiver_at());
     const auto push = [&](const dvec3& out, const dvec3& in, const dvec3& at, bool reversed) {
       std::vector<uint32_t>& chains = job.out->chains;
       const uint32_t first = static_cast<uint32_t>(chains.size());
       chains.insert(chains.end(), job.chain.begin(), job.chain.begin() + last + 1);
       chains.push_back(mirror);
       if (reversed) std::reverse(chains.begin() + first, chains.end());
-      job.out->echoes.push_back({amplitude, out, in, at, before + after, first, last + 2});
+      job.out->echoes.push_back({amplitude, out, in, at, place.length_m, first, last + 2});
     };
-    push(departure, arrival, over, false);
-    if (way_home == Over::other && monostatic_ && last == 0) push(arrival, departure, point, true);
+    push(place.departure, place.arrival, place.over, false);
+    if (way_home == Over::other && monostatic_ && last == 0)
+      push(place.arrival, place.departure, place.point, true);
   }
 }
 
@@ -341,32 +375,34 @@ void TubeEchoes::send_back(Job& job, uint32_t bounce, const Polygon& part, uint3
   if (posed.distance(beam.source) * posed.distance(field_.receiver_at()) <= 0.0) return;
   const Polygon piece = on_facet(posed, beam, part);
   if (piece.empty()) return;
-  job.contributions.clear();
+  job.contributions.clear(), job.places.clear();
   const PhasePlane plane = phase_plane(posed, beam.source, field_.receiver_at(), field_.wavenumber());
   const uint32_t omitted = omitted_sides(job, bounce, posed, piece, whole);
   job.out->below_floor += integrate(plane, piece, omitted, job.contributions,
                                     limits_of(posed, piece, beam.source, field_.receiver_at()));
-  for (const Contribution& c : job.contributions) add(job, bounce, posed, c.at, c.value);
-  if (options_.diffuse && bounce == 0) scatter(job, piece, facet);
-}
-
-void TubeEchoes::add(Job& job, uint32_t bounce, const PosedFacet& facet, const dvec2& at,
-                     Complex value) const {
-  const dvec3 point = point_of(facet, at), arm = point - job.beams[bounce].source;
-  const double before = glm::length(arm);
-  const TubeBeam& first = job.beams[0];
-  const dvec3 departure = glm::normalize(first.along(job.beams[bounce].uv(point)));
   const std::span<const uint32_t> chain(job.chain.data(), bounce + 1);
-  const Complex amplitude = value * field_.density({departure, before, point, chain});
-  if (amplitude == 0.0) return;
-  if (job.chain_at == ~0u) {
-    job.chain_at = static_cast<uint32_t>(job.out->chains.size());
-    job.out->chains.insert(job.out->chains.end(), chain.begin(), chain.end());
+  const auto look = [&](Place& place) {
+    place.point = point_of(posed, place.at);
+    const double before = glm::length(place.point - beam.source);
+    place.departure = glm::normalize(job.beams[0].along(beam.uv(place.point)));
+    place.density = field_.density({place.departure, before, place.point, chain});
+    const dvec3 back = place.point - field_.receiver_at();
+    const double after = glm::length(back);
+    place.arrival = back / after;
+    place.length_m = before + after;
+  };
+  for (const Contribution& c : job.contributions) {
+    const Place& place = place_of(job, c.at, look);
+    const Complex amplitude = c.value * place.density;
+    if (amplitude == 0.0) continue;
+    if (job.chain_at == ~0u) {
+      job.chain_at = static_cast<uint32_t>(job.out->chains.size());
+      job.out->chains.insert(job.out->chains.end(), chain.begin(), chain.end());
+    }
+    job.out->echoes.push_back(
+        {amplitude, place.departure, place.arrival, place.point, place.length_m, job.chain_at, bounce + 1});
   }
-  const dvec3 back = point - field_.receiver_at();
-  const double after = glm::length(back);
-  job.out->echoes.push_back(
-      {amplitude, departure, back / after, point, before + after, job.chain_at, bounce + 1});
+  if (options_.diffuse && bounce == 0) scatter(job, piece, facet);
 }
 
 /// Cuts the part into pieces whose spread of path length is less than half a resolution cell of the

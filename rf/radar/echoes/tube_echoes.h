@@ -65,6 +65,7 @@ class TubeEchoes {
 
  private:
   struct Job;
+  struct Place;
   static constexpr uint32_t chunk = 128;
   /// Tells which form the integral of a whole tube takes at a bounce, so that neighbours know which sides
   /// cancel. `no`: the tube is not whole there. `silent`: it is whole and sends nothing. `border`: the border
@@ -96,7 +97,9 @@ class TubeEchoes {
                          bool whole) const;
   IntegralLimits limits_of(const PosedFacet& facet, const Polygon& piece, const dvec3& source,
                            const dvec3& receiver) const;
-  void add(Job& job, uint32_t bounce, const PosedFacet& facet, const dvec2& at, Complex value) const;
+  /// Returns the place `at` of the present piece, which `look` completes if no contribution was there before.
+  template <typename Look>
+  static const Place& place_of(Job& job, const dvec2& at, const Look& look);
 
   const RayGrid& grid_;
   const RayHits& hits_;
@@ -115,7 +118,8 @@ class TubeEchoes {
   std::vector<Whole> whole_;  ///< [tubes * bounces]
 };
 
-/// Returns the quadrilateral of a tube in the coordinates of `beam`.
+/// Returns the corners of a tube in the coordinates of `beam`, and its quadrilateral.
+std::array<dvec2, 4> tube_corners(const std::array<dvec3, 4>& corners, const TubeBeam& beam);
 Polygon tube_part(const std::array<dvec3, 4>& corners, const TubeBeam& beam);
 /// Returns a part of a beam on a facet, in the plane coordinates of the facet. Returns an empty polygon if a
 /// corner of the part does not fall on the plane.

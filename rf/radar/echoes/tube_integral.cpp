@@ -132,10 +132,9 @@ void add_side(Border& border, const dvec2& a, const dvec2& b, const dvec2& along
 }
 
 uint64_t add_border(const PhasePlane& plane, const Polygon& piece, uint32_t omitted,
-                    const IntegralLimits& limits, std::vector<Contribution>& out) {
-  const dvec2 centroid = piece.centroid();
-  Border border{plane, limits, plane.curvature_bound(centroid, reach_of(piece, centroid)), out};
+                    const IntegralLimits& limits, double most_bend, std::vector<Contribution>& out) {
   if (omitted == (1u << piece.size()) - 1u) return 0;
+  Border border{plane, limits, most_bend, out};
   std::array<dvec2, Polygon::capacity> gradients;
   for (uint32_t i = 0; i < piece.size(); ++i) gradients[i] = plane.gradient(piece[i]);
   for (uint32_t i = 0; i < piece.size(); ++i) {
@@ -183,15 +182,33 @@ Halves halves_of(const Polygon& piece, uint32_t omitted) {
   return halves;
 }
 
+/// Holds the form of the integral over a piece, and the bound on the curvature that led to it.
+struct Choice {
+  IntegralForm form;
+  double most_bend = 0.0;
+};
+
+Choice choice_of(const PhasePlane& plane, const Polygon& piece, const IntegralLimits& limits) {
+  const dvec2 centroid = piece.centroid();
+  const double reach = reach_of(piece, centroid);
+  const double bend = plane.curvature_bound(centroid, reach);
+  const double slope = glm::length(plane.gradient(centroid)), least = slope - bend * reach;
+  if (least > 0.0 && least * least > limits.stationary * bend && least * reach > pi)
+    return {IntegralForm::border, bend};
+  if (0.5 * bend * reach * reach < limits.bend) return {IntegralForm::area, bend};
+  return {IntegralForm::split, bend};
+}
+
 uint64_t integrate_piece(const PhasePlane& plane, const Polygon& piece, uint32_t omitted,
                          const IntegralLimits& limits, int depth, std::vector<Contribution>& out) {
   if (piece.empty()) return 0;
-  const IntegralForm form = depth == 0 ? IntegralForm::area : integral_form(plane, piece, limits);
-  if (form == IntegralForm::area) {
+  const Choice choice = depth == 0 ? Choice{IntegralForm::area} : choice_of(plane, piece, limits);
+  if (choice.form == IntegralForm::area) {
     add_area(plane, piece, out);
     return 0;
   }
-  if (form == IntegralForm::border) return add_border(plane, piece, omitted, limits, out);
+  if (choice.form == IntegralForm::border)
+    return add_border(plane, piece, omitted, limits, choice.most_bend, out);
   const Halves halves = halves_of(piece, omitted);
   const uint64_t below = integrate_piece(plane, halves.first, halves.omitted_first, limits, depth - 1, out);
   return below + integrate_piece(plane, halves.second, halves.omitted_second, limits, depth - 1, out);
@@ -229,14 +246,7 @@ double PhasePlane::curvature_bound(const dvec2& p, double reach) const {
 }
 
 IntegralForm integral_form(const PhasePlane& plane, const Polygon& piece, const IntegralLimits& limits) {
-  const dvec2 centroid = piece.centroid();
-  const double reach = reach_of(piece, centroid);
-  const double bend = plane.curvature_bound(centroid, reach);
-  const double slope = glm::length(plane.gradient(centroid)), least = slope - bend * reach;
-  if (least > 0.0 && least * least > limits.stationary * bend && least * reach > pi)
-    return IntegralForm::border;
-  if (0.5 * bend * reach * reach < limits.bend) return IntegralForm::area;
-  return IntegralForm::split;
+  return choice_of(plane, piece, limits).form;
 }
 
 uint64_t integrate(const PhasePlane& plane, const Polygon& piece, uint32_t omitted,

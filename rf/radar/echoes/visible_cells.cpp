@@ -57,6 +57,30 @@ std::array<KeptSide, 5> around(const TubeBeam& beam, const BeamStart& start, con
   return spaces;
 }
 
+/// Holds the half-spaces outside which the beam sees nothing: those of around(), and what is in front of the
+/// source.
+class SeenSpace {
+ public:
+  SeenSpace(const TubeBeam& beam, std::span<const KeptSide> sides) : count_(sides.size() + 1) {
+    std::copy(sides.begin(), sides.end(), sides_.begin());
+    sides_[count_ - 1] = {beam.axis, -glm::dot(beam.axis, beam.source) - nearest_m};
+    for (size_t i = 0; i < count_; ++i) lengths_[i] = glm::length(sides_[i].normal);
+  }
+  /// Returns whether all corners of a piece within `ball` are outside the same half-space. seen() would return
+  /// an empty polygon for it.
+  bool without(const FacetTrees::Ball& ball) const {
+    for (size_t i = 0; i < count_; ++i)
+      if (glm::dot(sides_[i].normal, ball.center) + sides_[i].offset < -ball.radius * lengths_[i])
+        return true;
+    return false;
+  }
+
+ private:
+  size_t count_;
+  std::array<KeptSide, 6> sides_;
+  std::array<double, 6> lengths_;
+};
+
 /// Returns a piece of a facet as the beam sees it, or an empty polygon if the beam does not see it.
 Polygon seen(std::span<const dvec3> piece, const TubeBeam& beam, const BeamStart& start, const Box& within) {
   std::array<dvec2, FacetTrees::most_corners + 2> points;
@@ -145,6 +169,7 @@ void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBe
   for (uint32_t i = 0; i < whole.size(); ++i) within.add(whole[i]);
   const std::array<KeptSide, 5> spaces = around(beam, start, within);
   const std::span<const KeptSide> used(spaces.data(), start.facet == nullptr ? 4u : 5u);
+  const SeenSpace space(beam, used);
   std::array<dvec3, FacetTrees::most_corners> room;
   for (const uint32_t facet : facets) {
     if (facet == start.index) continue;
@@ -159,6 +184,7 @@ void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBe
     };
     trees.find(world, facet, used, scratch.pieces);
     for (const uint32_t piece : scratch.pieces) {
+      if (space.without(trees.ball(world, facet, piece))) continue;
       const Polygon outline = seen(trees.corners(world, facet, piece, room), beam, start, within);
       if (outline.empty()) continue;
       const Cover cover(outline);

@@ -68,8 +68,14 @@ void complex_normals(const RadarSeeds& seeds, RadarDraw purpose, uint32_t part, 
            static_cast<uint32_t>(purpose) + part, seeds.seed, words);
     box_muller(words.x, words.y, re[0], im[0]);
     box_muller(words.z, words.w, re[1], im[1]);
-    const size_t count = std::min<size_t>(2 * draws, out.size() - done);
-    for (size_t i = 0; i < count; ++i) out[done + i] = {re[i % 2][i / 2], im[i % 2][i / 2]};
+    if (out.size() - done >= 2 * draws) {
+      for (size_t i = 0; i < draws; ++i) {
+        out[done + 2 * i] = {re[0][i], im[0][i]};
+        out[done + 2 * i + 1] = {re[1][i], im[1][i]};
+      }
+      continue;
+    }
+    for (size_t i = 0; i < out.size() - done; ++i) out[done + i] = {re[i % 2][i / 2], im[i % 2][i / 2]};
   }
 }
 
