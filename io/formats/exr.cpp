@@ -56,8 +56,8 @@ Imf::FrameBuffer frame_buffer(const std::vector<const char*>& names, char* value
 }
 
 /// Writes an OpenEXR file around blocks that are already compressed. Compression by OpenEXR itself, which
-/// uses zlib, takes three times as long as by libdeflate, and that takes three times as long as by runs: 6.7 ms
-/// and 2.3 ms for a depth picture of 640x480, whose file is then 8 to 10 % larger.
+/// uses zlib, takes three times as long as by libdeflate, and that takes three times as long as by runs: 6.7
+/// ms and 2.3 ms for a depth picture of 640x480, whose file is then 8 to 10 % larger.
 class Writer {
  public:
   explicit Writer(Bytes& file) {

@@ -22,8 +22,8 @@ namespace greatx::io {
 
 namespace {
 
-/// Level of libdeflate for depth in 24 bits, whose lines repeat at many distances: runs alone would make files
-/// 44 % larger.
+/// Level of libdeflate for depth in 24 bits, whose lines repeat at many distances: runs alone would make
+/// files 44 % larger.
 constexpr int depth_level = 1;
 constexpr double depth24_per_m = depth24_full_scale / depth24_range_m;
 constexpr uint32_t largest_side = (1 << 24) - 1;

@@ -16,7 +16,7 @@ void filter_up(const uint8_t* line, const uint8_t* above, size_t count, uint8_t*
   for (size_t i = 0; i < count; ++i) to[i] = static_cast<uint8_t>(line[i] - above[i]);
 }
 
-/// As filter_up(), with the bytes of each pair exchanged. Each byte has its own difference: there is no carry.
+/// Does the same and exchanges the bytes of each pair. Each byte has a difference of its own, without carry.
 void filter_up_swapped(const uint8_t* line, const uint8_t* above, size_t count, uint8_t* __restrict to) {
   for (size_t i = 0; i < count; i += 2) {
     uint16_t value = 0, over = 0;
