@@ -14,9 +14,9 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/openexr.h>
-#include <libdeflate.h>
 
 #include "io/formats/picture_shape.h"
+#include "io/formats/run_deflate.h"
 
 namespace greatx::io {
 
@@ -29,7 +29,6 @@ int no_threads() {
   return 0;
 }
 
-constexpr int compression_level = 1;  // libdeflate's level
 constexpr int lines_of_a_block = 16;  // defined by the ZIP compression of OpenEXR
 
 std::vector<const char*> channel_names(bool rgb) {
@@ -57,7 +56,8 @@ Imf::FrameBuffer frame_buffer(const std::vector<const char*>& names, char* value
 }
 
 /// Writes an OpenEXR file around blocks that are already compressed. Compression by OpenEXR itself, which
-/// uses zlib, takes three times as long as by libdeflate, a sixth of the CPU time of a camera's tick.
+/// uses zlib, takes three times as long as by libdeflate, and that takes three times as long as by runs: 6.7
+/// ms and 2.3 ms for a depth picture of 640x480, whose file is then 8 to 10 % larger.
 class Writer {
  public:
   explicit Writer(Bytes& file) {
@@ -103,41 +103,49 @@ class Writer {
 /// not shrink stays as it is.
 class BlockEncoder {
  public:
-  BlockEncoder(int width, int channels)
-      : width_(size_t(width)),
-        channels_(size_t(channels)),
-        compressor_(libdeflate_alloc_compressor(compression_level), libdeflate_free_compressor) {
-    GREATX_CHECK(compressor_ != nullptr, "libdeflate: no memory");
-  }
+  BlockEncoder(int width, int channels) : width_(size_t(width)), channels_(size_t(channels)) {}
 
   /// Encodes lines of interleaved pixels. The result is valid until the next call.
   std::span<const std::byte> encode(const float* pixels, int lines) {
     plain_.resize(width_ * channels_ * size_t(lines) * sizeof(float));
     auto* to = reinterpret_cast<float*>(plain_.data());
-    for (int line = 0; line < lines; ++line, pixels += width_ * channels_)
-      for (size_t c = channels_; c-- > 0;)  // B, G, R: in alphabetical order, as the format requires
-        for (size_t x = 0; x < width_; ++x) *to++ = pixels[x * channels_ + c];
+    if (channels_ == 1) {
+      std::copy_n(pixels, width_ * size_t(lines), to);
+    } else {
+      for (int line = 0; line < lines; ++line, pixels += width_ * channels_)
+        for (size_t c = channels_; c-- > 0;)  // B, G, R: in alphabetical order, as the format requires
+          for (size_t x = 0; x < width_; ++x) *to++ = pixels[x * channels_ + c];
+    }
     mix();
-    packed_.resize(plain_.size());
-    const size_t size = libdeflate_zlib_compress(compressor_.get(), mixed_.data(), mixed_.size(),
-                                                 packed_.data(), packed_.size() - 1);
-    return size == 0 ? std::span<const std::byte>(plain_) : std::span(packed_).first(size);
+    packed_.clear();
+    append_run_deflated(mixed_, mixed_period, packed_);
+    return packed_.size() < plain_.size() ? std::span<const std::byte>(packed_) : plain_;
   }
 
  private:
+  /// Bytes of a float whose place is even: the same byte of the next float follows at this distance.
+  static constexpr size_t mixed_period = 2;
+
   void mix() {
-    const size_t size = plain_.size(), half = (size + 1) / 2;
-    mixed_.resize(size);
-    for (size_t i = 0; i < half; ++i) mixed_[i] = plain_[2 * i];
-    for (size_t i = half; i < size; ++i) mixed_[i] = plain_[2 * (i - half) + 1];
-    for (size_t i = size; i-- > 1;)
-      mixed_[i] =
-          static_cast<std::byte>(std::to_integer<int>(mixed_[i]) - std::to_integer<int>(mixed_[i - 1]) + 128);
+    // The loops work on plain pointers, so that the compiler makes vector code of them.
+    const size_t half = plain_.size() / 2;
+    split_.resize(plain_.size());
+    mixed_.resize(plain_.size());
+    const auto* const plain = reinterpret_cast<const uint8_t*>(plain_.data());
+    auto* const split = reinterpret_cast<uint8_t*>(split_.data());
+    auto* const mixed = reinterpret_cast<uint8_t*>(mixed_.data());
+    for (size_t i = 0; i < half; ++i) {
+      uint16_t pair = 0;
+      std::memcpy(&pair, plain + 2 * i, sizeof pair);
+      split[i] = static_cast<uint8_t>(pair);
+      split[half + i] = static_cast<uint8_t>(pair >> 8);
+    }
+    mixed[0] = split[0];
+    for (size_t i = 1; i < 2 * half; ++i) mixed[i] = static_cast<uint8_t>(split[i] - split[i - 1] + 128);
   }
 
   size_t width_, channels_;
-  std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor_;
-  Bytes plain_, mixed_, packed_;
+  Bytes plain_, split_, mixed_, packed_;
 };
 
 }  // namespace

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes PNG (ISO/IEC 15948) for speed or for size, and reads it by libpng. With the same versions of
-// libdeflate, libpng and zlib, the same pixels always give the same bytes.
+// Writes PNG (ISO/IEC 15948) for speed or for size, and reads it by libpng. The same pixels always give the
+// same bytes; of depth in 24 bits and of the codings for size, with the same versions of libdeflate, libpng
+// and zlib.
 #pragma once
 
 #include "core/record.h"
@@ -11,7 +12,7 @@
 namespace greatx::io {
 
 enum class PngCoding {
-  fast,   ///< for every frame of a run: libdeflate, filter Up in every line
+  fast,   ///< for every frame of a run: filters Sub and Up, runs and Huffman codes
   small,  ///< for files that are written once: libpng and zlib, with a palette where 256 colours suffice
   /// As `small`, but drops up to 3 of the lowest bits of each channel if the picture has more than 256
   /// colours. It drops as few bits as possible. If 3 bits are not enough, the picture stays exact.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "core/error.h"
 #include "core/random.h"
@@ -354,53 +355,85 @@ void EventPass::end(gpu::TickSlot& slot, const gpu::Buffer& luminance) {
 
 namespace {
 
-template <typename Event>
-void unpack(const std::vector<Event>& list, EventFrame& frame) {
-  const size_t count = list.size();
-  frame.t_ns.resize(count);
-  frame.x.resize(count);
-  frame.y.resize(count);
-  frame.p.resize(count);
-  for (size_t i = 0; i < count; ++i) {
-    frame.t_ns[i] = list[i].t_ns;
-    frame.x[i] = static_cast<uint16_t>(list[i].place >> 1 & 0x3fffu);
-    frame.y[i] = static_cast<uint16_t>(list[i].place >> 15);
-    frame.p[i] = static_cast<uint8_t>(list[i].place & 1u);
+/// Writes a part of the sorted events and moves the columns on. One loop a column becomes vector code.
+template <typename Event, typename Time>
+void unpack(std::span<const Event> part, EventColumns<Time>& to) {
+  const Event* const from = part.data();
+  const size_t count = part.size();
+  for (size_t i = 0; i < count; ++i) to.t_ns[i] = to.begin_ns + Time{from[i].t_ns};
+  for (size_t i = 0; i < count; ++i) to.x[i] = static_cast<uint16_t>(from[i].place >> 1 & 0x3fffu);
+  for (size_t i = 0; i < count; ++i) to.y[i] = static_cast<uint16_t>(from[i].place >> 15);
+  for (size_t i = 0; i < count; ++i) to.p[i] = static_cast<uint8_t>(from[i].place & 1u);
+  if constexpr (std::is_same_v<Event, ListedEventOfInstance>) {
+    for (size_t i = 0; i < count; ++i) to.instance[i] = from[i].instance;
+    to.instance += count;
   }
+  to.t_ns += count;
+  to.x += count;
+  to.y += count;
+  to.p += count;
 }
 
 }  // namespace
 
-EventFrame EventPass::collect(const gpu::TickSlot& slot) {
+const EventPass::Pending& EventPass::recorded(const gpu::TickSlot& slot) const {
   GREATX_CHECK(slot.index < pending_.size(), "{}: nothing was recorded into slot {}", desc_.name, slot.index);
-  const Pending& from = pending_[slot.index];
-  EventFrame frame;
-  if (desc_.differences) {
-    const std::span<const int8_t> bytes = from.difference.as<int8_t>();
-    frame.difference.assign(bytes.begin(),
-                            bytes.begin() + static_cast<ptrdiff_t>(size_t(desc_.width) * desc_.height));
-  }
-  if (!desc_.events || from.first) return frame;
+  return pending_[slot.index];
+}
+
+EventCounts EventPass::counts(const gpu::TickSlot& slot) const {
+  const Pending& from = recorded(slot);
+  EventCounts counts;
+  if (!desc_.events || from.first) return counts;
   const shared::EventControl& control = from.control.as<shared::EventControl>()[0];
-  const size_t count = std::min(control.events, desc_.capacity);
-  frame.dropped = control.events - count;
-  frame.pictures = desc_.adaptive() ? control.pictures : desc_.substeps;
-  frame.coarse = control.coarse;
-  frame.largest = shared::uintBitsToFloat(control.largest);
+  counts.events = std::min(control.events, desc_.capacity);
+  counts.dropped = control.events - counts.events;
+  counts.pictures = desc_.adaptive() ? control.pictures : desc_.substeps;
+  counts.coarse = control.coarse;
+  counts.largest = shared::uintBitsToFloat(control.largest);
+  return counts;
+}
+
+std::span<const int8_t> EventPass::difference(const gpu::TickSlot& slot) const {
+  if (!desc_.differences) return {};
+  return recorded(slot).difference.as<int8_t>().first(size_t(desc_.width) * desc_.height);
+}
+
+template <typename Time>
+void EventPass::sort_columns(const gpu::TickSlot& slot, EventColumns<Time> columns) {
+  const size_t count = counts(slot).events;
+  if (count == 0) return;
+  const Pending& from = recorded(slot);
   const auto interval_ns = static_cast<uint32_t>(from.interval.end_ns - from.interval.begin_ns);
   const std::span<const ListedEvent> listed = from.events.as<ListedEvent>().first(count);
-  if (!desc_.instance) {
-    sorter_.sort(listed, interval_ns);
-    unpack(sorter_.sorted(), frame);
-    return frame;
-  }
+  const auto take = [&columns](const auto& part) { unpack(part, columns); };
+  if (!desc_.instance) return sorter_.sort(listed, interval_ns, take);
   const std::span<const uint32_t> instances = from.instances.as<uint32_t>();
   with_instance_.resize(count);
   for (size_t i = 0; i < count; ++i) with_instance_[i] = {listed[i], instances[i]};
-  instance_sorter_.sort(with_instance_, interval_ns);
-  unpack(instance_sorter_.sorted(), frame);
-  for (const ListedEventOfInstance& event : instance_sorter_.sorted())
-    frame.instance.push_back(event.instance);
+  instance_sorter_.sort(with_instance_, interval_ns, take);
+}
+
+void EventPass::sort_into(const gpu::TickSlot& slot, const EventColumns<int64_t>& columns) {
+  sort_columns(slot, columns);
+}
+
+EventFrame EventPass::collect(const gpu::TickSlot& slot) {
+  const EventCounts of = counts(slot);
+  EventFrame frame;
+  frame.t_ns.resize(of.events);
+  frame.x.resize(of.events);
+  frame.y.resize(of.events);
+  frame.p.resize(of.events);
+  if (desc_.instance) frame.instance.resize(of.events);
+  frame.dropped = of.dropped;
+  frame.pictures = of.pictures;
+  frame.coarse = of.coarse;
+  frame.largest = of.largest;
+  const std::span<const int8_t> change = difference(slot);
+  frame.difference.assign(change.begin(), change.end());
+  sort_columns<uint32_t>(
+      slot, {frame.t_ns.data(), frame.x.data(), frame.y.data(), frame.p.data(), frame.instance.data(), 0});
   return frame;
 }
 

@@ -76,6 +76,24 @@ struct EventFrame {
   size_t size() const { return t_ns.size(); }
 };
 
+/// Holds what is known of an interval beside its events.
+struct EventCounts {
+  size_t events = 0;     ///< that were kept
+  uint64_t dropped = 0;  ///< as in EventFrame
+  uint32_t pictures = 0, coarse = 0;
+  double largest = 0.0;
+};
+
+/// Says where the columns of sorted events go. `instance` may be null.
+template <typename Time>
+struct EventColumns {
+  Time* t_ns;
+  uint16_t *x, *y;
+  uint8_t* p;
+  uint32_t* instance;
+  Time begin_ns;  ///< added to the times after the interval's start
+};
+
 class EventPass {
  public:
   /// Builds the pipelines that `desc` needs. `scene` outlives this. Throws UserError naming the sensor and
@@ -104,6 +122,12 @@ class EventPass {
 
   /// Returns the interval that was recorded into `slot`, once its submission is done.
   EventFrame collect(const gpu::TickSlot& slot);
+  // The same in parts, for callers that have memory for the events.
+  EventCounts counts(const gpu::TickSlot& slot) const;
+  /// Writes counts().events events, in order of (t, y, x, p).
+  void sort_into(const gpu::TickSlot& slot, const EventColumns<int64_t>& columns);
+  /// Returns [height, width]: 1, 0, -1; empty without differences. Valid until the slot is begun again.
+  std::span<const int8_t> difference(const gpu::TickSlot& slot) const;
 
   const EventDesc& desc() const { return desc_; }
   /// Returns whether step() reads the view of the pixels.
@@ -123,6 +147,9 @@ class EventPass {
   shared::EventModel model() const;
   shared::EventConstants constants(uint32_t index) const;
   void bind(gpu::Cmd& cmd, const gpu::ComputePipeline& pipeline, uint32_t index);
+  const Pending& recorded(const gpu::TickSlot& slot) const;
+  template <typename Time>
+  void sort_columns(const gpu::TickSlot& slot, EventColumns<Time> columns);
 
   const scene::GpuScene* scene_;
   EventDesc desc_;

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/random.h"
 #include "renderer/event/event_sort.h"
 #include "shaders/shared/events.h"
 
@@ -162,13 +163,39 @@ TEST(EventModel, HardCaseN56TiesAreInOrderOfRowColumnPolarity) {
   std::vector<ListedEvent> sorted = events;
   std::stable_sort(sorted.begin(), sorted.end());
   render::EventSorter<ListedEvent> sorter;
-  sorter.sort(events, 33'333'333);
-  events = sorter.sorted();
+  std::vector<ListedEvent> taken;
+  sorter.sort(events, 33'333'333, [&](std::span<const ListedEvent> part) {
+    taken.insert(taken.end(), part.begin(), part.end());
+  });
+  events = taken;
   ASSERT_EQ(events.size(), sorted.size());
   for (size_t i = 0; i < events.size(); ++i) {
     EXPECT_EQ(events[i].t_ns, sorted[i].t_ns) << i;
     EXPECT_EQ(events[i].place, sorted[i].place) << i;
   }
+}
+
+TEST(EventModel, EventsOfAnyNumberAreSortedWhereverTheyCrowd) {
+  using render::ListedEvent;
+  RandomStream random(3, 1);
+  for (const uint32_t interval_ns : {1u, 1000u, 1'000'000u, 2'000'000'000u})
+    for (const size_t count : {0u, 1u, 2u, 100u, 3000u, 50'000u})
+      for (const double crowd : {1.0, 0.01}) {
+        std::vector<ListedEvent> events;
+        const auto last = static_cast<uint32_t>(std::max(1.0, crowd * interval_ns));
+        for (size_t i = 0; i < count; ++i)
+          events.push_back({1 + random.below(last), static_cast<uint32_t>(i / 2) << 1 | (i & 1 ? 0u : 1u)});
+        std::vector<ListedEvent> sorted = events, taken;
+        std::stable_sort(sorted.begin(), sorted.end());
+        render::EventSorter<ListedEvent>().sort(events, interval_ns, [&](std::span<const ListedEvent> part) {
+          taken.insert(taken.end(), part.begin(), part.end());
+        });
+        ASSERT_TRUE(std::ranges::equal(taken, sorted,
+                                       [](const ListedEvent& a, const ListedEvent& b) {
+                                         return a.t_ns == b.t_ns && a.place == b.place;
+                                       }))
+            << interval_ns << " ns, " << count << " events, " << crowd;
+      }
 }
 
 TEST(EventModel, LowPassAnswersStepAndRampAsTheDifferentialEquation) {

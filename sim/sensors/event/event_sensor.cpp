@@ -216,36 +216,33 @@ std::vector<shared::EventMotion> EventSensor::motions(const TickContext& context
   return motions;
 }
 
-void EventSensor::catch_up(const gpu::TickSlot& slot) { frame_ = events_.collect(slot); }
-
 std::vector<Array> EventSensor::collect(const gpu::TickSlot& slot) {
-  frame_ = events_.collect(slot);
-  event_count_ += frame_.size();
-  dropped_ += frame_.dropped;
-  pictures_ += frame_.pictures;
-  coarse_ += frame_.coarse;
+  const render::EventCounts counts = events_.counts(slot);
+  event_count_ += counts.events;
+  dropped_ += counts.dropped;
+  pictures_ += counts.pictures;
+  coarse_ += counts.coarse;
   std::vector<Array> arrays;
   if (config_.events) {
-    const auto count = static_cast<int64_t>(frame_.size());
-    Array times(DType::i64, {count});
-    std::transform(frame_.t_ns.begin(), frame_.t_ns.end(), times.as<int64_t>().begin(),
-                   [begin = begin_ns_[slot.index]](uint32_t t) { return begin + t; });
-    arrays.push_back(std::move(times));
-    arrays.push_back(Array::of<uint16_t>({count}, frame_.x));
-    arrays.push_back(Array::of<uint16_t>({count}, frame_.y));
-    arrays.push_back(Array::of<uint8_t>({count}, frame_.p));
-    if (config_.instance) arrays.push_back(Array::of<uint32_t>({count}, frame_.instance));
-    arrays.push_back(Array::of<uint64_t>({}, std::span(&frame_.dropped, 1)));
-    arrays.push_back(Array::of<uint32_t>({}, std::span(&frame_.pictures, 1)));
+    const auto count = static_cast<int64_t>(counts.events);
+    Array times(DType::i64, {count}), columns(DType::u16, {count}), rows(DType::u16, {count}),
+        polarities(DType::u8, {count}), instances(DType::u32, {config_.instance ? count : 0});
+    events_.sort_into(
+        slot, {times.as<int64_t>().data(), columns.as<uint16_t>().data(), rows.as<uint16_t>().data(),
+               polarities.as<uint8_t>().data(), instances.as<uint32_t>().data(), begin_ns_[slot.index]});
+    for (Array* array : {&times, &columns, &rows, &polarities}) arrays.push_back(std::move(*array));
+    if (config_.instance) arrays.push_back(std::move(instances));
+    arrays.push_back(Array::of<uint64_t>({}, std::span(&counts.dropped, 1)));
+    arrays.push_back(Array::of<uint32_t>({}, std::span(&counts.pictures, 1)));
   }
   if (config_.differences) {
     const std::vector<int64_t> shape{config_.height, config_.width};
-    arrays.push_back(Array::of<int8_t>(shape, frame_.difference));
+    const std::span<const int8_t> difference = events_.difference(slot);
+    arrays.push_back(Array::of<int8_t>(shape, difference));
     Array picture(DType::u8, shape);
-    std::transform(frame_.difference.begin(), frame_.difference.end(), picture.as<uint8_t>().begin(),
-                   [](int8_t d) {
-                     return static_cast<uint8_t>(d > 0 ? 255 : d < 0 ? 0 : 128);
-                   });
+    std::transform(difference.begin(), difference.end(), picture.as<uint8_t>().begin(), [](int8_t d) {
+      return static_cast<uint8_t>(d > 0 ? 255 : d < 0 ? 0 : 128);
+    });
     arrays.push_back(std::move(picture));
   }
   return arrays;

@@ -32,12 +32,8 @@ class EventSensor : public Sensor {
   void start(const TickContext& context) override;
   void record(gpu::TickSlot& slot, const TickContext& context) override;
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
-  void catch_up(const gpu::TickSlot& slot) override;
   void count(std::map<std::string, uint64_t>& counters) const override;
   void warn(std::vector<std::string>& warnings) const override;
-
-  /// Returns the events of the interval collected last.
-  const render::EventFrame& frame() const { return frame_; }
 
  private:
   void describe();
@@ -60,7 +56,6 @@ class EventSensor : public Sensor {
   std::optional<int64_t> last_ns_;  ///< time of the sample recorded last
   int64_t sample_ = 0;              ///< number of the next sample
   std::array<int64_t, slots_in_flight> begin_ns_{};
-  render::EventFrame frame_;
   uint64_t event_count_ = 0, dropped_ = 0, pictures_ = 0, coarse_ = 0;
 };
 
