@@ -179,15 +179,19 @@ Cfar::Row Cfar::row(std::span<const float> map, uint32_t range) const {
       for (uint32_t d = 0; d < velocities_; ++d) sums[d] += map[size_t{r} * velocities_ + d];
     }
     const uint32_t cells = rows_beyond * (2 * reach_d + 1) + rows_within * 2 * config_.train_doppler;
-    for (uint32_t d = 0; d < velocities_; ++d) {
-      double sum = 0.0;
-      for (uint32_t i = 0; i <= 2 * reach_d; ++i) {
-        const uint32_t column = (d + velocities_ + i - reach_d) % velocities_;
-        sum += beyond[column];
-        if (i < config_.train_doppler || i > reach_d + guard_d) sum += within[column];
-      }
-      result.noise_w[d] = sum / cells;
+    // The columns around the circle, `reach_d` more on each side. All cells of the row are summed side by side.
+    std::vector<double> around[2];
+    for (const auto& [sums, out] : {std::pair{&beyond, &around[0]}, {&within, &around[1]}})
+      for (uint32_t k = 0; k < velocities_ + 2 * reach_d; ++k)
+        out->push_back((*sums)[(k + velocities_ - reach_d) % velocities_]);
+    const auto add = [&](const double* columns) {
+      for (uint32_t d = 0; d < velocities_; ++d) result.noise_w[d] += columns[d];
+    };
+    for (uint32_t i = 0; i <= 2 * reach_d; ++i) {
+      add(around[0].data() + i);
+      if (i < config_.train_doppler || i > reach_d + guard_d) add(around[1].data() + i);
     }
+    for (double& noise : result.noise_w) noise /= cells;
     return result;
   }
   std::vector<float> cells;

@@ -85,6 +85,14 @@ static_assert(ToneKernel::taps * sizeof(float) == sizeof(Taps));
 
 }  // namespace
 
+/// The taps of kernel k at `u`, from the row `rows` of its table, times its Bessel factor.
+#define GREATX_TAPS(k)                                                           \
+  (((*reinterpret_cast<const Stored*>(tables[k] + rows) * u +                    \
+     *reinterpret_cast<const Stored*>(tables[k] + rows + ToneKernel::taps)) *    \
+        u +                                                                      \
+    *reinterpret_cast<const Stored*>(tables[k] + rows + 2 * ToneKernel::taps)) * \
+   bessel[k])
+
 GREATX_LANES void spread(const ToneKernel& kernel, const BlockTones& tones, const BlockTaps* taps,
                          uint32_t receivers, const uint32_t* offset, uint32_t count, uint32_t stride,
                          float* grids) {
@@ -94,49 +102,35 @@ GREATX_LANES void spread(const ToneKernel& kernel, const BlockTones& tones, cons
   for (uint32_t i = 0; i < count; ++i) {
     const int32_t orders = tones.orders[i];
     if (orders == 0) continue;
-    // The stores below might change these numbers as far as the compiler knows, so they are read before.
+    // As far as the compiler knows, the stores below might change these numbers: they are read before.
     const float bessel[ToneKernel::orders] = {tones.bessel[0][i], tones.bessel[1][i], tones.bessel[2][i],
                                               tones.bessel[3][i]};
-    float* const grid = grids + offset[i];
-    if (orders == 1) {
-      const float* const table = tables[0];
-      for (uint32_t r = 0; r < receivers; ++r) {
-        const float u = taps[r].u[i], re = taps[r].re[i], im = taps[r].im[i];
-        const float* const rows = table + taps[r].segment[i] * row;
-        const Taps real = ((*reinterpret_cast<const Stored*>(rows) * u +
-                            *reinterpret_cast<const Stored*>(rows + ToneKernel::taps)) *
-                               u +
-                           *reinterpret_cast<const Stored*>(rows + 2 * ToneKernel::taps)) *
-                          bessel[0];
-        float* const out = grid + size_t{r} * 2 * stride + taps[r].start[i];
-        *reinterpret_cast<Stored*>(out) += real * re;
-        *reinterpret_cast<Stored*>(out + stride) += real * im;
-      }
-      continue;
-    }
+    float* grid = grids + offset[i];
     // The receivers are in the inner loop, because successive tones have similar delays and add to the same
     // cells: each addition would wait for the previous store.
-    for (uint32_t r = 0; r < receivers; ++r) {
-      const float u = taps[r].u[i], re = taps[r].re[i], im = taps[r].im[i];
-      const int32_t segment = taps[r].segment[i] * row;
-#define GREATX_TAPS(k)                                           \
-  ((*reinterpret_cast<const Stored*>(tables[k] + segment) * u +  \
-    *reinterpret_cast<const Stored*>(tables[k] + segment + 8)) * \
-       u +                                                       \
-   *reinterpret_cast<const Stored*>(tables[k] + segment + 16)) * \
-      bessel[k]
-      Taps real = GREATX_TAPS(0);
-      float* const out = grid + size_t{r} * 2 * stride + taps[r].start[i];
+    for (const BlockTaps *at = taps, *const end = taps + receivers; at != end; ++at, grid += 2 * stride) {
+      const float u = at->u[i], re = at->re[i], im = at->im[i];
+      const int32_t rows = at->segment[i] * row;
+      float* const out = grid + at->start[i];
       Stored& out_re = *reinterpret_cast<Stored*>(out);
       Stored& out_im = *reinterpret_cast<Stored*>(out + stride);
+      Taps real = GREATX_TAPS(0);
+      if (orders == 1) {
+        out_re += real * re;
+        out_im += real * im;
+        continue;
+      }
       Taps imaginary = GREATX_TAPS(1);
-      if (orders > 2) real -= GREATX_TAPS(2);
-      if (orders > 3) imaginary -= GREATX_TAPS(3);
-#undef GREATX_TAPS
+      if (orders > 2) [[unlikely]] {
+        real -= GREATX_TAPS(2);
+        if (orders > 3) imaginary -= GREATX_TAPS(3);
+      }
       out_re += real * re - imaginary * im;
       out_im += real * im + imaginary * re;
     }
   }
 }
+
+#undef GREATX_TAPS
 
 }  // namespace greatx::rf
