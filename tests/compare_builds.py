@@ -4,13 +4,14 @@
 """Compares the bytes that two builds of greatx write. A change of structure must not change any of them.
 
     python3 tests/compare_builds.py OLD/greatx NEW/greatx [--ticks 4] [--assets FOLDER]
-            [--only city --only room]
+            [--only city --only room] [--decoded]
 
 The scenarios of assets/scenarios, and the examples whose files lie in FOLDER, run for a few ticks in both
 builds, from the same text. The
 manifests list the size and the SHA-256 of every file, so equal manifests mean equal data sets. For each
 scenario with a channel the JSON of `greatx paths` is compared as well. The exit status is 0 if everything is
-equal and 1 if not.
+equal and 1 if not. With --decoded, pictures whose bytes differ are read back by the Python package (which
+needs NumPy) and their pixels are compared: for a change of an encoder. The sizes of these pictures are shown.
 """
 import argparse
 import json
@@ -40,9 +41,20 @@ def files_of(folder):
     return {entry["path"]: (entry["size"], entry["sha256"]) for entry in manifest["files"]}
 
 
-def difference_of_sets(old, new):
+def equal_pixels(old, new):
+    """Returns whether two PNG or EXR files hold the same pixels."""
+    sys.path.insert(0, str(ROOT / "python"))
+    from greatx import frames
+
+    read = frames.read_png if old.suffix == ".png" else frames.read_exr
+    a, b = read(old), read(new)
+    return a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes()
+
+
+def difference_of_sets(old, new, sizes=None):
     """Describes the first file that differs between two data sets. Returns an empty string if all are
-    equal."""
+    equal. With `sizes`, a picture may differ if its pixels are equal; its sizes are added to sizes[kind],
+    [before, after]."""
     before, after = files_of(old), files_of(new)
     for path in sorted(before.keys() | after.keys()):
         if path not in after:
@@ -50,6 +62,13 @@ def difference_of_sets(old, new):
         if path not in before:
             return f"{path} is missing in the old one"
         if before[path] != after[path]:
+            if sizes is not None and path.endswith((".png", ".exr")):
+                if equal_pixels(old / path, new / path):
+                    kind = pathlib.Path(path).parent.name + pathlib.Path(path).suffix
+                    of_kind = sizes.setdefault(kind, [0, 0])
+                    of_kind[0] += before[path][0]
+                    of_kind[1] += after[path][0]
+                    continue
             return (
                 f"{path}: {before[path][0]} bytes {before[path][1][:12]}, "
                 f"{after[path][0]} bytes {after[path][1][:12]}"
@@ -57,12 +76,12 @@ def difference_of_sets(old, new):
     return ""
 
 
-def compare_generate(programs, scenario, extra, ticks, scratch):
+def compare_generate(programs, scenario, extra, ticks, scratch, sizes):
     folders = [scratch / side for side in ("old", "new")]
     for program, folder in zip(programs, folders):
         shutil.rmtree(folder, ignore_errors=True)
         run(program, "generate", scenario, *extra, "--ticks", ticks, "-q", "-o", folder)
-    return difference_of_sets(*folders)
+    return difference_of_sets(*folders, sizes)
 
 
 def compare_paths(programs, scenario, extra, tick):
@@ -98,7 +117,9 @@ def main():
     parser.add_argument("--ticks", type=int, default=4)
     parser.add_argument("--assets", type=pathlib.Path, help="folder of the examples' scenes")
     parser.add_argument("--only", action="append", default=[], help="a scenario's name; may be given again")
+    parser.add_argument("--decoded", action="store_true", help="compare pixels of pictures that differ")
     options = parser.parse_args()
+    sizes = {} if options.decoded else None
     programs = [options.old.resolve(), options.new.resolve()]
     differing = compared = 0
     with tempfile.TemporaryDirectory() as folder:
@@ -106,13 +127,15 @@ def main():
             if options.only and name not in options.only:
                 continue
             begin = time.monotonic()
-            found = compare_generate(programs, scenario, extra, options.ticks, pathlib.Path(folder))
+            found = compare_generate(programs, scenario, extra, options.ticks, pathlib.Path(folder), sizes)
             if not found and has_channel:
                 last = min(options.ticks, ticks_of(scenario)) - 1
                 found = compare_paths(programs, scenario, extra, last)
             compared += 1
             differing += bool(found)
             print(f"{name:16} {time.monotonic() - begin:6.1f} s  {found or 'equal'}", flush=True)
+    for kind, (before, after) in sorted((sizes or {}).items()):
+        print(f"{kind:16} {before} -> {after} bytes, the same pixels")
     print(f"{compared} compared, {differing} differ")
     return 1 if differing or not compared else 0
 

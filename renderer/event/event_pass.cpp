@@ -355,23 +355,17 @@ void EventPass::end(gpu::TickSlot& slot, const gpu::Buffer& luminance) {
 
 namespace {
 
-/// Writes a part of the sorted events and moves the columns on. One loop a column becomes vector code.
+/// Writes the sorted events column by column: such loops become vector code.
 template <typename Event, typename Time>
-void unpack(std::span<const Event> part, EventColumns<Time>& to) {
-  const Event* const from = part.data();
-  const size_t count = part.size();
+void unpack(const std::vector<Event>& sorted, const EventColumns<Time>& to) {
+  const Event* const from = sorted.data();
+  const size_t count = sorted.size();
   for (size_t i = 0; i < count; ++i) to.t_ns[i] = to.begin_ns + Time{from[i].t_ns};
   for (size_t i = 0; i < count; ++i) to.x[i] = static_cast<uint16_t>(from[i].place >> 1 & 0x3fffu);
   for (size_t i = 0; i < count; ++i) to.y[i] = static_cast<uint16_t>(from[i].place >> 15);
   for (size_t i = 0; i < count; ++i) to.p[i] = static_cast<uint8_t>(from[i].place & 1u);
-  if constexpr (std::is_same_v<Event, ListedEventOfInstance>) {
+  if constexpr (std::is_same_v<Event, ListedEventOfInstance>)
     for (size_t i = 0; i < count; ++i) to.instance[i] = from[i].instance;
-    to.instance += count;
-  }
-  to.t_ns += count;
-  to.x += count;
-  to.y += count;
-  to.p += count;
 }
 
 }  // namespace
@@ -400,18 +394,21 @@ std::span<const int8_t> EventPass::difference(const gpu::TickSlot& slot) const {
 }
 
 template <typename Time>
-void EventPass::sort_columns(const gpu::TickSlot& slot, EventColumns<Time> columns) {
+void EventPass::sort_columns(const gpu::TickSlot& slot, const EventColumns<Time>& columns) {
   const size_t count = counts(slot).events;
   if (count == 0) return;
   const Pending& from = recorded(slot);
   const auto interval_ns = static_cast<uint32_t>(from.interval.end_ns - from.interval.begin_ns);
   const std::span<const ListedEvent> listed = from.events.as<ListedEvent>().first(count);
-  const auto take = [&columns](const auto& part) { unpack(part, columns); };
-  if (!desc_.instance) return sorter_.sort(listed, interval_ns, take);
+  if (!desc_.instance) {
+    sorter_.sort(listed, interval_ns);
+    return unpack(sorter_.sorted(), columns);
+  }
   const std::span<const uint32_t> instances = from.instances.as<uint32_t>();
   with_instance_.resize(count);
   for (size_t i = 0; i < count; ++i) with_instance_[i] = {listed[i], instances[i]};
-  instance_sorter_.sort(with_instance_, interval_ns, take);
+  instance_sorter_.sort(with_instance_, interval_ns);
+  unpack(instance_sorter_.sorted(), columns);
 }
 
 void EventPass::sort_into(const gpu::TickSlot& slot, const EventColumns<int64_t>& columns) {

@@ -149,7 +149,7 @@ class EventPass {
   void bind(gpu::Cmd& cmd, const gpu::ComputePipeline& pipeline, uint32_t index);
   const Pending& recorded(const gpu::TickSlot& slot) const;
   template <typename Time>
-  void sort_columns(const gpu::TickSlot& slot, EventColumns<Time> columns);
+  void sort_columns(const gpu::TickSlot& slot, const EventColumns<Time>& columns);
 
   const scene::GpuScene* scene_;
   EventDesc desc_;

@@ -163,11 +163,8 @@ TEST(EventModel, HardCaseN56TiesAreInOrderOfRowColumnPolarity) {
   std::vector<ListedEvent> sorted = events;
   std::stable_sort(sorted.begin(), sorted.end());
   render::EventSorter<ListedEvent> sorter;
-  std::vector<ListedEvent> taken;
-  sorter.sort(events, 33'333'333, [&](std::span<const ListedEvent> part) {
-    taken.insert(taken.end(), part.begin(), part.end());
-  });
-  events = taken;
+  sorter.sort(events, 33'333'333);
+  events = sorter.sorted();
   ASSERT_EQ(events.size(), sorted.size());
   for (size_t i = 0; i < events.size(); ++i) {
     EXPECT_EQ(events[i].t_ns, sorted[i].t_ns) << i;
@@ -178,6 +175,7 @@ TEST(EventModel, HardCaseN56TiesAreInOrderOfRowColumnPolarity) {
 TEST(EventModel, EventsOfAnyNumberAreSortedWhereverTheyCrowd) {
   using render::ListedEvent;
   RandomStream random(3, 1);
+  render::EventSorter<ListedEvent> sorter;  // keeps its memory from one list to the next
   for (const uint32_t interval_ns : {1u, 1000u, 1'000'000u, 2'000'000'000u})
     for (const size_t count : {0u, 1u, 2u, 100u, 3000u, 50'000u})
       for (const double crowd : {1.0, 0.01}) {
@@ -185,12 +183,10 @@ TEST(EventModel, EventsOfAnyNumberAreSortedWhereverTheyCrowd) {
         const auto last = static_cast<uint32_t>(std::max(1.0, crowd * interval_ns));
         for (size_t i = 0; i < count; ++i)
           events.push_back({1 + random.below(last), static_cast<uint32_t>(i / 2) << 1 | (i & 1 ? 0u : 1u)});
-        std::vector<ListedEvent> sorted = events, taken;
+        std::vector<ListedEvent> sorted = events;
         std::stable_sort(sorted.begin(), sorted.end());
-        render::EventSorter<ListedEvent>().sort(events, interval_ns, [&](std::span<const ListedEvent> part) {
-          taken.insert(taken.end(), part.begin(), part.end());
-        });
-        ASSERT_TRUE(std::ranges::equal(taken, sorted,
+        sorter.sort(events, interval_ns);
+        ASSERT_TRUE(std::ranges::equal(sorter.sorted(), sorted,
                                        [](const ListedEvent& a, const ListedEvent& b) {
                                          return a.t_ns == b.t_ns && a.place == b.place;
                                        }))

@@ -12,6 +12,7 @@
 namespace greatx::render {
 
 double air_transmittance(const Receiver& receiver, double range_m) {
+  if (receiver.extinction_per_m == 0.0) return 1.0;  // as exp gives, which every echo of clear air would call
   return std::exp(-2.0 * receiver.extinction_per_m * range_m);
 }
 
