@@ -78,9 +78,8 @@ SuiteEmbree::SuiteEmbree(const scene::Scene& scene) : tree_(std::make_unique<Tre
   rtcSetSceneFlags(tree_->scene, RTC_SCENE_FLAG_ROBUST);
   const RTCGeometry geometry = rtcNewGeometry(tree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   // Embree copies the corners, because it reads four bytes beyond the last one.
-  auto* const corners =
-      static_cast<vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                 sizeof(vec3), scene.positions.size()));
+  auto* const corners = static_cast<vec3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), scene.positions.size()));
   std::ranges::copy(scene.positions, corners);
   auto* const triangles = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), indices / 3));
