@@ -3,9 +3,6 @@
 #include "apps/bench/suite_embree.h"
 
 #include <algorithm>
-#include <limits>
-
-#include <fmt/format.h>
 
 #include "core/error.h"
 #include "core/parallel.h"

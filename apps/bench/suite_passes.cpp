@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "apps/bench/suite_picture.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "core/units.h"
 #include "renderer/lidar/lidar_pass.h"
+#include "renderer/lidar/scan/scan_pattern.h"
 #include "renderer/probe/probe.h"
+#include "rf/facets/facet_world.h"
 #include "rf/paths/crossings.h"
 #include "rf/radar/echoes/echo_pass.h"
 #include "rf/search/candidate_search.h"
