@@ -21,9 +21,9 @@ struct SuiteOptions {
   uint32_t repeats = 7;                  ///< measured runs of each row; at least 3 count as a measurement
 };
 
-/// Measures and writes suite.json, suite.md, device.json and a PNG for each axis into the folder, again after
-/// every scene, so that an interrupted suite leaves what it has measured. Returns the JSON. Throws Interrupted
-/// after Ctrl-C.
+/// Measures and writes suite.json, suite.md, device.json and a PNG for each axis into the folder. They are
+/// written again after every scene, so that an interrupted suite leaves what it has measured. Returns the
+/// JSON. Throws Interrupted after Ctrl-C.
 nlohmann::json run_suite(const RunOptions& run, const SuiteOptions& options, bool quiet);
 
 /// Returns the words for the terminal: the table, and where the files are.

@@ -17,7 +17,7 @@ namespace {
 
 namespace theme = io::theme;
 
-constexpr int panel_width = 560, panel_height = 380, head = 64;
+constexpr int panel_width = 560, panel_height = 380, head_height = 64;
 constexpr int plot_left = 100, plot_top = 44, plot_right = 20, plot_bottom = 64;
 
 /// A measured size: the rates of its median, slowest and fastest run.
@@ -165,12 +165,12 @@ Array suite_curves(const nlohmann::json& result, const std::string& axis) {
                       : panels.size() < 5 ? 2
                                           : 3,
             rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
-  io::Canvas canvas(std::max(640, columns * panel_width), head + std::max(1, rows) * panel_height,
+  io::Canvas canvas(std::max(640, columns * panel_width), head_height + std::max(1, rows) * panel_height,
                     theme::page);
   draw_head(canvas, result, panels);
   for (size_t i = 0; i < panels.size(); ++i)
     draw_panel(canvas, static_cast<int>(i) % columns * panel_width,
-               head + static_cast<int>(i) / columns * panel_height, panels[i], axis);
+               head_height + static_cast<int>(i) / columns * panel_height, panels[i], axis);
   return canvas.image();
 }
 

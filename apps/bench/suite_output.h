@@ -26,8 +26,8 @@ std::string suite_markdown(const nlohmann::json& result);
 /// Returns the small file that docs/devices/ collects: the device, and the rates of each pass at 100 k
 /// triangles, or at the largest size below.
 nlohmann::json suite_summary(const nlohmann::json& result);
-/// Returns the growth curves of an axis: a panel for each pass, a line for each tracer, rates over sizes, both
-/// logarithmic, with bars from the slowest to the fastest run.
+/// Returns the growth curves of an axis: a panel for each pass, a line for each tracer. They show rates over
+/// sizes, both logarithmic, with bars from the slowest to the fastest run.
 Array suite_curves(const nlohmann::json& result, const std::string& axis);
 
 /// Writes suite.json, suite.md, device.json and AXIS.png. Creates the folder.

@@ -66,8 +66,8 @@ def table(folder: pathlib.Path) -> str:
         device = read(path)
         about = device["device"]
         cells = [f"[{cell(about['name'])}](devices/{path.name})", about["driver"], about["mesa"],
-                 about["llvm"], str(device["cores"]), f"{device['triangles']:,}", *(rates(device, name) for name in PASSES),
-                 device["greatx"], device["date"][:10], device["note"]]
+                 about["llvm"], str(device["cores"]), f"{device['triangles']:,}",
+                 *(rates(device, name) for name in PASSES), device["greatx"], device["date"][:10], device["note"]]
         lines.append("| " + " | ".join(cell(text) for text in cells) + " |")
     return "\n".join(lines) + "\n"
 
