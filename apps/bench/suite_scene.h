@@ -35,8 +35,8 @@ SuiteScene make_suite_scene(const SuiteSceneSize& size);
 /// Returns the poses of all bodies in round `round`: each one goes around its place on a circle.
 std::vector<Pose> suite_poses(const SuiteScene& scene, uint32_t round);
 
-/// Returns an estimate of the memory that a suite of `triangles` needs at its peak: for the scene, the passes,
-/// and for each of `tracers` the copy on the device with its tree.
+/// Returns an estimate of the memory that a suite of `triangles` needs at its peak: for the scene, the
+/// passes, and for each of `tracers` the copy on the device with its tree.
 uint64_t suite_bytes(uint64_t triangles, size_t tracers);
 
 }  // namespace greatx::apps

@@ -65,9 +65,14 @@ def table(folder: pathlib.Path) -> str:
     for path in sorted(folder.glob("*.json")):
         device = read(path)
         about = device["device"]
-        cells = [f"[{cell(about['name'])}](devices/{path.name})", about["driver"], about["mesa"],
-                 about["llvm"], str(device["cores"]), f"{device['triangles']:,}",
-                 *(rates(device, name) for name in PASSES), device["greatx"], device["date"][:10], device["note"]]
+        cells = [
+            f"[{cell(about['name'])}](devices/{path.name})",
+            *(about[key] for key in ("driver", "mesa", "llvm")),
+            str(device["cores"]),
+            f"{device['triangles']:,}",
+            *(rates(device, name) for name in PASSES),
+            *(device["greatx"], device["date"][:10], device["note"]),
+        ]
         lines.append("| " + " | ".join(cell(text) for text in cells) + " |")
     return "\n".join(lines) + "\n"
 
