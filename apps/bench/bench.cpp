@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -17,6 +19,8 @@
 #include "apps/bench/recall.h"
 #include "apps/bench/rig_bench.h"
 #include "apps/bench/sight_bench.h"
+#include "apps/bench/suite.h"
+#include "apps/bench/suite_compare.h"
 #include "apps/bench/view_bench.h"
 #include "apps/console/command_line.h"
 #include "apps/console/json_text.h"
@@ -54,6 +58,9 @@ struct Options {
   SightBenchOptions sight_options;
   bool view = false;
   ViewBenchOptions view_options;
+  bool suite = false;
+  SuiteOptions suite_options;
+  std::vector<std::filesystem::path> compared;
 };
 
 void print(const nlohmann::json& result) {
@@ -194,6 +201,38 @@ void add_view_options(CLI::App& command, Options& options) {
       ->check(integer_of(1, 1000));
 }
 
+void add_suite_options(CLI::App& command, Options& options) {
+  command.add_flag("--suite", options.suite,
+                   "measure all passes in generated scenes of growing size instead, with every tracer of the "
+                   "device: files of figures, tables and curves in DIR");
+  SuiteOptions& suite = options.suite_options;
+  command.add_option("-o,--output", suite.folder, "of --suite: the folder of its files")->option_text("DIR");
+  command.add_flag("--quick", suite.quick, "of --suite: up to 100 k triangles instead of 10 M");
+  command.add_option("--most-triangles", suite.most_triangles, "of --suite: leaves out larger scenes")
+      ->capture_default_str()
+      ->check(integer_of(1000, 10'000'000));
+  command.add_option("--repeats", suite.repeats, "of --suite: measured runs of each row")
+      ->capture_default_str()
+      ->check(integer_of(1, 1000));
+  command
+      .add_option("--compare", options.compared,
+                  "compare two files suite.json instead: ratios, and which differ by more than their spread")
+      ->expected(2)
+      ->option_text("A.json B.json");
+}
+
+void run_suite(const Options& options) {
+  if (options.suite_options.folder.empty())
+    throw_user_error("bench --suite: expected -o DIR, the folder of its files");
+  const nlohmann::json result = run_suite(options.run, options.suite_options, options.json);
+  std::cout << (options.json ? json_text(result) + "\n" : suite_text(result));
+}
+
+void compare(const Options& options) {
+  const nlohmann::json result = compare_suites(options.compared[0], options.compared[1]);
+  std::cout << (options.json ? json_text(result) + "\n" : compare_text(result));
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app) {
@@ -282,12 +321,15 @@ void add_bench(CLI::App& app) {
       ->check(integer_of(1, 1'000'000));
   add_sight_options(*command, *options);
   add_view_options(*command, *options);
-  const char* const modes[] = {"--recall", "--camera", "--lidar",         "--radar",
-                               "--radio",  "--rig",    "--line-of-sight", "--view"};
+  add_suite_options(*command, *options);
+  const char* const modes[] = {"--recall", "--camera",        "--lidar", "--radar", "--radio",
+                               "--rig",    "--line-of-sight", "--view",  "--suite", "--compare"};
   for (const char* a : modes)
     for (const char* b : modes)
       if (a != b) command->get_option(a)->excludes(command->get_option(b));
   command->callback([options, command] {
+    if (options->suite) return run_suite(*options);
+    if (!options->compared.empty()) return compare(*options);
     if (options->camera) return run_rows(*options, options->camera_options, camera_bench, camera_bench_text);
     if (options->lidar) return run_rows(*options, options->lidar_options, lidar_bench, lidar_bench_text);
     if (options->radar) return run_rows(*options, options->radar_options, radar_bench, radar_bench_text);

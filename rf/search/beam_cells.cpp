@@ -14,8 +14,6 @@ namespace {
 /// Cells with fewer facets than this are not cut, and neither are cells at this level of cuts.
 constexpr size_t facets_of_leaf = 24;
 constexpr uint32_t most_levels = 24;
-/// Leaves with more facets than this do not fit into the processor's fast caches.
-constexpr size_t facets_of_large_leaf = 512;
 /// When an outline is moved outwards, corners sharper than this (sine of half the angle) are blunted.
 constexpr double sharp = 0.3;
 
@@ -219,38 +217,12 @@ void BeamCells::settle_leaf(const SlopeRect& rect, size_t first) {
         covers_.add({box, entry.min_depth, entry.facet, facet.first_polygon + i});
   }
   covers_.build();
-  if (entries_.size() > facets_of_large_leaf) sort_by_place(rect);
   for (const Entry& entry : entries_) {
     if (view_->facets()[entry.facet].is_wedge)
       settle_wedge(rect, entry);
     else
       settle_facet(rect, entry);
   }
-}
-
-/// Sorts the facets so that neighbours in the leaf follow each other. Their covers are then mostly the same and
-/// still in the processor's caches. The result does not depend on the order.
-void BeamCells::sort_by_place(const SlopeRect& rect) {
-  const auto spread = [](double share) {  // 16 bits, with a gap after each
-    uint64_t bits = static_cast<uint64_t>(std::clamp(65535.0 * share, 0.0, 65535.0));
-    bits = (bits | bits << 8) & 0x00ff00ffu;
-    bits = (bits | bits << 4) & 0x0f0f0f0fu;
-    bits = (bits | bits << 2) & 0x33333333u;
-    return (bits | bits << 1) & 0x55555555u;
-  };
-  places_.clear();
-  for (uint32_t i = 0; i < entries_.size(); ++i) {
-    const SlopeRect& box = view_->facets()[entries_[i].facet].box;
-    const double a = 0.5 * (std::max(box.min_a, rect.min_a) + std::min(box.max_a, rect.max_a));
-    const double b = 0.5 * (std::max(box.min_b, rect.min_b) + std::min(box.max_b, rect.max_b));
-    const uint64_t place = spread((a - rect.min_a) / (rect.max_a - rect.min_a)) << 1 |
-                           spread((b - rect.min_b) / (rect.max_b - rect.min_b));
-    places_.push_back(place << 32 | i);
-  }
-  std::sort(places_.begin(), places_.end());
-  by_place_.clear();
-  for (const uint64_t place : places_) by_place_.push_back(entries_[place & 0xffffffffu]);
-  std::swap(entries_, by_place_);
 }
 
 /// Returns the half-plane of slopes where `cover` is in front of `facet`, with unit gradient unless it is

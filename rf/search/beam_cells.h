@@ -66,7 +66,6 @@ class BeamCells {
   void drop_hidden(const SlopeRect& rect, size_t first);
   bool covers(uint32_t facet, const SlopeRect& rect);
   void settle_leaf(const SlopeRect& rect, size_t first);
-  void sort_by_place(const SlopeRect& rect);
   std::array<HalfPlane, 8> sides_of(const SlopeRect& rect) const;
   void settle_facet(const SlopeRect& rect, const Entry& entry);
   void settle_polygon(const ViewFacet& facet, const Entry& entry, const Convex& whole);
@@ -83,8 +82,6 @@ class BeamCells {
   std::vector<uint32_t> lists_;  ///< facets of the open cells
   std::vector<Entry> entries_;   ///< facets of the leaf, nearest first
   LeafCovers covers_;            ///< of the leaf
-  std::vector<Entry> by_place_;
-  std::vector<uint64_t> places_;
   LitPieces pieces_;
   std::vector<Interval> intervals_, next_intervals_;
   std::vector<HalfPlane> halves_;
