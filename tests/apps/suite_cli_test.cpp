@@ -48,7 +48,9 @@ TEST(Suite, MeasuresEveryPassWithEveryTracerAndWritesItsFiles) {
     EXPECT_GT(row["count"], 0);
     EXPECT_GT(row["per_second"], 0.0);
     // The tracers agree on all rays but those that pass an edge within roundings.
-    if (row.contains("differing")) EXPECT_LE(row["differing"], row["count"].get<uint64_t>() / 100) << row;
+    if (row.contains("differing")) {
+      EXPECT_LE(row["differing"], row["count"].get<uint64_t>() / 100) << row;
+    }
   }
   std::vector<std::string> tracers{"tree"};
   if (result["device"]["ray_query"]) tracers.push_back("driver");
