@@ -68,7 +68,7 @@ if at_least "$candidate" "$mesa_wanted"; then
   say "installing $mesa_package $candidate"
   apt_get install -y --no-install-recommends "$mesa_package"
   at_least "$candidate" "$mesa_newer" ||
-    say "a newer Mesa (GREATX_BACKPORTS=1) would save about half of a run's time; docs/performance.md compares the two"
+    say "a newer Mesa would save half of a run's time: GREATX_BACKPORTS=1 (see docs/performance.md)"
   exit 0
 fi
 [ "$mesa_wanted" = "$mesa_newer" ] ||

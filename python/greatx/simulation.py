@@ -106,8 +106,8 @@ class Simulation:
                 the sun, `azimuth_deg` and `elevation_deg` of `sun` replace them together; one angle alone is
                 an error
     device      index of a Vulkan device, or part of its name; empty: $GREATX_DEVICE, else the best device
-    tracer      how rays meet triangles: "auto" ($GREATX_TRACER, else the tree on a CPU or without ray queries),
-                "driver" (ray queries) or "tree" (trees of greatx's own)
+    tracer      how rays meet triangles: "auto" ($GREATX_TRACER, else the tree on a CPU and without ray
+                queries), "driver" (ray queries) or "tree" (trees of greatx's own)
     validation  if true, runs under the Vulkan validation layer, whose messages raise a RuntimeError
 
     The scene is loaded and the device is opened when they are first needed. Faulty input raises a

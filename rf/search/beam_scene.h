@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Holds the scene for beams: facets as convex polygons. Facets, polygons and wedges are in a tree of boxes
-// each. A facet may have thousands of polygons all over the scene, such as the ground of a city, so that a beam
-// must not look at all polygons of a facet that it meets.
+// each. A facet may have thousands of polygons all over the scene, such as the ground of a city, so that a
+// beam must not look at all polygons of a facet that it meets.
 #pragma once
 
 #include <array>

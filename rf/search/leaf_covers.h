@@ -29,17 +29,17 @@ class LeafCovers {
   /// Must be called after the last cover.
   void build();
 
-  /// Calls visit(cover), in the order of the covers, for those whose boxes overlap `box` and whose min_depth is
-  /// at most `depth`, until it returns true. Returns whether it did. The cost is that of the covers visited,
-  /// with a few more and a logarithm.
+  /// Calls visit(cover), in the order of the covers, for those whose boxes overlap `box` and whose min_depth
+  /// is at most `depth`, until it returns true. Returns whether it did. The cost is that of the covers
+  /// visited, with a few more and a logarithm.
   template <typename Visit>
   bool visit_until(const SlopeRect& box, double depth, const Visit& visit);
   /// Returns the number of covers compared with a box since this object was made.
   uint64_t compared() const { return compared_; }
 
  private:
-  /// A range of covers_ with a tree of its own. Each is as large as all before it: what is hidden by covers near
-  /// the beginning needs no look at the large trees.
+  /// A range of covers_ with a tree of its own. Each is as large as all before it: what is hidden by covers
+  /// near the beginning needs no look at the large trees.
   struct Block {
     uint32_t first = 0;
     scene::BoxTree tree;

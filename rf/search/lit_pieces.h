@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Holds the convex pieces of a polygon in slopes that nothing hides so far. A polygon near the horizon may have
-// hundreds of pieces and be behind thousands of covers, so that most pairs are told apart by boxes.
+// Holds the convex pieces of a polygon in slopes that nothing hides so far. A polygon near the horizon may
+// have hundreds of pieces and be behind thousands of covers, so that most pairs are told apart by boxes.
 #pragma once
 
 #include <algorithm>
@@ -45,8 +45,8 @@ class LitPieces {
   /// Pieces that are next to each other in live_ and share a box.
   static constexpr size_t pieces_of_lot = 8;
 
-  /// Tells whether no point of a box satisfies all constraints, by one of them alone. find_cuts() then says the
-  /// same of every shape in the box, because the roundings of both are monotone.
+  /// Tells whether no point of a box satisfies all constraints, by one of them alone. find_cuts() then says
+  /// the same of every shape in the box, because the roundings of both are monotone.
   static bool is_apart(const SlopeRect& box, const HalfPlane& front, std::span<const HalfPlane> outline) {
     return front.most(box) <= 0.0 || std::any_of(outline.begin(), outline.end(), [&](const HalfPlane& half) {
              return half.most(box) <= 0.0;

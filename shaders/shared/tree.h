@@ -3,8 +3,8 @@
 //
 // Defines the trees of boxes through which rays are traced without the driver: one over the triangles of each
 // body, in one buffer that never changes (scene/device/scene_trees.h makes it), and one over the bodies that
-// move, in a buffer of its own at each tick (scene/device/body_tree.h). lib/tree.glsl walks them. Both consist
-// of quadruples of words, and indices count quadruples.
+// move, in a buffer of its own at each tick (scene/device/body_tree.h). lib/tree.glsl walks them. Both
+// consist of quadruples of words, and indices count quadruples.
 //
 // The buffer of the bodies' triangles:
 //   2 b, 2 b + 1      body b; body 0 never moves. Its frame: smallest coordinates (3 floats), reference to

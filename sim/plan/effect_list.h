@@ -14,7 +14,7 @@
 
 // clang-format off
 #define GREATX_RAY_EFFECTS(X) \
-  X(acceleration_structure, false, none, "trees or acceleration structures over the scene, for what traces rays") \
+  X(acceleration_structure, false, none, "structures over the scene through which rays are traced") \
   X(scene_motion, false, none, "these structures follow the meshes that move")
 
 #define GREATX_CAMERA_EFFECTS(X) \

@@ -16,8 +16,8 @@ namespace {
 
 using rf::testing::SearchScene;
 
-/// Returns a town of `blocks` x `blocks` houses, 30 m apart, on a ground that is one facet of small tiles. The
-/// source stands over a crossing, lower than most roofs.
+/// Returns a town of `blocks` x `blocks` houses, 30 m apart, on a ground that is one facet of small tiles.
+/// The source stands over a crossing, lower than most roofs.
 SearchScene town(int blocks) {
   constexpr double pitch_m = 30.0, tile_m = 6.0;
   const double half_m = 0.5 * pitch_m * blocks;

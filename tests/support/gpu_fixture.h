@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes one device per test program and tracer, with validation. Any message of the validation layer fails the test
-// during which it arrives. Link greatx_gpu_test_support: its main() installs the listener.
+// Makes one device per test program and tracer, with validation. Any message of the validation layer fails
+// the test during which it arrives. Link greatx_gpu_test_support: its main() installs the listener.
 #pragma once
 
 #include "gpu/device.h"

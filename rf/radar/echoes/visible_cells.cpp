@@ -66,8 +66,8 @@ class SeenSpace {
     sides_[count_ - 1] = {beam.axis, -glm::dot(beam.axis, beam.source) - nearest_m};
     for (size_t i = 0; i < count_; ++i) lengths_[i] = glm::length(sides_[i].normal);
   }
-  /// Returns whether all corners of a piece within `ball` are outside the same half-space. seen() would return
-  /// an empty polygon for it.
+  /// Returns whether all corners of a piece within `ball` are outside the same half-space. seen() would
+  /// return an empty polygon for it.
   bool without(const FacetTrees::Ball& ball) const {
     for (size_t i = 0; i < count_; ++i)
       if (glm::dot(sides_[i].normal, ball.center) + sides_[i].offset < -ball.radius * lengths_[i])

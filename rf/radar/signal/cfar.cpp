@@ -179,11 +179,14 @@ Cfar::Row Cfar::row(std::span<const float> map, uint32_t range) const {
       for (uint32_t d = 0; d < velocities_; ++d) sums[d] += map[size_t{r} * velocities_ + d];
     }
     const uint32_t cells = rows_beyond * (2 * reach_d + 1) + rows_within * 2 * config_.train_doppler;
-    // The columns around the circle, `reach_d` more on each side. All cells of the row are summed side by side.
+    // The columns around the circle, `reach_d` more on each side. All cells of the row are summed side by
+    // side.
     std::vector<double> around[2];
-    for (const auto& [sums, out] : {std::pair{&beyond, &around[0]}, {&within, &around[1]}})
+    for (const auto& [sums, out] : {std::pair{&beyond, &around[0]}, {&within, &around[1]}}) {
+      out->reserve(velocities_ + 2 * reach_d);
       for (uint32_t k = 0; k < velocities_ + 2 * reach_d; ++k)
         out->push_back((*sums)[(k + velocities_ - reach_d) % velocities_]);
+    }
     const auto add = [&](const double* columns) {
       for (uint32_t d = 0; d < velocities_; ++d) result.noise_w[d] += columns[d];
     };
