@@ -5,7 +5,8 @@
 # Installs the packages that greatx needs to build and run, if they are missing. It prints nothing if there is
 # nothing to do. It supports Debian 12 or newer and Ubuntu 24.04 or newer, as root or with sudo.
 #
-# GREATX_BACKPORTS=1 takes a newer Mesa from the backports suite if the release's own is older than 24.1.
+# A newer Mesa comes from the backports suite if the release's own is older than 24.1. GREATX_BACKPORTS=0 takes
+# the release's own.
 set -euo pipefail
 
 packages=(
@@ -43,8 +44,8 @@ version_of() {
 }
 at_least() { [ -n "$1" ] && dpkg --compare-versions "$1" ge "$2"; }
 candidate_of() { LC_ALL=C apt-cache policy "$1" | awk '/Candidate:/ && $2 != "(none)" {print $2}'; }
-mesa_wanted=$mesa_minimum
-[ "${GREATX_BACKPORTS:-0}" = 0 ] || mesa_wanted=$mesa_newer
+mesa_wanted=$mesa_newer
+[ "${GREATX_BACKPORTS:-1}" != 0 ] || mesa_wanted=$mesa_minimum
 
 missing=()
 for package in "${packages[@]}"; do
@@ -68,7 +69,7 @@ if at_least "$candidate" "$mesa_wanted"; then
   say "installing $mesa_package $candidate"
   apt_get install -y --no-install-recommends "$mesa_package"
   at_least "$candidate" "$mesa_newer" ||
-    say "a newer Mesa would save half of a run's time: GREATX_BACKPORTS=1 (see docs/performance.md)"
+    say "a newer Mesa would save half of a run's time: without GREATX_BACKPORTS=0 it is taken"
   exit 0
 fi
 [ "$mesa_wanted" = "$mesa_newer" ] ||
