@@ -5,8 +5,8 @@
 # Installs the packages that greatx needs to build and run, if they are missing. It prints nothing if there is
 # nothing to do. It supports Debian 12 or newer and Ubuntu 24.04 or newer, as root or with sudo.
 #
-# A newer Mesa comes from the backports suite if the release's own is older than 24.1. GREATX_BACKPORTS=0 takes
-# the release's own.
+# A newer Mesa comes from the backports suite if the release's own is older than 24.1. GREATX_BACKPORTS=0
+# takes the release's own.
 set -euo pipefail
 
 packages=(
