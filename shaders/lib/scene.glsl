@@ -38,4 +38,12 @@ vec3 body_point(uint body, vec3 p) {
 vec3 body_direction(uint body, vec3 d) {
   return vec3(dot(bodies[body].row0.xyz, d), dot(bodies[body].row1.xyz, d), dot(bodies[body].row2.xyz, d));
 }
+/// Takes a ray into the frame of a moving body.
+void enter_body(uint body, inout vec3 origin, inout vec3 direction) {
+  GpuBody pose = bodies[body];
+  // The columns of the inverse of a rotation are its rows.
+  mat3 body_from_local = mat3(pose.row0.xyz, pose.row1.xyz, pose.row2.xyz);
+  origin = body_from_local * (origin - vec3(pose.row0.w, pose.row1.w, pose.row2.w));
+  direction = body_from_local * direction;
+}
 #endif

@@ -121,6 +121,21 @@ TreeSpan tree_span(uvec4 box, TreeRay ray, float t_min, float t_max) {
                   lower(lower(leave.x, leave.y), lower(leave.z, t_max)));
 }
 
+/// Holds the children of a node that a ray meets, the nearer one first; tree_none: none.
+struct MetChildren {
+  uint near, far;
+};
+MetChildren met_children(QuadPair children, TreeRay ray, float t_min, float t_max) {
+  TreeSpan in_left = tree_span(children.first, ray, t_min, t_max),
+           in_right = tree_span(children.second, ray, t_min, t_max);
+  bool meets_left = in_left.from <= in_left.to, meets_right = in_right.from <= in_right.to;
+  bool right_first = !meets_left || (meets_right && in_right.from < in_left.from);
+  uint near = right_first ? children.second.w : children.first.w,
+       far = right_first ? children.first.w : children.second.w;
+  return MetChildren(meets_left || meets_right ? near : tree_none,
+                     meets_left && meets_right ? far : tree_none);
+}
+
 /// The walk through the tree of the tick. A shader makes one walk at a time, so there is one state.
 TreeRay bodies_ray;
 uint bodies_node, bodies_waiting, bodies_later[body_tree_most_depth + 1u];
@@ -141,16 +156,12 @@ void start_bodies(vec3 origin, float t_min, vec3 direction, float t_max) {
 /// Returns the next body whose box the ray meets, nearer boxes first; no_body: none is left.
 uint next_body(float t_min, float t_max) {
   while (bodies_node < tree_leaf) {
-    QuadPair node = body_tree_pair(bodies_node);
-    TreeSpan in_left = tree_span(node.first, bodies_ray, t_min, t_max),
-             in_right = tree_span(node.second, bodies_ray, t_min, t_max);
-    bool meets_left = in_left.from <= in_left.to, meets_right = in_right.from <= in_right.to;
-    bool right_first = !meets_left || (meets_right && in_right.from < in_left.from);
-    bodies_node = right_first ? node.second.w : node.first.w;
-    if (meets_left && meets_right) {
-      bodies_later[bodies_waiting] = right_first ? node.first.w : node.second.w;
+    MetChildren met = met_children(body_tree_pair(bodies_node), bodies_ray, t_min, t_max);
+    bodies_node = met.near;
+    if (met.far != tree_none) {
+      bodies_later[bodies_waiting] = met.far;
       ++bodies_waiting;
-    } else if (!meets_left && !meets_right) {
+    } else if (met.near == tree_none) {
       --bodies_waiting;
       bodies_node = bodies_later[bodies_waiting];
     }
@@ -162,12 +173,4 @@ uint next_body(float t_min, float t_max) {
   return body;
 }
 
-/// Takes a ray into the frame of a moving body.
-void enter_body(uint body, inout vec3 origin, inout vec3 direction) {
-  GpuBody pose = bodies[body];
-  // The columns of the inverse of a rotation are its rows.
-  mat3 body_from_local = mat3(pose.row0.xyz, pose.row1.xyz, pose.row2.xyz);
-  origin = body_from_local * (origin - vec3(pose.row0.w, pose.row1.w, pose.row2.w));
-  direction = body_from_local * direction;
-}
 #endif

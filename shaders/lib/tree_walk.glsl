@@ -31,16 +31,12 @@ Hit GREATX_WALK(vec3 origin, float t_min, vec3 direction, float t_max GREATX_WAL
     // wait, which costs little beside their loads.
     while (node != tree_none) {
       if (node < tree_leaf) {
-        QuadPair children = tree_pair(node);
-        TreeSpan in_left = tree_span(children.first, box_ray, t_min, best.t),
-                 in_right = tree_span(children.second, box_ray, t_min, best.t);
-        bool meets_left = in_left.from <= in_left.to, meets_right = in_right.from <= in_right.to;
-        bool right_first = !meets_left || (meets_right && in_right.from < in_left.from);
-        node = right_first ? children.second.w : children.first.w;
-        if (meets_left && meets_right) {
-          later[waiting] = right_first ? children.first.w : children.second.w;
+        MetChildren met = met_children(tree_pair(node), box_ray, t_min, best.t);
+        node = met.near;
+        if (met.far != tree_none) {
+          later[waiting] = met.far;
           ++waiting;
-        } else if (!meets_left && !meets_right) {
+        } else if (met.near == tree_none) {
           --waiting;
           node = later[waiting];
         }

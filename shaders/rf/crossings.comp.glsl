@@ -219,12 +219,7 @@ bool blocked(GpuSegment segment, vec3 direction, out Walls walls, out Depth dept
 
 /// Returns where the line a + u d is inside a box, in its body's frame; x > y: nowhere.
 vec2 inside_box(GpuFoliageBox box, vec3 a, vec3 d) {
-  if (box.body != 0u) {  // rigid: the inverse of its rotation is the transpose
-    GpuBody body = bodies[box.body];
-    mat3 body_from_local = mat3(body.row0.xyz, body.row1.xyz, body.row2.xyz);
-    a = body_from_local * (a - vec3(body.row0.w, body.row1.w, body.row2.w));
-    d = body_from_local * d;
-  }
+  if (box.body != 0u) enter_body(box.body, a, d);
   d = mix(d, vec3(1e-30), lessThan(abs(d), vec3(1e-30)));
   vec3 first = (box.low - a) / d, second = (box.high - a) / d;
   vec3 enter = min(first, second), leave = max(first, second);
