@@ -5,8 +5,8 @@
 # Installs the packages that greatx needs to build and run, if they are missing. It prints nothing if there is
 # nothing to do. It supports Debian 12 or newer and Ubuntu 24.04 or newer, as root or with sudo.
 #
-# A newer Mesa comes from the backports suite if the release's own is older than 24.1. GREATX_BACKPORTS=0
-# takes the release's own.
+# The release's own Mesa is enough. GREATX_BACKPORTS=1 takes a newer one from the backports suite if the
+# release's own is older than 24.1: a run then needs half of the time.
 set -euo pipefail
 
 packages=(
@@ -18,7 +18,7 @@ packages=(
   python3-yaml xvfb xauth fonts-dejavu-core
 )
 # lavapipe, Mesa's software Vulkan driver, runs greatx from mesa_minimum on: rays go through greatx's own
-# trees. From mesa_newer on it also has ray queries and conditional rendering.
+# trees. From mesa_newer on it is twice as fast and also has ray queries and conditional rendering.
 mesa_package=mesa-vulkan-drivers
 mesa_minimum=22.3
 mesa_newer=24.1
@@ -45,7 +45,7 @@ version_of() {
 at_least() { [ -n "$1" ] && dpkg --compare-versions "$1" ge "$2"; }
 candidate_of() { LC_ALL=C apt-cache policy "$1" | awk '/Candidate:/ && $2 != "(none)" {print $2}'; }
 mesa_wanted=$mesa_newer
-[ "${GREATX_BACKPORTS:-1}" != 0 ] || mesa_wanted=$mesa_minimum
+[ "${GREATX_BACKPORTS:-0}" != 0 ] || mesa_wanted=$mesa_minimum
 
 missing=()
 for package in "${packages[@]}"; do
@@ -69,7 +69,7 @@ if at_least "$candidate" "$mesa_wanted"; then
   say "installing $mesa_package $candidate"
   apt_get install -y --no-install-recommends "$mesa_package"
   at_least "$candidate" "$mesa_newer" ||
-    say "a newer Mesa would save half of a run's time: without GREATX_BACKPORTS=0 it is taken"
+    say "Mesa >= $mesa_newer would halve the time of a run: GREATX_BACKPORTS=1 scripts/setup.sh takes it"
   exit 0
 fi
 [ "$mesa_wanted" = "$mesa_newer" ] ||

@@ -72,8 +72,7 @@ GpuTextures::GpuTextures(gpu::Device& device, std::span<const Texture> textures,
   if (!any_number && arrays_.size() > shared::most_tried_arrays)
     throw_user_error(
         "the scene's textures: expected at most {} different sizes, colour spaces and wrappings on '{}', "
-        "which "
-        "has no table of textures (greatx info), found {}",
+        "which has no table of textures (greatx info), found {}",
         shared::most_tried_arrays, device.info().name, arrays_.size());
   tries_arrays_ = arrays_.size() <= 1 || !any_number || (cpu && arrays_.size() <= shared::most_tried_arrays);
   table_ = gpu::TextureTable(device, infos, tries_arrays_, "scene textures");

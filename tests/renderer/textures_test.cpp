@@ -3,6 +3,7 @@
 //
 // Textures are layers of images of their size. The tests check that pictures do not depend on the way in
 // which shaders select the image.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "shaders/shared/scene.h"
@@ -61,10 +62,24 @@ TEST(Textures, ShadersAskAFewImagesOneByOne) { expect_greys(12); }
 
 TEST(Textures, ShadersPickAmongManyImagesByNumber) {
   const uint32_t many = shared::most_tried_arrays + 4;
+  if (!test::device().info().has_texture_table()) GTEST_SKIP() << "the device has no table of textures";
   const scene::Scene scene = strips(many);
   const scene::GpuScene gpu(test::device(), scene, {.acceleration_structure = false});
   EXPECT_EQ(gpu.textures().arrays_of(&scene::MaterialTextures::base_color), 0u);
   expect_greys(many);
+}
+
+TEST(Textures, ADeviceWithoutTheTableHoldsAFewAndSaysSo) {
+  if (test::device().info().has_texture_table()) GTEST_SKIP() << "the device has the table of textures";
+  expect_greys(shared::most_tried_arrays);
+  const scene::Scene scene = strips(shared::most_tried_arrays + 4);
+  try {
+    const scene::GpuScene gpu(test::device(), scene, {.acceleration_structure = false});
+    ADD_FAILURE() << "more images than shaders may try were accepted";
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("at most 24 different sizes"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("no table of textures"));
+  }
 }
 
 /// Returns a texture of noise, sRGB.
