@@ -27,6 +27,11 @@ inline size_t usable_cores() {
   return std::max(1u, std::thread::hardware_concurrency());
 }
 
+/// Returns the threads that each of `count` works may use that run side by side.
+inline uint32_t threads_of_each(size_t count) {
+  return static_cast<uint32_t>(std::max<size_t>(1, usable_cores() / std::max<size_t>(1, count)));
+}
+
 /// Calls work(index) for every index below `count`, on up to `threads` threads (0: usable_cores()). Chance
 /// decides which thread takes which index, so work() must write only to data that belongs to its index: the
 /// result then does not depend on chance. The first exception is thrown again here. If the caller's work is

@@ -103,11 +103,12 @@ bool is_selected(const Path& path, PathSelection selection);
 /// Thread-safe, like everything in this file.
 ///
 /// The responses of line_of_sight and of others add up to the whole response, within the rounding of
-/// complex64 (2^-23 of the sum of the paths' amplitudes) and not to the bit.
+/// complex64 (2^-23 of the sum of the paths' amplitudes) and not to the bit. The rows are summed on `threads`
+/// threads; that changes no bit.
 void frequency_response_into(std::span<const Path> paths, std::span<const TransferSpectrum> spectra,
                              const ArrayPose& transmitter, const ArrayPose& receiver, const ChannelGrid& grid,
-                             std::span<std::complex<float>> out,
-                             PathSelection selection = PathSelection::all);
+                             std::span<std::complex<float>> out, PathSelection selection = PathSelection::all,
+                             uint32_t threads = 1);
 
 /// Holds h(tau) = sum_i a_i delta(tau - tau_i) about the carrier at t = 0, so that H(f) = sum_i a_i e^{-j 2
 /// pi f tau_i}.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/phase.h"
 #include "rf/channel/summing_order.h"
 
@@ -16,6 +17,7 @@ namespace {
 constexpr size_t term_chunk = 128;  // terms summed at a time, so that their factors stay in the cache
 // Bound of the factors of all columns. The number of terms at a time changes no bit of the result.
 constexpr size_t most_factors = size_t{1} << 20;
+constexpr size_t least_shared = size_t{1} << 19;  // products from which on more threads than one pay
 constexpr size_t row_tile = 64;  // rows summed at a time, so that their amplitudes and sums stay in the cache
 
 std::vector<uint32_t> selected_order(std::span<const Path> paths, std::span<const TransferSpectrum> spectra,
@@ -49,7 +51,7 @@ LinkSum::LinkSum(std::span<const Path> paths, std::span<const TransferSpectrum> 
       terms_(order_.size() * terms_per_path()),
       chunk_(
           std::min({term_chunk, terms_, std::max<size_t>(1, most_factors / std::max<size_t>(1, columns))})),
-      factors_(columns, chunk_),
+      factors_(1, ColumnFactors(columns, chunk_)),
       rows_(size_t{amplitudes_of_.pairs()} * times.samples) {
   check_link(paths, transmitter, receiver, times.carrier_hz);
   GREATX_CHECK(transmitter.beam_squint == receiver.beam_squint, "the ends of a link take waves differently");
@@ -70,10 +72,12 @@ void LinkSum::check_spectra() const {
 }
 
 template <typename Part>
-void LinkSum::write(std::complex<Part>* out) {
+void LinkSum::write(std::complex<Part>* out, uint32_t threads) {
+  threads_ = std::max(1u, threads);
+  if (squints_) factors_.resize(std::min<size_t>(threads_, amplitudes_of_.leads().pairs()), factors_.front());
   if (terms_ == 0) std::fill_n(out, size(), std::complex<Part>{});
   // Sums must last from chunk to chunk only if there are several chunks.
-  if (terms_ > chunk_) sums_.assign(factors_.blocks() * rows_ * 2 * sum_lanes, 0.0);
+  if (terms_ > chunk_) sums_.assign(factors_.front().blocks() * rows_ * 2 * sum_lanes, 0.0);
   size_t summed = 0;
   for (const uint32_t index : order_) {
     load(index);
@@ -82,8 +86,8 @@ void LinkSum::write(std::complex<Part>* out) {
     add(summed == terms_ ? out : nullptr);
   }
 }
-template void LinkSum::write(std::complex<float>*);
-template void LinkSum::write(std::complex<double>*);
+template void LinkSum::write(std::complex<float>*, uint32_t);
+template void LinkSum::write(std::complex<double>*, uint32_t);
 
 /// Puts the terms of a path into the next places of the chunk: one term, or with a spectrum one term for each
 /// entry of the transfer.
@@ -103,7 +107,7 @@ void LinkSum::load(Term term, const Complex* transfer) {
   if (squints_)
     amplitudes_of_.leads()(path, leads_s_.data() + place * amplitudes_of_.leads().pairs());
   else
-    set_factors(place, path.delay_s);
+    set_factors(place, path.delay_s, factors_.front());
   amplitudes_of_(path, transfer, pair_.data());
   const Complex carrier = unit_phasor(-turns_of(times_.carrier_hz, path.delay_s));
   for (uint32_t m = 0; m < times_.samples; ++m) {
@@ -114,12 +118,12 @@ void LinkSum::load(Term term, const Complex* transfer) {
   }
 }
 
-void LinkSum::set_factors(size_t place, double delay_s) {
-  set_factors_(delay_s, place, factors_);
+void LinkSum::set_factors(size_t place, double delay_s, ColumnFactors& factors) {
+  set_factors_(delay_s, place, factors);
   if (spectra_.empty()) return;
   const auto [path, entry] = loaded_[place];
   for (size_t column = 0; column < columns_; ++column) {
-    double* factor = factors_.at(column / sum_lanes, place) + column % sum_lanes;
+    double* factor = factors.at(column / sum_lanes, place) + column % sum_lanes;
     const Complex value = Complex(factor[0], factor[sum_lanes]) * spectra_[path][column][entry];
     factor[0] = value.real();
     factor[sum_lanes] = value.imag();
@@ -127,43 +131,49 @@ void LinkSum::set_factors(size_t place, double delay_s) {
 }
 
 /// Sets the factors of the chunk for the delays between two elements.
-void LinkSum::set_factors_of_elements(size_t pair) {
+void LinkSum::set_factors_of_elements(size_t pair, ColumnFactors& factors) {
   const size_t pairs = amplitudes_of_.leads().pairs();
   for (size_t place = 0; place < loaded_.size(); ++place)
-    set_factors(place, paths_[loaded_[place].path].delay_s - leads_s_[place * pairs + pair]);
+    set_factors(place, paths_[loaded_[place].path].delay_s - leads_s_[place * pairs + pair], factors);
 }
 
 /// Adds the chunk to the sums, and writes the sums to `out` unless it is null.
 template <typename Part>
 void LinkSum::add(std::complex<Part>* out) {
-  if (squints_) {
-    const size_t rx_ports = amplitudes_of_.rx().polarizations(),
-                 tx_ports = amplitudes_of_.tx().polarizations();
-    const size_t tx_elements = amplitudes_of_.leads().tx_elements();
-    for (size_t elements = 0; elements < amplitudes_of_.leads().pairs(); ++elements) {
-      const size_t u = elements / tx_elements, s = elements % tx_elements;
-      set_factors_of_elements(elements);
-      for (size_t port = u * rx_ports; port < (u + 1) * rx_ports; ++port) {
-        const size_t pair = port * amplitudes_of_.tx().count() + s * tx_ports;
-        add_rows_from(pair * times_.samples, (pair + tx_ports) * times_.samples, out);
-      }
-    }
-  } else {
-    add_rows_from(0, rows_, out);
-  }
+  const size_t works = squints_ ? amplitudes_of_.leads().pairs() : rows_;
+  size_t workers = squints_ ? factors_.size() : std::min<size_t>(threads_, rows_);
+  if (loaded_.size() * rows_ * columns_ < least_shared) workers = 1;
+  parallel_for(workers, threads_, [&](size_t worker) {
+    const size_t first = works * worker / workers, end = works * (worker + 1) / workers;
+    if (!squints_) return add_rows_from(first, end, factors_.front(), out);
+    for (size_t pair = first; pair < end; ++pair) add_elements(pair, factors_[worker], out);
+  });
   loaded_.clear();
 }
 
+/// Adds the rows of all ports of a pair of elements. They share the factors of the pair.
 template <typename Part>
-void LinkSum::add_rows_from(size_t begin, size_t end, std::complex<Part>* out) {
+void LinkSum::add_elements(size_t pair, ColumnFactors& factors, std::complex<Part>* out) {
+  const size_t rx_ports = amplitudes_of_.rx().polarizations(), tx_ports = amplitudes_of_.tx().polarizations();
+  const size_t tx_elements = amplitudes_of_.leads().tx_elements();
+  const size_t u = pair / tx_elements, s = pair % tx_elements;
+  set_factors_of_elements(pair, factors);
+  for (size_t port = u * rx_ports; port < (u + 1) * rx_ports; ++port) {
+    const size_t ports = port * amplitudes_of_.tx().count() + s * tx_ports;
+    add_rows_from(ports * times_.samples, (ports + tx_ports) * times_.samples, factors, out);
+  }
+}
+
+template <typename Part>
+void LinkSum::add_rows_from(size_t begin, size_t end, const ColumnFactors& factors, std::complex<Part>* out) {
   const AddRows add_chunk = add_rows();
   double tile[row_tile * 2 * sum_lanes];
   for (size_t first = begin; first < end; first += row_tile)
-    for (size_t block = 0; block < factors_.blocks(); ++block) {
+    for (size_t block = 0; block < factors.blocks(); ++block) {
       const size_t count = std::min(row_tile, end - first);
       double* sums = sums_.empty() ? tile : sums_.data() + (block * rows_ + first) * 2 * sum_lanes;
       if (sums_.empty()) std::fill_n(tile, count * 2 * sum_lanes, 0.0);
-      add_chunk(amplitudes_.data() + first * chunk_, chunk_, count, factors_.block(block), loaded_.size(),
+      add_chunk(amplitudes_.data() + first * chunk_, chunk_, count, factors.block(block), loaded_.size(),
                 sums);
       for (size_t row = 0; out != nullptr && row < count; ++row)
         store(sums + row * 2 * sum_lanes, block * sum_lanes, columns_, out + (first + row) * columns_);

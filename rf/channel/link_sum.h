@@ -31,6 +31,8 @@ class ColumnFactors {
   /// Returns the real parts of a term in a block; its imaginary parts follow. Lanes beyond the last column
   /// may hold any finite value.
   double* at(size_t block, size_t term) { return values_.data() + (block * terms_ + term) * 2 * sum_lanes; }
+  /// Returns the distance between the factors of a term in one block and in the next.
+  size_t stride() const { return terms_ * 2 * sum_lanes; }
 
  private:
   size_t terms_, blocks_;
@@ -58,9 +60,10 @@ class LinkSum {
           PathSelection selection, SetFactors set_factors);
 
   size_t size() const { return rows_ * columns_; }
-  /// Writes out[rx_ant, tx_ant, time, column], size() values; float or double.
+  /// Writes out[rx_ant, tx_ant, time, column], size() values; float or double. The rows are divided among
+  /// `threads` threads; that changes no bit.
   template <typename Part>
-  void write(std::complex<Part>* out);
+  void write(std::complex<Part>* out, uint32_t threads = 1);
 
  private:
   size_t terms_per_path() const { return spectra_.empty() ? 1 : 4; }
@@ -71,12 +74,14 @@ class LinkSum {
   };
   void load(uint32_t index);
   void load(Term term, const Complex* transfer);
-  void set_factors(size_t place, double delay_s);
-  void set_factors_of_elements(size_t pair);
+  void set_factors(size_t place, double delay_s, ColumnFactors& factors);
+  void set_factors_of_elements(size_t pair, ColumnFactors& factors);
   template <typename Part>
   void add(std::complex<Part>* out);
   template <typename Part>
-  void add_rows_from(size_t first, size_t end, std::complex<Part>* out);
+  void add_elements(size_t pair, ColumnFactors& factors, std::complex<Part>* out);
+  template <typename Part>
+  void add_rows_from(size_t first, size_t end, const ColumnFactors& factors, std::complex<Part>* out);
 
   std::span<const Path> paths_;
   std::span<const TransferSpectrum> spectra_;
@@ -88,7 +93,8 @@ class LinkSum {
   std::vector<uint32_t> order_;  ///< indices of the paths that are summed
   /// Number of all terms, and of terms per chunk, which is a multiple of terms_per_path().
   size_t terms_, chunk_;
-  ColumnFactors factors_;
+  std::vector<ColumnFactors> factors_;  ///< one; with squint one a thread
+  uint32_t threads_ = 1;
   size_t rows_;
   std::vector<Term> loaded_;                ///< of the chunk
   std::vector<double> leads_s_;             ///< [chunk, pairs of elements]; empty without squint

@@ -67,7 +67,35 @@ template <typename Width, size_t rows_at_once>
     add_some_rows<Width, 1>(amplitudes + row * stride, stride, phasors, terms, sums + row * 2 * sum_lanes);
 }
 
+template <typename Width>
+[[gnu::always_inline]] inline void set_all_products(const std::complex<double>* firsts, size_t blocks,
+                                                    const std::complex<double>* places, double* out,
+                                                    size_t stride) {
+  using Vec = typename Width::Vec;
+  using Stored = typename Width::Stored;
+  constexpr size_t parts = sum_lanes * sizeof(double) / sizeof(Vec);
+  double parts_of_places[2 * sum_lanes];
+  for (size_t lane = 0; lane < sum_lanes; ++lane)
+    parts_of_places[lane] = places[lane].real(), parts_of_places[sum_lanes + lane] = places[lane].imag();
+  const Stored* const p = reinterpret_cast<const Stored*>(parts_of_places);
+  for (size_t block = 0; block < blocks; ++block) {
+    const double a = firsts[block].real(), b = firsts[block].imag();
+    Stored* const to = reinterpret_cast<Stored*>(out + block * stride);
+#pragma GCC unroll 8
+    for (size_t part = 0; part < parts; ++part) {
+      to[part] = a * p[part] - b * p[parts + part];
+      to[parts + part] = a * p[parts + part] + b * p[part];
+    }
+  }
+}
+
 #if defined(__x86_64__)
+[[gnu::target("avx2")]] void set_products_with_avx2(const std::complex<double>* firsts, size_t blocks,
+                                                    const std::complex<double>* places, double* out,
+                                                    size_t stride) {
+  set_all_products<FourDoubles>(firsts, blocks, places, out, stride);
+}
+
 [[gnu::target("avx2")]] void add_rows_with_avx2(const std::complex<double>* amplitudes, size_t stride,
                                                 size_t rows, const double* phasors, size_t terms,
                                                 double* sums) {
@@ -92,6 +120,24 @@ AddRows add_rows_avx2() {
 
 AddRows add_rows() {
   static const AddRows best = add_rows_avx2() ? add_rows_avx2() : add_rows_generic;
+  return best;
+}
+
+void set_products_generic(const std::complex<double>* firsts, size_t blocks,
+                          const std::complex<double>* places, double* out, size_t stride) {
+  set_all_products<TwoDoubles>(firsts, blocks, places, out, stride);
+}
+
+SetProducts set_products_avx2() {
+#if defined(__x86_64__)
+  return __builtin_cpu_supports("avx2") ? set_products_with_avx2 : nullptr;
+#else
+  return nullptr;
+#endif
+}
+
+SetProducts set_products() {
+  static const SetProducts best = set_products_avx2() ? set_products_avx2() : set_products_generic;
   return best;
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Runs the hot loop of the frequency response: it multiplies amplitudes of rows (pairs of ports at time
-// samples) by phasors of subcarriers and sums over paths.
+// samples) by phasors of subcarriers and sums over paths. It also makes the phasors.
 #pragma once
 
 #include <complex>
@@ -25,5 +25,17 @@ void add_rows_generic(const std::complex<double>* amplitudes, size_t stride, siz
 AddRows add_rows_avx2();
 /// Returns the fastest version for this processor.
 AddRows add_rows();
+
+/// Sets out[block * stride][re, im][lane] = firsts[block] * places[lane] for all blocks. Every product and sum
+/// is rounded on its own, as above.
+using SetProducts = void (*)(const std::complex<double>* firsts, size_t blocks,
+                             const std::complex<double>* places, double* out, size_t stride);
+
+void set_products_generic(const std::complex<double>* firsts, size_t blocks,
+                          const std::complex<double>* places, double* out, size_t stride);
+/// Returns the version for AVX2; null on processors without AVX2.
+SetProducts set_products_avx2();
+/// Returns the fastest version for this processor.
+SetProducts set_products();
 
 }  // namespace greatx::rf

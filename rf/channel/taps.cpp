@@ -69,10 +69,10 @@ LinkSum tap_sum(std::span<const Path> paths, const ArrayPose& transmitter, const
 }  // namespace
 
 void channel_taps_into(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
-                       const TapGrid& grid, std::span<std::complex<float>> out) {
+                       const TapGrid& grid, std::span<std::complex<float>> out, uint32_t threads) {
   LinkSum sum = tap_sum(paths, transmitter, receiver, grid);
   GREATX_CHECK(out.size() == sum.size(), "room for {} values, {} needed", out.size(), sum.size());
-  sum.write(out.data());
+  sum.write(out.data(), threads);
 }
 
 std::vector<Complex> channel_taps_fp64(std::span<const Path> paths, const ArrayPose& transmitter,

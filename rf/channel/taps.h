@@ -53,7 +53,7 @@ struct TapCoverage {
 /// h[l + q N], the taps folded to N. With an even N one subcarrier lies at -B/2, where the spectrum of the
 /// sinc ends. The response has its full value there, and the taps give one half at either edge.
 void channel_taps_into(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
-                       const TapGrid& grid, std::span<std::complex<float>> out);
+                       const TapGrid& grid, std::span<std::complex<float>> out, uint32_t threads = 1);
 /// Returns the same taps before they are rounded.
 std::vector<Complex> channel_taps_fp64(std::span<const Path> paths, const ArrayPose& transmitter,
                                        const ArrayPose& receiver, const TapGrid& grid);

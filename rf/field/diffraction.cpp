@@ -114,6 +114,7 @@ std::optional<dvec3> keller_point(const scene::Wedge& wedge, const dvec3& before
 
 bool in_exterior(const scene::Wedge& wedge, const dvec3& point) {
   const dvec2 at = across(wedge, point - wedge.a);
+  if (at.y >= 0.0 && wedge.n >= 1.0) return true;  // within pi of face 0
   const double angle = std::atan2(at.y, at.x), wide = wedge.n * pi;
   if ((angle < 0.0 ? angle + 2.0 * pi : angle) <= wide) return true;
   const double tolerance = tolerance_m(wedge) + 1e-13 * glm::length(point);

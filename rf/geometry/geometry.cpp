@@ -122,6 +122,7 @@ void ImageTree::update(const dvec3& source) {
 
 void ImageTree::mirror(const dvec3& source) {
   source_ = source;
+  copy_planes();
   for (size_t i = 0; i < nodes_.size(); ++i) {
     Node& node = nodes_[i];
     const PosedFacet& facet = world_->facet(used_facets_[node.slot]);
@@ -149,13 +150,20 @@ const dvec3& ImageTree::image(size_t sequence) const {
 bool ImageTree::reach(size_t sequence, const dvec3& point, GeometricPath& path) const {
   const uint32_t node = node_of_sequence_[sequence];
   if (node == none) return true;
-  Chain chain;
-  if (!trace(node, point, chain)) return false;
-  for (size_t i = chain.facets.size(); i-- > 0;) {
-    path.interactions.push_back({InteractionType::reflection, chain.facets[i]});
-    path.vertices.push_back(chain.points[i]);
-  }
-  return true;
+  // The trace runs from the point back to the source, and thus fills the path from its end.
+  const size_t interactions = path.interactions.size(), vertices = path.vertices.size();
+  size_t left = nodes_[node].depth;
+  path.interactions.resize(interactions + left);
+  path.vertices.resize(vertices + left);
+  const bool reached = trace(node, point, [&](uint32_t facet, const dvec3& hit) {
+    --left;
+    path.interactions[interactions + left] = {InteractionType::reflection, facet};
+    path.vertices[vertices + left] = hit;
+  });
+  if (reached) return true;
+  path.interactions.resize(interactions);
+  path.vertices.resize(vertices);
+  return false;
 }
 
 /// Returns the width by which a node's window exceeds the test of trace(), so that the window loses no path
@@ -188,10 +196,9 @@ bool ImageTree::may_reach(const Node& node, const TargetInFacet& target) const {
 }
 
 /// Goes from the target back to the source and intersects the line to each image with the facet of that
-/// image.
-bool ImageTree::trace(uint32_t leaf, const dvec3& target, Chain& chain) const {
-  chain.facets.clear();
-  chain.points.clear();
+/// image. Calls visit(facet, point) for each reflection on the way; the calls mean nothing if it returns false.
+template <typename Visit>
+bool ImageTree::trace(uint32_t leaf, const dvec3& target, const Visit& visit) const {
   const PosedFacet* previous = nullptr;
   double previous_side = 0.0;
   dvec3 from = target;
@@ -211,8 +218,7 @@ bool ImageTree::trace(uint32_t leaf, const dvec3& target, Chain& chain) const {
     if (previous && glm::length(hit - from) <= 4.0 * (facet.tolerance_m + previous->tolerance_m) &&
         !joins_as_corner(facet, side, *previous, previous_side))
       return false;
-    chain.facets.push_back(facet_index);
-    chain.points.push_back(hit);
+    visit(facet_index, hit);
     from = hit;
     previous = &facet;
     previous_side = side;
@@ -220,14 +226,28 @@ bool ImageTree::trace(uint32_t leaf, const dvec3& target, Chain& chain) const {
   return true;
 }
 
+ImageTree::TargetInFacet ImageTree::Plane::locate(const dvec3& target) const {
+  return {glm::dot(normal, target) - offset, glm::dot(axis_u, target) - offset_u,
+          glm::dot(axis_v, target) - offset_v, tolerance_m};
+}
+
+void ImageTree::copy_planes() {
+  planes_.clear();
+  planes_.reserve(used_facets_.size());
+  for (const uint32_t index : used_facets_) {
+    const PosedFacet& facet = world_->facet(index);
+    planes_.push_back({facet.normal, facet.axis_u, facet.axis_v, facet.offset, facet.offset_u, facet.offset_v,
+                       facet.tolerance_m});
+  }
+}
+
 /// Returns the nodes whose image the target would see through the facet if nothing were in between.
 std::vector<uint32_t> ImageTree::seen_from(const dvec3& target) const {
+  constexpr uint32_t slots_at_once = 256;
   std::vector<uint32_t> indices, nodes;
-  for (uint32_t slot = 0; slot < used_facets_.size(); ++slot) {
-    checkpoint();
-    const PosedFacet& facet = world_->facet(used_facets_[slot]);
-    const dvec2 at = facet.plane_coordinates(target);
-    const TargetInFacet seen{facet.distance(target), at.x, at.y, facet.tolerance_m};
+  for (uint32_t slot = 0; slot < planes_.size(); ++slot) {
+    if (slot % slots_at_once == 0) checkpoint();
+    const TargetInFacet seen = planes_[slot].locate(target);
     indices.clear();
     filter_.collect(slot, seen.distance, seen.u, seen.v, indices);
     for (const uint32_t index : indices)
@@ -242,19 +262,26 @@ std::vector<GeometricPath> ImageTree::solve(const dvec3& target) const {
   const bool outwards = end_ == Source::transmitter;
   const dvec3 first = outwards ? source_ : target, last = outwards ? target : source_;
   if (line_of_sight_ && direct > shortest_line_of_sight_m) paths.push_back({{}, {first, last}, direct, 0.0});
-  Chain chain;
+  FacetSequence facets;
+  std::vector<dvec3> points;
   for (const uint32_t index : seen_from(target)) {
     checkpoint();
-    if (!trace(index, target, chain)) continue;
-    if (outwards) {  // the chain runs from the target back
-      std::reverse(chain.facets.begin(), chain.facets.end());
-      std::reverse(chain.points.begin(), chain.points.end());
+    facets.clear();
+    points.clear();
+    const bool reached = trace(index, target, [&](uint32_t facet, const dvec3& hit) {
+      facets.push_back(facet);
+      points.push_back(hit);
+    });
+    if (!reached) continue;
+    if (outwards) {  // the trace runs from the target back
+      std::reverse(facets.begin(), facets.end());
+      std::reverse(points.begin(), points.end());
     }
     GeometricPath path;
     path.vertices.push_back(first);
-    for (size_t i = 0; i < chain.facets.size(); ++i) {
-      path.interactions.push_back({InteractionType::reflection, chain.facets[i]});
-      path.vertices.push_back(chain.points[i]);
+    for (size_t i = 0; i < facets.size(); ++i) {
+      path.interactions.push_back({InteractionType::reflection, facets[i]});
+      path.vertices.push_back(points[i]);
     }
     path.vertices.push_back(last);
     path.length_m = glm::length(target - images_[index]);

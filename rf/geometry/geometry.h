@@ -85,12 +85,15 @@ class ImageTree {
   static double room(const Node& node, double tolerance_m);
   bool may_reach(const Node& node, const TargetInFacet& target) const;
   std::vector<uint32_t> seen_from(const dvec3& target) const;
-  /// Holds reflections from the target to the source.
-  struct Chain {
-    FacetSequence facets;
-    std::vector<dvec3> points;
+  /// The frame of a used facet; a copy, so that seen_from() reads one run of memory.
+  struct Plane {
+    dvec3 normal{0.0}, axis_u{0.0}, axis_v{0.0};
+    double offset = 0.0, offset_u = 0.0, offset_v = 0.0, tolerance_m = 0.0;
+    TargetInFacet locate(const dvec3& target) const;
   };
-  bool trace(uint32_t leaf, const dvec3& target, Chain& chain) const;
+  void copy_planes();
+  template <typename Visit>
+  bool trace(uint32_t leaf, const dvec3& target, const Visit& visit) const;
 
   const FacetWorld* world_;
   dvec3 source_;
@@ -100,6 +103,7 @@ class ImageTree {
   std::vector<Node> nodes_;                 ///< parents before children
   std::vector<dvec3> images_;               ///< [nodes]
   std::vector<uint32_t> used_facets_;       ///< ascending
+  std::vector<Plane> planes_;               ///< [used_facets_]
   ReachFilter filter_;                      ///< its groups are slots
   std::vector<uint32_t> filtered_;          ///< the candidate node of each index of the filter
 };

@@ -66,6 +66,14 @@ struct GeometricPath {
   /// other fields from each side, so both directions of a link compute theirs from the same end.
   bool from_receiver = false;
   FacetSequence facets() const { return reflecting_facets(interactions); }
+  /// Makes this an empty path that keeps its memory.
+  void clear() {
+    interactions.clear();
+    vertices.clear();
+    length_m = foliage_m = patch_area_m2 = 0.0;
+    edges_diffract = 0;
+    from_receiver = false;
+  }
 };
 
 /// Holds a path as seen from one transmitter and one receiver (their reference points).

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/watch.h"
 #include "rf/field/diffraction.h"
 #include "rf/search/beam_search.h"
@@ -101,13 +103,15 @@ struct Midpoints::Chain {
   uint32_t prefix = 0, suffix = 0;
 
   /// Sets `path` to source, prefix, `middle` at `point`, suffix and target. Returns false if either side does
-  /// not reach `point`.
-  bool assemble(const Interaction& middle, const dvec3& point, GeometricPath& path) const {
+  /// not reach `point`. `back` is room for the suffix.
+  bool assemble(const Interaction& middle, const dvec3& point, GeometricPath& path,
+                GeometricPath& back) const {
+    path.clear();
     path.vertices.push_back(tree.source());
     if (!tree.reach(prefix, point, path)) return false;
     path.interactions.push_back(middle);
     path.vertices.push_back(point);
-    GeometricPath back;
+    back.clear();
     if (!suffixes.reach(suffix, point, back)) return false;
     path.interactions.insert(path.interactions.end(), back.interactions.rbegin(), back.interactions.rend());
     path.vertices.insert(path.vertices.end(), back.vertices.rbegin(), back.vertices.rend());
@@ -117,31 +121,16 @@ struct Midpoints::Chain {
   }
 };
 
+/// Joins the chains of one wedge. It keeps the memory of a chain that was refused for the next one.
+struct Midpoints::WedgeJoin {
+  scene::Wedge wedge;
+  uint32_t index = 0;
+  GeometricPath path = {}, back = {};
+};
+
 Midpoints::Midpoints(const RadioModel& model, const PathLimits& limits, bool moving_bodies)
     : model_(&model), limits_(limits), moving_bodies_(moving_bodies) {
   if (model.effects.scattering) patches_ = scattering_patches(*model.scene, model.kinds, limits.patch_m);
-}
-
-/// Finds the sequences that lead to wedges. It leaves out sequences that end with a reflection at one of the
-/// wedge's own faces: that reflection is part of the wedge's field (edge_dyadic).
-Midpoints::Arrivals Midpoints::arrivals_at_wedges(const CandidateList& candidates) const {
-  const auto leads_to = [&](std::span<const uint32_t> facets, uint32_t index) {
-    const scene::Wedge& wedge = model_->wedges[index];
-    return facets.empty() || (facets.back() != wedge.facet_0 && facets.back() != wedge.facet_n);
-  };
-  Arrivals arrivals;
-  arrivals.offsets.assign(model_->wedges.size() + 1, 0);
-  number_of(candidates.wedges.size(), "sequences that lead to wedges");
-  for (uint32_t sequence = 0; sequence < candidates.size(); ++sequence)
-    for (const uint32_t wedge : candidates.wedges_of(sequence))
-      arrivals.offsets[wedge + 1] += leads_to(candidates.sequence(sequence), wedge);
-  for (size_t i = 1; i < arrivals.offsets.size(); ++i) arrivals.offsets[i] += arrivals.offsets[i - 1];
-  arrivals.sequences.resize(arrivals.offsets.back());
-  std::vector<uint32_t> next(arrivals.offsets.begin(), arrivals.offsets.end() - 1);
-  for (uint32_t sequence = 0; sequence < candidates.size(); ++sequence)
-    for (const uint32_t wedge : candidates.wedges_of(sequence))
-      if (leads_to(candidates.sequence(sequence), wedge)) arrivals.sequences[next[wedge]++] = sequence;
-  return arrivals;
 }
 
 /// Finds the sequences that lead to facets. A candidate sequence that ends with a facet shows that the
@@ -230,7 +219,10 @@ Midpoints::PatchArrivals Midpoints::straight_to_patches(const dvec3& from) const
 }
 
 void Midpoints::set_candidates(const CandidateList& candidates, const ImageTree& tree) {
-  if (model_->effects.diffraction) at_wedges_ = arrivals_at_wedges(candidates);
+  if (model_->effects.diffraction) {
+    at_wedges_ = WedgeArrivals(candidates, model_->wedges);
+    at_wedges_.place(tree, model_->wedges);
+  }
   if (!model_->effects.scattering) return;
   std::vector<PlaneWindow> windows;
   at_facets_ = arrivals_at_facets(candidates, limits_.max_reflections_before_scattering, windows);
@@ -238,39 +230,58 @@ void Midpoints::set_candidates(const CandidateList& candidates, const ImageTree&
 }
 
 void Midpoints::move(const ImageTree& tree) {
+  if (model_->effects.diffraction) at_wedges_.place(tree, model_->wedges);
   if (model_->effects.scattering) at_patches_ = arrivals_at_patches(at_facets_, {}, tree);
 }
 
-void Midpoints::diffract(const Chain& chain, const scene::Wedge& wedge, uint32_t index,
-                         std::vector<GeometricPath>& paths) const {
+bool Midpoints::diffract(const Chain& chain, WedgeJoin& join) const {
   const std::optional<dvec3> point =
-      keller_point(wedge, chain.tree.image(chain.prefix), chain.suffixes.image(chain.suffix));
-  if (!point) return;
-  GeometricPath path;
-  if (!chain.assemble({InteractionType::diffraction, index}, *point, path)) return;
+      keller_point(join.wedge, chain.tree.image(chain.prefix), chain.suffixes.image(chain.suffix));
+  GeometricPath& path = join.path;
+  if (!point || !chain.assemble({InteractionType::diffraction, join.index}, *point, path, join.back))
+    return false;
   const size_t middle = chain.tree.depth(chain.prefix) + 1;
-  if (!in_exterior(wedge, path.vertices[middle - 1]) || !in_exterior(wedge, path.vertices[middle + 1]))
-    return;
-  if (!model_->effects.diffraction_lit_region &&
-      !in_shadow(wedge, chain.tree.image(chain.prefix), chain.suffixes.image(chain.suffix)))
-    return;
-  if (chain.tree.end() == Source::receiver) reverse(path);
-  paths.push_back(std::move(path));
+  if (!in_exterior(join.wedge, path.vertices[middle - 1]) ||
+      !in_exterior(join.wedge, path.vertices[middle + 1]))
+    return false;
+  return model_->effects.diffraction_lit_region ||
+         in_shadow(join.wedge, chain.tree.image(chain.prefix), chain.suffixes.image(chain.suffix));
 }
 
-/// Joins every prefix with every suffix at each wedge that both lead to.
-void Midpoints::join_at_wedges(const ImageTree& tree, const ImageTree& suffixes, const Arrivals& wedges,
-                               std::vector<GeometricPath>& paths) const {
-  for (uint32_t index = 0; index + 1 < at_wedges_.offsets.size(); ++index) {
-    checkpoint();
-    const auto from = at_wedges_.of(index), to = wedges.of(index);
-    if (from.empty() || to.empty()) continue;
-    const scene::Wedge wedge = posed(model_->wedges[index], model_->facets);
-    for (const uint32_t suffix : to)
+/// Joins every prefix with every suffix at each wedge that both lead to. Without a search at the target, no
+/// `wedges`, the target may reach every wedge on a straight line.
+void Midpoints::join_at_wedges(const ImageTree& tree, const ImageTree& suffixes, const WedgeArrivals* wedges,
+                               uint32_t threads, std::vector<GeometricPath>& paths) const {
+  constexpr size_t wedges_at_once = 1024;
+  const std::span<const uint32_t> all = at_wedges_.wedges();
+  std::vector<std::vector<GeometricPath>> found((all.size() + wedges_at_once - 1) / wedges_at_once);
+  parallel_for(found.size(), threads, [&](size_t i) {
+    const size_t first = i * wedges_at_once;
+    join_at(all.subspan(first, std::min(wedges_at_once, all.size() - first)), tree, suffixes, wedges,
+            found[i]);
+  });
+  for (std::vector<GeometricPath>& some : found) std::ranges::move(some, std::back_inserter(paths));
+}
+
+void Midpoints::join_at(std::span<const uint32_t> at, const ImageTree& tree, const ImageTree& suffixes,
+                        const WedgeArrivals* wedges, std::vector<GeometricPath>& paths) const {
+  const uint32_t straight[] = {0};
+  std::vector<uint32_t> from;
+  WedgeJoin join;
+  for (const uint32_t index : at)
+    for (const uint32_t suffix : wedges ? wedges->of(index) : std::span<const uint32_t>(straight)) {
+      const uint32_t after = suffixes.depth(suffix) + 1;
+      if (after > limits_.max_depth) continue;
+      at_wedges_.joined(index, suffixes.image(suffix), limits_.max_depth - after, from);
+      if (from.empty()) continue;
+      join.wedge = posed(model_->wedges[index], model_->facets);
+      join.index = index;
       for (const uint32_t prefix : from)
-        if (tree.depth(prefix) + 1 + suffixes.depth(suffix) <= limits_.max_depth)
-          diffract({tree, suffixes, prefix, suffix}, wedge, index, paths);
-  }
+        if (diffract({tree, suffixes, prefix, suffix}, join)) {
+          paths.push_back(join.path);
+          if (tree.end() == Source::receiver) reverse(paths.back());
+        }
+    }
 }
 
 /// Joins every prefix with every suffix at a patch whose centre both reach from the same side.
@@ -310,12 +321,12 @@ void Midpoints::scatter(const ImageTree& tree, const dvec3& target, size_t numbe
   }
 }
 
-LeftOut Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t target_body,
+LeftOut Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t target_body, uint32_t threads,
                          std::vector<GeometricPath>& paths) const {
   const bool searched = limits_.max_reflections_after > 0;
   CandidateList list;
   LeftOut left_out;
-  Arrivals wedges;
+  std::optional<WedgeArrivals> wedges;
   if (searched) {
     BeamSearchOptions search;
     search.max_depth = limits_.max_reflections_after + 1;
@@ -327,16 +338,13 @@ LeftOut Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t ta
         BeamSearch(model_->facets, model_->kinds, model_->wedges, search).search(target);
     left_out = {result.overflow(), result.complete_depth()};
     list = std::move(result.list);
-    wedges = arrivals_at_wedges(list);
+    wedges.emplace(list, model_->wedges);
   } else {
-    // Without a search, the target may reach every wedge on a straight line.
     list.add({});
-    for (uint32_t i = 0; i <= model_->wedges.size(); ++i) wedges.offsets.push_back(i);
-    wedges.sequences.assign(model_->wedges.size(), 0);
   }
   const Source other = tree.end() == Source::transmitter ? Source::receiver : Source::transmitter;
   const ImageTree suffixes(model_->facets, target, list, other);
-  join_at_wedges(tree, suffixes, wedges, paths);
+  join_at_wedges(tree, suffixes, wedges ? &*wedges : nullptr, threads, paths);
   if (patches_.empty() || at_patches_.arrivals.empty()) return left_out;
   PatchArrivals at_patches;
   if (searched) {

@@ -14,6 +14,7 @@
 #include "rf/geometry/geometry.h"
 #include "rf/geometry/path.h"
 #include "rf/paths/radio_model.h"
+#include "rf/paths/wedge_arrivals.h"
 
 namespace greatx::rf {
 
@@ -46,17 +47,13 @@ class Midpoints {
   /// Appends every path with a diffraction or scattering between the source of the last `tree` and `target`
   /// (which `target_body` carries), from transmitter to receiver, in an unspecified order. Returns the number
   /// of sequences that the search at the target left out.
-  LeftOut solve(const ImageTree& tree, const dvec3& target, uint32_t target_body,
+  LeftOut solve(const ImageTree& tree, const dvec3& target, uint32_t target_body, uint32_t threads,
                 std::vector<GeometricPath>& paths) const;
 
  private:
-  /// Holds for every wedge or facet the sequences that lead to it: [elements + 1] into `sequences`,
-  /// ascending.
+  /// Holds for every facet the sequences that lead to it: [facets + 1] into `sequences`, ascending.
   struct Arrivals {
     std::vector<uint32_t> offsets, sequences;
-    std::span<const uint32_t> of(uint32_t element) const {
-      return std::span(sequences).subspan(offsets[element], offsets[element + 1] - offsets[element]);
-    }
   };
   /// Holds the whole way of a sequence from its end of the path to a patch.
   struct PatchArrival {
@@ -74,25 +71,27 @@ class Midpoints {
     }
   };
   struct Chain;
-  Arrivals arrivals_at_wedges(const CandidateList& candidates) const;
+  struct WedgeJoin;
   Arrivals arrivals_at_facets(const CandidateList& candidates, uint32_t most_reflections,
                               std::vector<PlaneWindow>& windows) const;
   PatchArrivals arrivals_at_patches(const Arrivals& at_facets, const std::vector<PlaneWindow>& windows,
                                     const ImageTree& tree) const;
   PatchArrivals straight_to_patches(const dvec3& from) const;
   dvec3 center(const Patch& patch) const;
-  void diffract(const Chain& chain, const scene::Wedge& wedge, uint32_t index,
-                std::vector<GeometricPath>& paths) const;
+  bool diffract(const Chain& chain, WedgeJoin& join) const;
   void scatter(const ImageTree& tree, const dvec3& target, size_t patch, const PatchArrivals& suffixes,
                std::vector<GeometricPath>& paths) const;
-  void join_at_wedges(const ImageTree& tree, const ImageTree& suffixes, const Arrivals& wedges,
-                      std::vector<GeometricPath>& paths) const;
+  void join_at_wedges(const ImageTree& tree, const ImageTree& suffixes, const WedgeArrivals* wedges,
+                      uint32_t threads, std::vector<GeometricPath>& paths) const;
+  void join_at(std::span<const uint32_t> at, const ImageTree& tree, const ImageTree& suffixes,
+               const WedgeArrivals* wedges, std::vector<GeometricPath>& paths) const;
 
   const RadioModel* model_;
   PathLimits limits_;
   bool moving_bodies_;
   std::vector<Patch> patches_;
-  Arrivals at_wedges_, at_facets_;
+  WedgeArrivals at_wedges_;
+  Arrivals at_facets_;
   PatchArrivals at_patches_;
 };
 

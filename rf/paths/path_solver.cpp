@@ -8,11 +8,13 @@
 
 #include "core/built_effects.h"
 #include "core/error.h"
-#include "core/watch.h"
+#include "core/parallel.h"
 
 namespace greatx::rf {
 
 namespace {
+
+constexpr size_t paths_at_once = 16;  ///< paths whose fields one thread computes in turn
 
 /// Holds the facets that a path touches at a vertex and that therefore do not block it there.
 struct Touched {
@@ -56,12 +58,13 @@ std::vector<Passage> passages(const FacetWorld& world, const std::vector<uint32_
 /// Sets `full` to the path with its walls as interactions. Returns false if the path is blocked.
 bool insert_walls(const FacetWorld& world, const GeometricPath& path, std::span<const Crossing> crossings,
                   GeometricPath& full) {
+  if (std::any_of(crossings.begin(), crossings.end(), [](const Crossing& c) { return c.blocked; }))
+    return false;
   full = {{}, {path.vertices.front()}, path.length_m, 0.0};
   full.patch_area_m2 = path.patch_area_m2;
   full.from_receiver = path.from_receiver;
   for (size_t i = 0; i < crossings.size(); ++i) {
     const Crossing& crossing = crossings[i];
-    if (crossing.blocked) return false;
     if constexpr (all_effects_built) {
       full.foliage_m += crossing.foliage_m;
       for (const Passage& wall : passages(world, crossing.walls, path.vertices[i], path.vertices[i + 1])) {
@@ -153,7 +156,7 @@ void PathSolver::move_source(const dvec3& source) {
   if (midpoints_) midpoints_->move(*tree_);
 }
 
-LinkGeometry PathSolver::geometry(const EndState& end) const {
+LinkGeometry PathSolver::geometry(const EndState& end, uint32_t threads) const {
   const dvec3& target = end.position;
   GREATX_CHECK(tree_.has_value(), "no candidates for the target at ({}, {}, {})", target.x, target.y,
                target.z);
@@ -164,7 +167,7 @@ LinkGeometry PathSolver::geometry(const EndState& end) const {
   if (!model_->effects.reflection)
     std::erase_if(link.paths, [](const GeometricPath& path) { return !path.interactions.empty(); });
   if (all_effects_built && midpoints_) {
-    link.searched = midpoints_->solve(*tree_, target, end.body, link.paths);
+    link.searched = midpoints_->solve(*tree_, target, end.body, threads, link.paths);
     std::sort(link.paths.begin(), link.paths.end(), less);
   }
   keep_most(link, limits_.max_paths);
@@ -227,7 +230,8 @@ void PathSolver::add_segments(std::span<const GeometricPath> paths, const EndSta
 
 std::vector<Path> PathSolver::finish(std::span<const GeometricPath> paths,
                                      std::span<const Crossing> crossings, const EndState& transmitter,
-                                     const EndState& receiver, const FacetWorld& world) const {
+                                     const EndState& receiver, const FacetWorld& world,
+                                     uint32_t threads) const {
   FieldModel field = field_;
   field.world = &world;
   std::vector<GeometricPath> lit;
@@ -247,12 +251,13 @@ std::vector<Path> PathSolver::finish(std::span<const GeometricPath> paths,
   }
   GREATX_CHECK(first == crossings.size(), "{} segments, {} answers", first, crossings.size());
   std::sort(lit.begin(), lit.end(), less);
-  std::vector<Path> fields;
-  fields.reserve(lit.size());
-  for (const GeometricPath& path : lit) {
-    checkpoint();
-    fields.push_back(path_field(path, field, transmitter.velocity, receiver.velocity));
-  }
+  std::vector<Path> fields(lit.size());
+  // Paths are taken in groups, because many fields take less time than a thread needs to start.
+  const size_t groups = (lit.size() + paths_at_once - 1) / paths_at_once;
+  parallel_for(groups, threads, [&](size_t group) {
+    for (size_t i = group * paths_at_once; i < std::min(lit.size(), (group + 1) * paths_at_once); ++i)
+      fields[i] = path_field(lit[i], field, transmitter.velocity, receiver.velocity);
+  });
   return fields;
 }
 

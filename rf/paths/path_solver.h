@@ -54,18 +54,19 @@ class PathSolver {
   /// are dropped.
   void move_source(const dvec3& source);
 
-  /// Returns every chain that exists geometrically between the source and `target`.
-  LinkGeometry geometry(const EndState& target) const;
+  /// Returns every chain that exists geometrically between the source and `target`, on `threads` threads (0:
+  /// usable_cores()).
+  LinkGeometry geometry(const EndState& target, uint32_t threads = 1) const;
   /// Appends the segments of the paths, one path after the other.
   void add_segments(std::span<const GeometricPath> paths, const EndState& transmitter,
                     const EndState& receiver, std::vector<Segment>& segments) const;
   /// Turns walls into interactions, drops blocked paths and paths beyond the limits, and returns the fields
   /// of the other paths in canonical order. `crossings` are the answers to the segments of these paths.
   /// `world` is a copy of the model's facets as they stood when the geometry was solved; the model's own
-  /// facets may have moved since.
+  /// facets may have moved since. The fields are computed on `threads` threads (0: usable_cores()).
   std::vector<Path> finish(std::span<const GeometricPath> paths, std::span<const Crossing> crossings,
-                           const EndState& transmitter, const EndState& receiver,
-                           const FacetWorld& world) const;
+                           const EndState& transmitter, const EndState& receiver, const FacetWorld& world,
+                           uint32_t threads = 1) const;
 
   const PathLimits& limits() const { return limits_; }
 

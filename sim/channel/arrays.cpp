@@ -163,6 +163,7 @@ Array ChannelSensor::block_of(const PortBlock& block, const Results& results, ui
               {static_cast<int64_t>(receivers), columns_.rx_ports, static_cast<int64_t>(transmitters),
                columns_.tx_ports, block.time, block.last});
   const std::span<std::complex<float>> out = array.as<std::complex<float>>();
+  const uint32_t threads = threads_of_each(receivers * transmitters);
   parallel_for(receivers * transmitters, 0, [&](size_t index) {
     const size_t r = index / transmitters, t = index % transmitters;
     // With one transmitter the values of a link are contiguous, and no copy is needed.
@@ -173,7 +174,7 @@ Array ChannelSensor::block_of(const PortBlock& block, const Results& results, ui
       elements->assemble(block.per_pair(), block.sum, h);
     else {
       const LinkEnds ends = ends_of(results, r, t);
-      block.sum(results[t].links[r].paths, *results[t].world, ends.transmitter, ends.receiver, h);
+      block.sum(results[t].links[r].paths, *results[t].world, ends.transmitter, ends.receiver, h, threads);
     }
     for (size_t port = 0; !apart.empty() && port < rx_ports; ++port)
       std::copy_n(

@@ -10,10 +10,10 @@ PortBlock response_block(const char* name, const char* description, const rf::Ch
                          const rf::Dispersion* dispersion, rf::PathSelection selection) {
   return {name, description, grid.time_samples, grid.subcarriers,
           [=](std::span<const rf::Path> paths, const rf::FacetWorld& world, const rf::ArrayPose& transmitter,
-              const rf::ArrayPose& receiver, std::span<std::complex<float>> out) {
+              const rf::ArrayPose& receiver, std::span<std::complex<float>> out, uint32_t threads) {
             std::vector<rf::TransferSpectrum> spectra;
             if (dispersion) spectra = dispersion->spectra(paths, world);
-            rf::frequency_response_into(paths, spectra, transmitter, receiver, grid, out, selection);
+            rf::frequency_response_into(paths, spectra, transmitter, receiver, grid, out, selection, threads);
           }};
 }
 
@@ -49,8 +49,8 @@ std::vector<PortBlock> port_blocks(const ChannelConfig& config, const rf::Channe
          "[rx, rx_ant, tx, tx_ant, time, tap] h[l], tap l at the absolute delay (first + l) / bandwidth",
          grid.time_samples, window.taps,
          [window](std::span<const rf::Path> paths, const rf::FacetWorld&, const rf::ArrayPose& transmitter,
-                  const rf::ArrayPose& receiver, std::span<std::complex<float>> out) {
-           rf::channel_taps_into(paths, transmitter, receiver, window, out);
+                  const rf::ArrayPose& receiver, std::span<std::complex<float>> out, uint32_t threads) {
+           rf::channel_taps_into(paths, transmitter, receiver, window, out, threads);
          }});
   }
   return blocks;

@@ -21,10 +21,10 @@
 namespace greatx::sim {
 
 /// Adds up the paths between two antenna arrays into [rx_ant, tx_ant, time, ...]. `world` holds the facets
-/// for which the paths were solved. Thread-safe.
+/// for which the paths were solved. Uses `threads` threads. Thread-safe.
 using LinkSum = std::function<void(std::span<const rf::Path>, const rf::FacetWorld& world,
                                    const rf::ArrayPose& transmitter, const rf::ArrayPose& receiver,
-                                   std::span<std::complex<float>> out)>;
+                                   std::span<std::complex<float>> out, uint32_t threads)>;
 
 /// Describes an array [rx, rx_ant, tx, tx_ant, time, last] of complex64.
 struct PortBlock {

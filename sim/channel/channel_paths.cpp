@@ -118,12 +118,13 @@ void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
   search_->renew(context.tick, flight.transmitter.position, receiver_positions(context), context.body_poses);
 
   flight.links.assign(ends_.receivers.size(), {});
+  const uint32_t threads = threads_of_each(ends_.receivers.size());
   parallel_for(ends_.receivers.size(), 0, [&](size_t r) {
     LinkInFlight& link = flight.links[r];
     link.receiver = state(ends_.receivers[r], context);
     link.distance_m = glm::distance(world_position(ends_.transmitter, context),
                                     world_position(ends_.receivers[r], context));
-    rf::LinkGeometry geometry = search_->geometry(r, flight.transmitter, link.receiver);
+    rf::LinkGeometry geometry = search_->geometry(r, flight.transmitter, link.receiver, threads);
     link.paths = std::move(geometry.paths);
     link.left_out = {geometry.searched, geometry.overflow};
   });
@@ -153,6 +154,7 @@ ChannelPaths::Result ChannelPaths::collect(const gpu::TickSlot& slot) {
   result.world = std::move(flight.world);
   result.transmitter = flight.transmitter;
   result.links.resize(flight.links.size());
+  const uint32_t threads = threads_of_each(flight.links.size());
   parallel_for(flight.links.size(), 0, [&](size_t r) {
     LinkInFlight& link = flight.links[r];
     result.links[r].receiver = link.receiver;
@@ -160,7 +162,7 @@ ChannelPaths::Result ChannelPaths::collect(const gpu::TickSlot& slot) {
     result.links[r].left_out = link.left_out;
     result.links[r].paths = search_->solver(r).finish(
         link.paths, std::span(crossings).subspan(link.first_segment, link.segment_count), flight.transmitter,
-        link.receiver, *result.world);
+        link.receiver, *result.world, threads);
   });
   if (!ids_known_) ids_.assign(result.links.size(), {});
   for (size_t r = 0; r < result.links.size(); ++r) {

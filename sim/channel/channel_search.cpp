@@ -276,17 +276,17 @@ void ChannelSearch::renew_moving(const dvec3& transmitter, std::span<const dvec3
 }
 
 rf::LinkGeometry ChannelSearch::geometry(size_t index, const rf::EndState& transmitter,
-                                         const rf::EndState& receiver) const {
-  if constexpr (!all_effects_built) return fixed_[0].geometry(receiver);
+                                         const rf::EndState& receiver, uint32_t threads) const {
+  if constexpr (!all_effects_built) return fixed_[0].geometry(receiver, threads);
   const size_t source = source_of(index);
   const rf::Source end = sources_[source].end;
   const bool from_receiver = end == rf::Source::receiver;
   const rf::EndState& target = from_receiver ? transmitter : receiver;
-  rf::LinkGeometry link = fixed_[source].geometry(target);
+  rf::LinkGeometry link = fixed_[source].geometry(target, threads);
   link.searched.add(left_out_[source]);
   if (way_ == Way::between_ends) seams_->drop_behind(link.paths, rf::Source::transmitter, transmitter.body);
   if (moving_.empty()) return link;
-  rf::LinkGeometry more = moving_[source].geometry(target);
+  rf::LinkGeometry more = moving_[source].geometry(target, threads);
   seams_->drop_behind(more.paths, end, from_receiver ? receiver.body : transmitter.body);
   link.overflow += more.overflow;
   link.searched.add(more.searched);

@@ -66,7 +66,7 @@ void ElementPaths::assemble(size_t per_pair, const LinkSum& sum, std::span<std::
     const ChannelPaths::Link& link = results_[s].links[u];
     std::vector<std::complex<float>> block(to_ports * from_ports * per_pair);
     sum(link.paths, *results_[s].world, {from, results_[s].transmitter.orientation},
-        {to, link.receiver.orientation}, block);
+        {to, link.receiver.orientation}, block, 1);
     for (size_t q = 0; q < to_ports; ++q)
       std::copy_n(
           block.begin() + static_cast<std::ptrdiff_t>(q * from_ports * per_pair), from_ports * per_pair,

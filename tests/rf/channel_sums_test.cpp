@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -61,6 +62,49 @@ TEST(RowSums, EveryProcessorGivesTheSameBits) {
   }
 }
 
+TEST(SetProducts, EveryProcessorGivesTheSameBits) {
+  for (const size_t blocks : {size_t{0}, size_t{1}, size_t{7}}) {
+    const size_t stride = 3 * 2 * sum_lanes;
+    RandomStream random(6, static_cast<uint32_t>(blocks));
+    std::vector<Complex> firsts(blocks), places(sum_lanes);
+    for (Complex& value : firsts) value = {random.uniform(-1, 1), random.uniform(-1, 1)};
+    for (Complex& value : places) value = {random.uniform(-1, 1), random.uniform(-1, 1)};
+    std::vector<double> plain(blocks * stride + 1, 7.0), generic = plain, wide = plain;
+    for (size_t block = 0; block < blocks; ++block)
+      for (size_t lane = 0; lane < sum_lanes; ++lane) {
+        const Complex a = firsts[block], p = places[lane];
+        plain[block * stride + lane] = a.real() * p.real() - a.imag() * p.imag();
+        plain[block * stride + sum_lanes + lane] = a.real() * p.imag() + a.imag() * p.real();
+      }
+    set_products_generic(firsts.data(), blocks, places.data(), generic.data(), stride);
+    EXPECT_TRUE(same_bits(generic, plain)) << blocks;
+    if (const SetProducts avx2 = set_products_avx2()) {
+      avx2(firsts.data(), blocks, places.data(), wide.data(), stride);
+      EXPECT_TRUE(same_bits(wide, plain)) << blocks;
+    }
+  }
+}
+
+/// 5,000 subcarriers of 1 GHz: the phasors of most groups follow from those of others.
+TEST(Response, PhasorsAreExactAllAlongAWideBand) {
+  std::vector<Path> paths = random_paths(1, 2e-6, 11);
+  const ChannelGrid grid{28e9, 2e5, 5000, 1, 0.0};
+  const auto found = frequency_response_fp64(paths, antenna(), antenna(), grid);
+  const double amplitude = std::abs(found[0]);
+  const std::complex<long double> first(found[0].real(), found[0].imag());
+  double worst = 0.0;
+  for (size_t k = 0; k < found.size(); ++k) {
+    const long double turns =
+        -static_cast<long double>(k) * 2e5L * static_cast<long double>(paths[0].delay_s);
+    const long double angle = 2.0L * std::numbers::pi_v<long double> * (turns - std::floor(turns));
+    const auto expected = first * std::complex<long double>(std::cos(angle), std::sin(angle));
+    worst = std::max(worst, static_cast<double>(std::abs(
+                                std::complex<long double>(found[k].real(), found[k].imag()) - expected)));
+  }
+  EXPECT_LT(worst / amplitude, 1e-14);
+  EXPECT_GT(worst, 0.0);
+}
+
 TEST(ResponseInto, WritesABatchOfLinksInPlace) {
   ArrayPose tx = antenna(Pattern::isotropic, Polarization::slant);
   tx.array.columns = 3;
@@ -83,6 +127,24 @@ TEST(ResponseInto, WritesABatchOfLinksInPlace) {
       frequency_response_into(links[i], {}, tx, rx, grid, std::span(batch).subspan(i * size, size));
     });
     EXPECT_TRUE(same_bits(batch, expected));
+  }
+}
+
+TEST(ResponseInto, ThreadsOfALinkChangeNoBit) {
+  for (const bool squint : {false, true}) {
+    ArrayPose tx = antenna(Pattern::isotropic, Polarization::slant), rx = antenna();
+    tx.array.columns = 16;
+    tx.array.column_spacing_m = 0.04;
+    tx.beam_squint = rx.beam_squint = squint;
+    const ChannelGrid grid{3.5e9, 30e3, 130, 1, 0.0};
+    const auto paths = random_paths(300, 2e-6, 8);  // three chunks of the sum
+    const auto expected = frequency_response(paths, tx, rx, grid);
+    ASSERT_GT(paths.size() * 32 * 130, size_t{1} << 20) << "fewer products are not shared";
+    for (const uint32_t threads : {2u, 3u, 7u}) {
+      std::vector<std::complex<float>> found(expected.size());
+      frequency_response_into(paths, {}, tx, rx, grid, found, PathSelection::all, threads);
+      EXPECT_TRUE(same_bits(found, expected)) << squint << " " << threads;
+    }
   }
 }
 
