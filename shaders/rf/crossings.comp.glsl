@@ -17,6 +17,7 @@
 // it meets a surface that it does not meet itself. A straight edge that passes within half of their radius
 // lies between two of the three.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "shared/rf.h"
 #include "lib/linear.glsl"
 #include "lib/trace.glsl"
@@ -30,7 +31,7 @@ layout(set = 0, binding = crossings_segments_binding, scalar) readonly buffer Se
   GpuSegment segments[];
 };
 layout(set = 0, binding = crossings_planes_binding, scalar) readonly buffer PlanesBlock {
-  GpuFacetPlane planes[];
+  u64vec4 planes[];  // GpuFacetPlane, as few loads (lib/tree.glsl)
 };
 layout(set = 0, binding = crossings_foliage_binding, scalar) readonly buffer FoliageBlock {
   GpuFoliageBox foliage[];
@@ -45,9 +46,17 @@ float largest(vec3 v) {
   return max(max(magnitude.x, magnitude.y), magnitude.z);
 }
 
+GpuFacetPlane plane_of(uint facet) {
+  u64vec4 words = planes[facet];
+  uvec2 first = unpack32(words.x), second = unpack32(words.y), third = unpack32(words.z),
+        fourth = unpack32(words.w);
+  return GpuFacetPlane(uintBitsToFloat(uvec3(first, second.x)),
+                       uintBitsToFloat(uvec3(second.y, third)), fourth.x, fourth.y);
+}
+
 /// Returns a facet's plane where its body stands.
 GpuFacetPlane posed_plane(uint facet, uint body) {
-  GpuFacetPlane plane = planes[facet];
+  GpuFacetPlane plane = plane_of(facet);
   if (body != 0u) {
     plane.normal = body_direction(body, plane.normal);
     plane.point = body_point(body, plane.point);
@@ -79,7 +88,7 @@ bool near_edge(uint triangle, uint body, Ray ray, float at, float band) {
 /// two the end is dark, and only fp64 can tell.
 bool in_a_seam(vec3 end, uint facet, uint other, GpuFacetPlane plane) {
   if (facet == rf_none || other != rf_none || !lies_on(end, plane)) return false;
-  vec3 sine = cross(posed_plane(facet, planes[facet].body).normal, plane.normal);
+  vec3 sine = cross(posed_plane(facet, plane_of(facet).body).normal, plane.normal);
   return dot(sine, sine) >= crossings_seam_sine * crossings_seam_sine;
 }
 
@@ -112,7 +121,7 @@ bool is_closed(Depth depth) { return depth.net == 0 && depth.sum >= 0; }
 /// times their offset allows for 60 degrees from the normal of both walls.
 bool same_place(uint first, float first_distance, GpuFacetPlane second_plane, float second_distance,
                 float reach) {
-  GpuFacetPlane first_plane = posed_plane(first, planes[first].body);
+  GpuFacetPlane first_plane = posed_plane(first, plane_of(first).body);
   vec3 sine = cross(first_plane.normal, second_plane.normal);
   if (dot(sine, sine) < 1e-6) return lies_on(second_plane.point, first_plane);
   float offset = max(first_distance, second_distance) * 4.7683716e-7 + reach * 2.3841858e-7;
@@ -255,7 +264,7 @@ vec2 line_through_foliage(GpuSegment segment, vec3 d) {
 
 /// Adds a candidate of foliage, whose t is between the ends of `part`. Nothing ends the walk.
 bool measures(Candidate candidate, vec3 direction, vec2 part, inout Depth depth) {
-  if (candidate.facet != rf_none && planes[candidate.facet].kind == facet_kind_foliage)
+  if (candidate.facet != rf_none && plane_of(candidate.facet).kind == facet_kind_foliage)
     add_crossing(depth, posed_plane(candidate.facet, candidate.body), direction,
                  mix(part.x, part.y, candidate.t));
   return false;
