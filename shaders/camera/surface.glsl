@@ -10,11 +10,11 @@
 #include "lib/textures.glsl"
 
 layout(set = 0, binding = material_records_binding, scalar) readonly buffer MaterialRecordsBlock {
-  uvec4 material_records[];
+  u64vec2 material_records[];
 };
 
 uvec4 material_record(uint material, uint quad) {
-  return material_records[material * material_record_quads + quad];
+  return quad_of(material_records[material * material_record_quads + quad]);
 }
 
 /// Holds the place where textures are read, and the width of a pixel there.

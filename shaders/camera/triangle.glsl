@@ -5,19 +5,27 @@
 // device that masks its lanes jumps over a branch that no lane takes, unless it is short.
 #ifndef GREATX_CAMERA_TRIANGLE_GLSL
 #define GREATX_CAMERA_TRIANGLE_GLSL
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "camera/visibility_view.glsl"
 
+// Quadruples of words are 64 bits twice, as in lib/tree.glsl: a CPU driver pays for each load, not for its bits.
 layout(set = 0, binding = triangle_records_binding, scalar) readonly buffer TriangleRecordsBlock {
-  uvec4 triangle_records[];
+  u64vec2 triangle_records[];
 };
 
-layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer TriangleRecords { uvec4 v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer TriangleRecords { u64vec2 v[]; };
 layout(constant_id = spec_triangle_address) const bool triangle_address = false;
+
+uvec4 quad_of(u64vec2 words) { return uvec4(unpack32(words.x), unpack32(words.y)); }
 
 uvec4 triangle_record(uint triangle, uint quad) {
   uint at = triangle * triangle_record_quads + quad;
-  if (triangle_address) return TriangleRecords(packUint2x32(triangle_records[0].xy)).v[at];
-  return triangle_records[at];
+  u64vec2 words;
+  if (triangle_address)
+    words = TriangleRecords(triangle_records[0].x).v[at];
+  else
+    words = triangle_records[at];
+  return quad_of(words);
 }
 
 /// The planar depth and the barycentrics of the second and third corner along a ray d with dot(d, forward) =
