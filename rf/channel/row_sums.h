@@ -26,8 +26,8 @@ AddRows add_rows_avx2();
 /// Returns the fastest version for this processor.
 AddRows add_rows();
 
-/// Sets out[block * stride][re, im][lane] = firsts[block] * places[lane] for all blocks. Every product and sum
-/// is rounded on its own, as above.
+/// Sets out[block * stride][re, im][lane] = firsts[block] * places[lane] for all blocks. Every product and
+/// sum is rounded on its own, as above.
 using SetProducts = void (*)(const std::complex<double>* firsts, size_t blocks,
                              const std::complex<double>* places, double* out, size_t stride);
 

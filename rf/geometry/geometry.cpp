@@ -196,7 +196,8 @@ bool ImageTree::may_reach(const Node& node, const TargetInFacet& target) const {
 }
 
 /// Goes from the target back to the source and intersects the line to each image with the facet of that
-/// image. Calls visit(facet, point) for each reflection on the way; the calls mean nothing if it returns false.
+/// image. Calls visit(facet, point) for each reflection on the way; the calls mean nothing if it returns
+/// false.
 template <typename Visit>
 bool ImageTree::trace(uint32_t leaf, const dvec3& target, const Visit& visit) const {
   const PosedFacet* previous = nullptr;

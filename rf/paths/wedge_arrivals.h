@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Finds the wedges at which a path may bend towards a point. Very many sequences of reflections lead to a
-// wedge, and nearly all of them meet the edge's line beyond the edge's ends. The place of each sequence's image
-// beside the line is known before any point is asked for, so that such a sequence costs a few additions.
+// wedge, and nearly all of them meet the edge's line beyond the edge's ends. The place of each sequence's
+// image beside the line is known before any point is asked for, so that such a sequence costs a few
+// additions.
 #pragma once
 
 #include <cstdint>

@@ -45,8 +45,8 @@ class ChannelSearch {
   void renew(int64_t tick, const dvec3& transmitter, std::span<const dvec3> receivers,
              std::span<const Pose> bodies);
   /// Returns every path that exists geometrically between the transmitter and receiver `index`, and the
-  /// number of candidates that the searches left out. Uses `threads` threads. Changes nothing, so calls may run
-  /// in parallel.
+  /// number of candidates that the searches left out. Uses `threads` threads. Changes nothing, so calls may
+  /// run in parallel.
   rf::LinkGeometry geometry(size_t index, const rf::EndState& transmitter, const rf::EndState& receiver,
                             uint32_t threads) const;
   /// Returns the solver for the steps after the geometry of receiver `index`, which do not depend on the

@@ -8,6 +8,7 @@ All lines of the source (C++, GLSL, Python, CMake, shell) and of the scenarios i
 Markdown page the sentences are checked, but no table, block of code or picture.
 """
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -36,8 +37,9 @@ def checked_lines(path):
 
 def sources(root):
     """Returns the files of the project: those that git knows, or all outside of build/ and out/."""
-    listed = subprocess.run(["git", "-C", root, "ls-files", "-z"], capture_output=True, text=True)
-    if listed.returncode == 0:
+    git = shutil.which("git")
+    listed = git and subprocess.run([git, "-C", root, "ls-files", "-z"], capture_output=True, text=True)
+    if listed and listed.returncode == 0:
         names = [name for name in listed.stdout.split("\0") if name]
     else:
         names = [str(path.relative_to(root)) for path in root.rglob("*") if path.is_file()]

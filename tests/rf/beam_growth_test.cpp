@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Checks that a beam search of a town does not depend on the number of threads.
+// Checks that a beam search of a town does not depend on the number of threads, and how its work grows.
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -68,6 +68,18 @@ TEST(BeamGrowth, TheNumberOfThreadsChangesNothing) {
                   one.beams[i].half_b == many.beams[i].half_b && one.beams[i].walls == many.beams[i].walls)
           << threads << " threads, beam " << i;
   }
+}
+
+/// Work is counted (polygons projected, pairs compared), so that no clock decides. It grows 6.1 times, since
+/// the beams of the ground see the whole town near the horizon (docs/channel.md, what a search costs). A
+/// larger figure is a step back.
+TEST(BeamGrowth, WorkPerSequenceGrowsNoFasterThanItDid) {
+  const auto per_sequence = [](int blocks) {
+    const BeamSearchResult found = search(town(blocks), 0);
+    return static_cast<double>(found.work) / static_cast<double>(found.found);
+  };
+  const double small = per_sequence(8), large = per_sequence(32);
+  EXPECT_LT(large, 6.5 * small) << small << " " << large;
 }
 
 }  // namespace
