@@ -18,9 +18,9 @@
 // lies between two of the three.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#include "shared/rf.h"
 #include "lib/linear.glsl"
 #include "lib/trace.glsl"
+#include "shared/rf.h"
 
 layout(local_size_x = crossings_group) in;
 
@@ -50,8 +50,8 @@ GpuFacetPlane plane_of(uint facet) {
   u64vec4 words = planes[facet];
   uvec2 first = unpack32(words.x), second = unpack32(words.y), third = unpack32(words.z),
         fourth = unpack32(words.w);
-  return GpuFacetPlane(uintBitsToFloat(uvec3(first, second.x)),
-                       uintBitsToFloat(uvec3(second.y, third)), fourth.x, fourth.y);
+  return GpuFacetPlane(uintBitsToFloat(uvec3(first, second.x)), uintBitsToFloat(uvec3(second.y, third)),
+                       fourth.x, fourth.y);
 }
 
 /// Returns a facet's plane where its body stands.
@@ -115,28 +115,45 @@ void add_crossing(inout Depth depth, GpuFacetPlane plane, vec3 direction, float 
 /// must. A line that does not has slipped through an edge, or has met an edge twice.
 bool is_closed(Depth depth) { return depth.net == 0 && depth.sum >= 0; }
 
-/// Returns whether a segment passes two walls in one place. Parallel walls are in one place if they lie in
-/// one plane, which a segment passes only once (neighbours, duplicates). Other walls are if the segment meets
-/// their common edge. The three looks run side by side, which shifts the points where they meet a wall. Four
-/// times their offset allows for 60 degrees from the normal of both walls.
-bool same_place(uint first, float first_distance, GpuFacetPlane second_plane, float second_distance,
-                float reach) {
+// How two walls that a segment passes stand to each other.
+const uint walls_apart = 0u;
+const uint walls_in_one_place = 1u;
+const uint walls_unsure = 2u;  // the host decides
+
+/// Compares two walls. Parallel walls are in one place if they lie in one plane, which a segment passes only
+/// once (neighbours, duplicates). Other walls are if the segment meets their common edge. Whether they are is
+/// the rule of rf/paths/exact_crossings.cpp; what roundings of the planes or of the distances could turn is
+/// unsure, so that neither the order of walls nor the tracer matters. The three looks run side by side, which
+/// shifts the points where they meet a wall. Four times their offset allows for 60 degrees from the normal of
+/// both walls.
+uint compare_walls(uint first, float first_distance, GpuFacetPlane second_plane, float second_distance,
+                   float reach) {
   GpuFacetPlane first_plane = posed_plane(first, plane_of(first).body);
-  vec3 sine = cross(first_plane.normal, second_plane.normal);
-  if (dot(sine, sine) < 1e-6) return lies_on(second_plane.point, first_plane);
+  vec3 sine = cross(first_plane.normal, second_plane.normal),
+       between = second_plane.point - first_plane.point;
+  float sine2 = dot(sine, sine);
+  float off_first = abs(dot(first_plane.normal, between)),
+        off_second = abs(dot(second_plane.normal, between));
+  if (sine2 < 0.9e-6 && max(off_first, off_second) < 0.5 * visibility_coplanar_m) return walls_in_one_place;
   float offset = max(first_distance, second_distance) * 4.7683716e-7 + reach * 2.3841858e-7;
-  return abs(first_distance - second_distance) <= visibility_coplanar_m + 4.0 * offset;
+  bool near = abs(first_distance - second_distance) <= 2.0 * visibility_tolerance(reach) + 4.0 * offset;
+  float most = max(reach, max(largest(first_plane.point), largest(second_plane.point)));
+  bool off = min(off_first, off_second) > 2.0 * visibility_tolerance(most);
+  if (sine2 < 0.9e-6) return off ? walls_apart : walls_unsure;
+  if (sine2 > 1.1e-6) return near ? walls_unsure : walls_apart;
+  return off && !near ? walls_apart : walls_unsure;
 }
 
 /// Adds a wall. Returns false if there are more than `most`. Of several walls in one place the lowest index
 /// stays.
-bool add_wall(inout Walls walls, uint most, uint facet, GpuFacetPlane plane, float at, float reach) {
+bool add_wall(inout Walls walls, uint most, uint facet, GpuFacetPlane plane, float at, float reach,
+              inout bool open) {
   for (uint i = 0u; i < walls.count; ++i) {
     if (walls.facets[i] == facet) return true;
-    if (same_place(walls.facets[i], walls.distances[i], plane, at, reach)) {
-      walls.facets[i] = min(walls.facets[i], facet);
-      return true;
-    }
+    uint known = compare_walls(walls.facets[i], walls.distances[i], plane, at, reach);
+    if (known == walls_in_one_place) walls.facets[i] = min(walls.facets[i], facet);
+    open = open || known == walls_unsure;
+    if (known != walls_apart) return true;
   }
   if (walls.count == most) return false;
   walls.facets[walls.count] = facet;
@@ -182,7 +199,7 @@ bool stops(GpuSegment segment, Ray ray, bool beside, Candidate candidate, inout 
   }
   if (!wall) return true;
   return !add_wall(walls, segment.walls & ~crossings_end_in_foliage, facet, plane, at * length(direction),
-                   largest(segment.a));
+                   reach, open);
 }
 
 #define GREATX_WALK meet_obstacle

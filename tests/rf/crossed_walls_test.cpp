@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "rf/paths/exact_crossings.h"
 #include "tests/rf/crossings_support.h"
 
 namespace greatx::rf {
@@ -248,6 +249,48 @@ void check_against_reference(double shift) {
 }
 TEST(CrossedWalls, AgreeWithFp64OnRandomParallelograms) { check_against_reference(0.0); }
 TEST(CrossedWalls, AgreeWithFp64TenKilometresFromTheOrigin) { check_against_reference(10000.0); }
+
+/// Party walls of real maps: nearly in one plane, at offsets and angles where roundings decide whether they
+/// are one wall or two. Every tracer then leaves them to the host, so that the lists are those of the exact
+/// rule.
+TEST(CrossedWalls, WallsAsNearAsRoundingsCountAsTheExactRuleSays) {
+  RandomStream random(21, 0x70617274u);
+  size_t merged = 0, apart = 0;
+  for (int street = 0; street < 60; ++street) {
+    TinyScene tiny;
+    const dvec3 middle(random.uniform(-600, 600), random.uniform(-600, 600), 0.0);
+    for (int wall = 0; wall < 2; ++wall) {
+      const double turn = (street % 2 == 0 ? 1e-5 : 2e-3) * random.uniform(-1, 1);
+      const double at = random.uniform(-4e-4, 4e-4);
+      const dvec3 along(std::sin(turn), std::cos(turn), 0.0), from = middle + dvec3(at, 0, 0);
+      const dvec3 up(0, 0, random.uniform(9, 11));
+      const dvec3 a = from - random.uniform(15, 25) * along, b = from + random.uniform(15, 25) * along;
+      tiny.quad(a, b, b + up, a + up);
+    }
+    const scene::Scene scene = tiny.build();
+    const FacetKinds kinds = all_of(FacetKind::wall, scene);
+    const FacetWorld world(scene);
+    const ExactCrossings exact(scene, kinds);
+    std::vector<Segment> segments;
+    for (int i = 0; i < 80; ++i) {
+      const dvec3 point = middle + dvec3(0, random.uniform(-0.4, 0.4), random.uniform(1, 8));
+      const dvec3 way(random.uniform(2, 300), random.uniform(-300, 300), random.uniform(-0.5, 0.5));
+      segments.push_back(segment(point - 0.3 * way, point + 0.7 * way, 1 + random.below(2)));
+    }
+    const std::vector<Crossing> found = cross(scene, kinds, segments);
+    for (size_t i = 0; i < segments.size(); ++i) {
+      Crossing expected;
+      exact.settle(world, segments[i], expected);
+      ASSERT_EQ(found[i].blocked, expected.blocked) << street << ' ' << i;
+      if (expected.blocked) continue;
+      ASSERT_EQ(found[i].walls, expected.walls) << street << ' ' << i;
+      merged += expected.walls.size() == 1;
+      apart += expected.walls.size() == 2;
+    }
+  }
+  EXPECT_GT(merged, 300u);
+  EXPECT_GT(apart, 300u);
+}
 
 }  // namespace
 }  // namespace greatx::rf
