@@ -125,10 +125,12 @@ CrossingPass::CrossingPass(scene::GpuScene& scene, const FacetKinds& kinds, uint
   walls_ = std::find(kinds.begin(), kinds.end(), FacetKind::wall) != kinds.end();
   gpu::Device& device = scene.device();
   planes_ = gpu::upload_buffer(device, std::as_bytes(std::span(planes)), "facet planes");
+  planes_by_address_ = planes_.size() > std::min<uint64_t>(scene.options().most_table_bytes,
+                                                           device.limits().maxStorageBufferRange);
   foliage_ = gpu::upload_buffer(device, std::as_bytes(std::span(boxes)), "foliage boxes");
 
   gpu::ComputeDesc compute;
-  compute.specialization = {walls_ ? 1u : 0u, foliage_boxes_ > 0 ? 1u : 0u};
+  compute.specialization = {walls_ ? 1u : 0u, foliage_boxes_ > 0 ? 1u : 0u, planes_by_address_ ? 1u : 0u};
   scene.prepare_tracing(compute, "rf/crossings.comp");
   for (const uint32_t slot : {shared::crossings_segments_binding, shared::crossings_planes_binding,
                               shared::crossings_foliage_binding, shared::crossings_results_binding,
@@ -201,12 +203,13 @@ CrossingPass::Pending CrossingPass::record(gpu::TickSlot& slot, std::span<const 
 void CrossingPass::dispatch(gpu::Cmd& cmd, const Part& part, const Part& leaders, uint32_t row_words) {
   std::vector<gpu::Descriptor> descriptors = scene_->descriptors();
   descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_segments_binding, part.segments));
-  descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_planes_binding, planes_));
+  descriptors.push_back(
+      gpu::Descriptor::buffer(shared::crossings_planes_binding, planes_by_address_ ? foliage_ : planes_));
   descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_foliage_binding, foliage_));
   descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_results_binding, part.results));
   descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_leaders_binding, leaders.results));
   cmd.push(descriptors);
-  cmd.constants(shared::CrossingConstants{part.count, row_words, foliage_boxes_});
+  cmd.constants(shared::CrossingConstants{part.count, row_words, foliage_boxes_, planes_.address()});
   cmd.dispatch_linear(part.count, shared::crossings_group);
 }
 

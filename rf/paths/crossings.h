@@ -86,7 +86,7 @@ class CrossingPass {
   gpu::ComputePipeline pipeline_;
   gpu::Buffer planes_, foliage_;
   uint32_t foliage_boxes_ = 0;
-  bool walls_ = false;
+  bool walls_ = false, planes_by_address_ = false;
   uint64_t part_bytes_;
 };
 

@@ -26,6 +26,7 @@ layout(local_size_x = crossings_group) in;
 
 layout(constant_id = 0) const bool has_walls = true;
 layout(constant_id = 1) const bool has_foliage = true;
+layout(constant_id = 2) const bool planes_by_address = false;
 
 layout(set = 0, binding = crossings_segments_binding, scalar) readonly buffer SegmentsBlock {
   GpuSegment segments[];
@@ -33,6 +34,7 @@ layout(set = 0, binding = crossings_segments_binding, scalar) readonly buffer Se
 layout(set = 0, binding = crossings_planes_binding, scalar) readonly buffer PlanesBlock {
   u64vec4 planes[];  // GpuFacetPlane, as few loads (lib/tree.glsl)
 };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FarPlane { u64vec4 words; };
 layout(set = 0, binding = crossings_foliage_binding, scalar) readonly buffer FoliageBlock {
   GpuFoliageBox foliage[];
 };
@@ -47,7 +49,11 @@ float largest(vec3 v) {
 }
 
 GpuFacetPlane plane_of(uint facet) {
-  u64vec4 words = planes[facet];
+  u64vec4 words;
+  if (planes_by_address)
+    words = FarPlane(constants.planes + 32ul * facet).words;
+  else
+    words = planes[facet];
   uvec2 first = unpack32(words.x), second = unpack32(words.y), third = unpack32(words.z),
         fourth = unpack32(words.w);
   return GpuFacetPlane(uintBitsToFloat(uvec3(first, second.x)), uintBitsToFloat(uvec3(second.y, third)),

@@ -87,6 +87,7 @@ struct CrossingConstants {
   uint count;  // rows of this part
   uint row_words;
   uint foliage_boxes;
+  uint64_t planes;  // address of the planes, if they are larger than a storage buffer may be
 };
 
 /// A surface this close to an end of a segment does not block it, metres: the end lies on it as far as fp32

@@ -292,5 +292,26 @@ TEST(CrossedWalls, WallsAsNearAsRoundingsCountAsTheExactRuleSays) {
   EXPECT_GT(apart, 300u);
 }
 
+TEST(CrossedWalls, PlanesReadByAddressGiveTheSameAnswers) {
+  TinyScene tiny;
+  for (int i = 0; i < 5; ++i) wall_at(tiny, 2.0 * i);
+  const scene::Scene scene = tiny.build();
+  const FacetKinds kinds = all_of(FacetKind::wall, scene);
+  RandomStream random(3, 0x61646472u);
+  std::vector<Segment> segments;
+  for (int i = 0; i < 300; ++i)
+    segments.push_back(segment({random.uniform(-2, 11), random.uniform(-9, 9), 2.0},
+                               {random.uniform(-2, 11), random.uniform(-9, 9), 7.0}, random.below(5)));
+  const auto bound = cross(scene, kinds, segments),
+             far = cross(scene, kinds, segments, {Pose{}}, uint64_t{128} << 20, 64);
+  size_t walls = 0;
+  for (size_t i = 0; i < segments.size(); ++i) {
+    EXPECT_EQ(bound[i].blocked, far[i].blocked) << i;
+    EXPECT_EQ(bound[i].walls, far[i].walls) << i;
+    walls += far[i].walls.size();
+  }
+  EXPECT_GT(walls, 100u);
+}
+
 }  // namespace
 }  // namespace greatx::rf

@@ -16,9 +16,10 @@ namespace greatx::test {
 inline std::vector<rf::Crossing> cross(const scene::Scene& scene, const rf::FacetKinds& kinds,
                                        std::span<const rf::Segment> segments,
                                        const std::vector<Pose>& bodies = {Pose{}},
-                                       uint64_t part_bytes = uint64_t{128} << 20) {
+                                       uint64_t part_bytes = uint64_t{128} << 20,
+                                       uint64_t most_table_bytes = ~uint64_t{0}) {
   gpu::Device& gpu = device();
-  scene::GpuScene gpu_scene(gpu, scene, {});
+  scene::GpuScene gpu_scene(gpu, scene, {.most_table_bytes = most_table_bytes});
   rf::CrossingPass pass(gpu_scene, kinds, part_bytes);
   gpu::TickRing ring(gpu, 1, 1u << 16, 1u << 16);
   gpu::TickSlot& slot = ring.begin();
