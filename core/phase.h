@@ -36,6 +36,11 @@ inline double turns_of(double count, double spacing_hz, double delay_s) {
   return fraction_of_turn(turns_of(frequency.value, delay_s) + frequency.error * delay_s);
 }
 
+/// Returns the product without the checks for infinite values that operator* makes.
+inline std::complex<double> plain_product(std::complex<double> a, std::complex<double> b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
 /// Returns e^{j 2 pi turns}.
 inline std::complex<double> unit_phasor(double turns) {
   const double angle = 2.0 * pi * turns;

@@ -19,25 +19,20 @@ void check_count(std::span<const Path> paths, std::span<const TransferSpectrum> 
 constexpr size_t group = 8;            ///< blocks that share a phasor
 constexpr size_t groups_in_a_row = 8;  ///< groups whose phasors follow from the first one's
 
-/// The product without the checks for infinite values that operator* makes.
-Complex times(Complex a, Complex b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-
 /// Sets out[i] = e^{-j 2 pi i step delay} for i below 8, as products of the phasor at 1.
 void set_eight(double step_hz, double delay_s, Complex* out) {
   out[0] = 1.0;
   out[1] = unit_phasor(-turns_of(step_hz, delay_s));
   for (size_t power = 2; power < 8; power *= 2) {
-    out[power] = times(out[power / 2], out[power / 2]);
-    for (size_t i = 1; i < power; ++i) out[power + i] = times(out[power], out[i]);
+    out[power] = plain_product(out[power / 2], out[power / 2]);
+    for (size_t i = 1; i < power; ++i) out[power + i] = plain_product(out[power], out[i]);
   }
 }
 
 /// Sets e^{-j 2 pi f tau} at all subcarriers. The phasor of a subcarrier is the product of three: of the
 /// first subcarrier of its group of blocks, of its block in the group, of its place in the block. The first
 /// comes from exactly reduced turns at every eighth group. The others come from those of one step, so that a
-/// phasor has the error of at most 7 + 7 + 7 steps, 3e-15, wherever it is in the band.
+/// phasor has the roundings of at most 7 + 7 + 7 steps, below 1e-14, wherever it is in the band.
 void set_phasors(const ChannelGrid& grid, double delay_s, size_t term, ColumnFactors& factors) {
   static_assert(sum_lanes == 8 && group == 8);
   constexpr size_t group_columns = group * sum_lanes;
@@ -53,10 +48,10 @@ void set_phasors(const ChannelGrid& grid, double delay_s, size_t term, ColumnFac
       const double number = grid.subcarrier_number(static_cast<uint32_t>(block * sum_lanes));
       start = unit_phasor(-turns_of(number, grid.subcarrier_spacing_hz, delay_s));
     } else {
-      start = times(start, next_group);
+      start = plain_product(start, next_group);
     }
     const size_t blocks = std::min(group, factors.blocks() - block);
-    for (size_t i = 0; i < blocks; ++i) firsts[i] = times(start, steps[i]);
+    for (size_t i = 0; i < blocks; ++i) firsts[i] = plain_product(start, steps[i]);
     set(firsts, blocks, places, factors.at(block, term), factors.stride());
   }
 }

@@ -73,8 +73,10 @@ void LinkSum::check_spectra() const {
 
 template <typename Part>
 void LinkSum::write(std::complex<Part>* out, uint32_t threads) {
-  threads_ = std::max(1u, threads);
-  if (squints_) factors_.resize(std::min<size_t>(threads_, amplitudes_of_.leads().pairs()), factors_.front());
+  const size_t works = squints_ ? amplitudes_of_.leads().pairs() : rows_;
+  const bool shared = chunk_ * rows_ * columns_ >= least_shared;
+  workers_ = shared ? static_cast<uint32_t>(std::min<size_t>(std::max(1u, threads), works)) : 1;
+  if (squints_) factors_.resize(workers_, factors_.front());
   if (terms_ == 0) std::fill_n(out, size(), std::complex<Part>{});
   // Sums must last from chunk to chunk only if there are several chunks.
   if (terms_ > chunk_) sums_.assign(factors_.front().blocks() * rows_ * 2 * sum_lanes, 0.0);
@@ -141,10 +143,8 @@ void LinkSum::set_factors_of_elements(size_t pair, ColumnFactors& factors) {
 template <typename Part>
 void LinkSum::add(std::complex<Part>* out) {
   const size_t works = squints_ ? amplitudes_of_.leads().pairs() : rows_;
-  size_t workers = squints_ ? factors_.size() : std::min<size_t>(threads_, rows_);
-  if (loaded_.size() * rows_ * columns_ < least_shared) workers = 1;
-  parallel_for(workers, threads_, [&](size_t worker) {
-    const size_t first = works * worker / workers, end = works * (worker + 1) / workers;
+  parallel_for(workers_, workers_, [&](size_t worker) {
+    const size_t first = works * worker / workers_, end = works * (worker + 1) / workers_;
     if (!squints_) return add_rows_from(first, end, factors_.front(), out);
     for (size_t pair = first; pair < end; ++pair) add_elements(pair, factors_[worker], out);
   });

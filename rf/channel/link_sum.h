@@ -93,8 +93,8 @@ class LinkSum {
   std::vector<uint32_t> order_;  ///< indices of the paths that are summed
   /// Number of all terms, and of terms per chunk, which is a multiple of terms_per_path().
   size_t terms_, chunk_;
-  std::vector<ColumnFactors> factors_;  ///< one; with squint one a thread
-  uint32_t threads_ = 1;
+  std::vector<ColumnFactors> factors_;  ///< one; with squint one a worker
+  uint32_t workers_ = 1;                ///< threads that divide the rows
   size_t rows_;
   std::vector<Term> loaded_;                ///< of the chunk
   std::vector<double> leads_s_;             ///< [chunk, pairs of elements]; empty without squint

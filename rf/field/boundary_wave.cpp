@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/phase.h"
 #include "core/units.h"
 
 namespace greatx::rf {
@@ -19,11 +20,6 @@ constexpr double far_phase = 16.0;
 constexpr double short_phase = 12.0;
 /// Largest change of the phase from the middle of a panel of the quadrature to its ends.
 constexpr double panel_phase = 4.0;
-
-/// The product without the checks for infinite values that operator* makes.
-Complex times(Complex a, Complex b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
 
 /// The square root with a positive real part, for numbers that are not near the negative real axis.
 Complex root(Complex z) {
@@ -204,17 +200,17 @@ class Line {
       const double x = reach * rule.node[i], side = x * std::sqrt(0.5) / root_k;
       // (zeta + e^{-j pi/4} x)^2
       const Complex more(zeta * (zeta + 2.0 * side), -2.0 * side * (zeta + side)), total = shortest_ + more;
-      const Complex roots = root(times(total + shortest_, total + root_b_));
-      const Complex below =
-          times(times(least_excess_ + more, total + length_), times(roots, root(above_b + more)));
+      const Complex roots = root(plain_product(total + shortest_, total + root_b_));
+      const Complex below = plain_product(plain_product(least_excess_ + more, total + length_),
+                                          plain_product(roots, root(above_b + more)));
       const double swing = linear * x, decay = std::exp(-x * x - swing);
       // conj(below) / |below|^2 = 1 / below
       sum += rule.weight[i] * decay / std::norm(below) *
-             times(Complex(std::cos(swing), -std::sin(swing)), std::conj(below));
+             plain_product(Complex(std::cos(swing), -std::sin(swing)), std::conj(below));
     }
     const double phase = k_ * (least_excess_ + zeta * zeta);
-    return times(4.0 * length_ * triple_ * reach / root_k * turn,
-                 times(Complex(std::cos(phase), -std::sin(phase)), sum));
+    return plain_product(4.0 * length_ * triple_ * reach / root_k * turn,
+                         plain_product(Complex(std::cos(phase), -std::sin(phase)), sum));
   }
 
   const UnfoldedRay& ray_;

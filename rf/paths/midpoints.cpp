@@ -333,7 +333,7 @@ LeftOut Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t ta
     search.max_transmissions = model_->effects.transmission ? limits_.max_transmissions : 0;
     search.moving_bodies = moving_bodies_;
     search.source_body = target_body;
-    search.threads = 1;  // targets are solved in parallel
+    search.threads = threads;
     BeamSearchResult result =
         BeamSearch(model_->facets, model_->kinds, model_->wedges, search).search(target);
     left_out = {result.overflow(), result.complete_depth()};

@@ -5,11 +5,9 @@
 // device that masks its lanes jumps over a branch that no lane takes, unless it is short.
 #ifndef GREATX_CAMERA_TRIANGLE_GLSL
 #define GREATX_CAMERA_TRIANGLE_GLSL
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "camera/visibility_view.glsl"
+#include "lib/words.glsl"
 
-// Quadruples of words are 64 bits twice, as in lib/tree.glsl: a CPU driver pays for each load, not for its
-// bits.
 layout(set = 0, binding = triangle_records_binding, scalar) readonly buffer TriangleRecordsBlock {
   u64vec2 triangle_records[];
 };
@@ -18,8 +16,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Tr
   u64vec2 v[];
 };
 layout(constant_id = spec_triangle_address) const bool triangle_address = false;
-
-uvec4 quad_of(u64vec2 words) { return uvec4(unpack32(words.x), unpack32(words.y)); }
 
 uvec4 triangle_record(uint triangle, uint quad) {
   uint at = triangle * triangle_record_quads + quad;

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The parts of a walk through the trees of shared/tree.h, one ray an invocation; lib/tree_walk.glsl puts them
-// together. They are made for drivers that run eight invocations in a CPU's vector registers. There a load
-// is a branch for each invocation and each component, with a test of the buffer's size, and takes most of a
-// walk's time. Therefore a node is 32 bytes, read as four components of 64 bits. The rules for every back end
-// (lib/trace.glsl) hold here, and also these:
+// together. They are made for drivers that run eight invocations in a CPU's vector registers, where loads
+// take most of a walk's time. Therefore a node is 32 bytes, read as four components of 64 bits
+// (lib/words.glsl). The rules for every back end (lib/trace.glsl) hold here, and also these:
 //
 // - The tracing is watertight: the triangle test is S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle
 //   intersection", JCGT 2(1), 2013. A ray exactly on an edge is inside both of its triangles, which needs no
@@ -15,9 +14,8 @@
 // - A ray is taken into the frame of a moving body, which is rigid: lengths along the ray stay.
 #ifndef GREATX_LIB_TREE_GLSL
 #define GREATX_LIB_TREE_GLSL
+#include "lib/words.glsl"
 #include "shared/tree.h"
-
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
 layout(constant_id = trees_by_address_id) const bool trees_by_address = false;
 
@@ -31,12 +29,6 @@ layout(set = 0, binding = body_tree_binding, scalar) readonly buffer BodyTreePai
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer FarQuad { u64vec2 words; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer FarPair { u64vec4 words; };
 
-struct QuadPair {
-  uvec4 first, second;
-};
-QuadPair pair_of(u64vec4 words) {
-  return QuadPair(uvec4(unpack32(words.x), unpack32(words.y)), uvec4(unpack32(words.z), unpack32(words.w)));
-}
 /// Returns the quadruple of an even index and the one after it.
 QuadPair tree_pair(uint quad) {
   if (trees_by_address) return pair_of(FarPair(scene.trees + 16ul * quad).words);
@@ -49,7 +41,7 @@ uvec4 tree_quad(uint quad) {
     words = FarQuad(scene.trees + 16ul * quad).words;
   else
     words = tree_quads[quad];
-  return uvec4(unpack32(words.x), unpack32(words.y));
+  return quad_of(words);
 }
 
 /// Holds the rows of the shear that takes the ray to the z axis at unit speed. Their elements are 0, 1 and

@@ -17,9 +17,9 @@
 // it meets a surface that it does not meet itself. A straight edge that passes within half of their radius
 // lies between two of the three.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "lib/linear.glsl"
 #include "lib/trace.glsl"
+#include "lib/words.glsl"
 #include "shared/rf.h"
 
 layout(local_size_x = crossings_group) in;
@@ -32,7 +32,7 @@ layout(set = 0, binding = crossings_segments_binding, scalar) readonly buffer Se
   GpuSegment segments[];
 };
 layout(set = 0, binding = crossings_planes_binding, scalar) readonly buffer PlanesBlock {
-  u64vec4 planes[];  // GpuFacetPlane, as few loads (lib/tree.glsl)
+  u64vec4 planes[];  // GpuFacetPlane, as few loads (lib/words.glsl)
 };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FarPlane { u64vec4 words; };
 layout(set = 0, binding = crossings_foliage_binding, scalar) readonly buffer FoliageBlock {
@@ -54,10 +54,10 @@ GpuFacetPlane plane_of(uint facet) {
     words = FarPlane(constants.planes + 32ul * facet).words;
   else
     words = planes[facet];
-  uvec2 first = unpack32(words.x), second = unpack32(words.y), third = unpack32(words.z),
-        fourth = unpack32(words.w);
-  return GpuFacetPlane(uintBitsToFloat(uvec3(first, second.x)), uintBitsToFloat(uvec3(second.y, third)),
-                       fourth.x, fourth.y);
+  QuadPair quads = pair_of(words);
+  return GpuFacetPlane(uintBitsToFloat(quads.first.xyz),
+                       uintBitsToFloat(uvec3(quads.first.w, quads.second.xy)), quads.second.z,
+                       quads.second.w);
 }
 
 /// Returns a facet's plane where its body stands.
