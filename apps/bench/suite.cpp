@@ -17,6 +17,7 @@
 #include "apps/bench/suite_embree.h"
 #include "apps/bench/suite_output.h"
 #include "apps/bench/suite_passes.h"
+#include "apps/bench/suite_tick.h"
 #include "apps/console/progress.h"
 #include "apps/console/summary.h"
 #include "core/parallel.h"
@@ -41,9 +42,11 @@ struct Step {
   SuiteWork work;
   std::vector<SuiteKind> kinds;
   bool embree = false;
+  bool whole_ticks = false;
   /// Returns the expected duration, in units that only the progress knows: rows first, then triangles.
   int64_t weight() const {
-    return int64_t{20} * static_cast<int64_t>(kinds.size()) + static_cast<int64_t>(scene.triangles / 10'000);
+    const int64_t rows = static_cast<int64_t>(kinds.size()) + (whole_ticks ? 4 : 0);
+    return 20 * rows + static_cast<int64_t>(scene.triangles / 10'000);
   }
 };
 
@@ -54,15 +57,16 @@ std::vector<Step> suite_steps(const SuiteOptions& options) {
                                        SuiteKind::candidates, SuiteKind::radar};
   std::vector<SuiteKind> all = tracing;
   all.push_back(SuiteKind::camera);
+  all.push_back(SuiteKind::events);
   std::vector<Step> steps;
   for (const uint64_t triangles : triangle_sizes)
-    if (triangles <= most) steps.push_back({"triangles", triangles, {triangles, 0, 0}, {}, all, true});
+    if (triangles <= most) steps.push_back({"triangles", triangles, {triangles, 0, 0}, {}, all, true, true});
   for (const uint32_t bodies : {1u, 10u, 100u})
-    steps.push_back({"bodies", bodies, {middle, bodies, 0}, {}, all, false});
+    steps.push_back({"bodies", bodies, {middle, bodies, 0}, {}, all, false, true});
   for (const uint32_t lamps : {1u, 10u, 100u, 1000u})
-    steps.push_back({"lamps", lamps, {middle, 0, lamps}, {}, {SuiteKind::lamps}, false});
+    steps.push_back({"lamps", lamps, {middle, 0, lamps}, {}, {SuiteKind::lamps}, false, false});
   for (const uint32_t receivers : {1u, 10u, 100u, 1000u}) {
-    Step step{"receivers", receivers, {middle, 0, 0}, {}, {SuiteKind::crossings}, false};
+    Step step{"receivers", receivers, {middle, 0, 0}, {}, {SuiteKind::crossings}, false, false};
     step.work.rays = receivers;  // the lines of sight from one mast
     steps.push_back(step);
   }
@@ -112,7 +116,8 @@ class Suite {
  public:
   Suite(const RunOptions& run, const SuiteOptions& options, bool quiet)
       : options_(options),
-        device_(run.device_options()),
+        device_options_(run.device_options()),
+        device_(device_options_),
         ring_(device_, 1, 1u << 20, 1u << 20),
         steps_(suite_steps(options)),
         progress_("suite", total(steps_), quiet, "") {
@@ -172,6 +177,8 @@ class Suite {
         measure(step, scene, step.kinds[i], stages);
         progress_.update(done_ + step.weight() * int64_t(i + 1) / int64_t(step.kinds.size()));
       }
+      stages.clear();  // the simulator has a copy of its own
+      if (step.whole_ticks) measure_ticks(step, scene);
       result_["scenes"].push_back({{"axis", step.axis},
                                    {"size", step.size},
                                    {"triangles", scene.scene.triangle_count()},
@@ -231,6 +238,30 @@ class Suite {
     if (step.embree && !SuiteEmbree::version().empty()) beside(step, scene, kind, answers[0]);
   }
 
+  /// Measures ticks of all modalities with every tracer, one after the other.
+  void measure_ticks(const Step& step, const SuiteScene& scene) {
+    for (const gpu::Tracer tracer : tracers_) {
+      Times times;
+      try {
+        gpu::DeviceOptions options = device_options_;
+        options.tracer = tracer;
+        gpu::Device device(options);
+        SuiteTick tick(device, scene);
+        tick.run();  // warms up
+        for (uint32_t round = 0; round < options_.repeats && !long_enough({times}, round); ++round) {
+          times.measure([&] { tick.run(); });
+          stop_if_interrupted();
+        }
+        check_validation(device);
+      } catch (const UserError& error) {
+        skip(step, "whole tick", error.what());
+        return;
+      }
+      add(step, "whole tick", "all", "ticks", std::string(gpu::name_of(tracer)), SuiteTick::ticks_of_a_run,
+          times);
+    }
+  }
+
   /// Adds the row of Embree, if it can trace the rays of the pass.
   void beside(const Step& step, const SuiteScene& scene, SuiteKind kind,
               const std::vector<SuiteAnswer>& answers) {
@@ -259,6 +290,7 @@ class Suite {
     pass.record(slot, poses);
     ring_.submit(slot);
     ring_.wait(slot);
+    pass.collect(slot);
     return slot;
   }
   std::vector<SuiteAnswer> submit(const Stage& stage, SuitePass& pass, const std::vector<Pose>& poses) {
@@ -298,6 +330,7 @@ class Suite {
   }
 
   const SuiteOptions options_;
+  const gpu::DeviceOptions device_options_;
   gpu::Device device_;
   gpu::TickRing ring_;
   std::vector<Step> steps_;

@@ -226,6 +226,7 @@ const std::vector<SuiteKindInfo>& suite_kinds() {
       {SuiteKind::candidates, "candidate rays", "channel", "rays", true},
       {SuiteKind::radar, "radar rays", "radar", "rays", true},
       {SuiteKind::camera, "camera picture", "camera", "pixels", false},
+      {SuiteKind::events, "event interval", "events", "pixels", false},
       {SuiteKind::lamps, "camera at night", "camera", "pixels", false}};
   return kinds;
 }
@@ -235,7 +236,9 @@ const SuiteKindInfo& info_of(SuiteKind kind) {
 }
 
 uint64_t suite_count(SuiteKind kind, const SuiteWork& work) {
-  if (!info_of(kind).traces) return uint64_t{work.width} * work.height;
+  const uint64_t pixels = uint64_t{work.width} * work.height;
+  if (kind == SuiteKind::events) return suite_event_pictures * pixels;
+  if (!info_of(kind).traces) return pixels;
   if (kind == SuiteKind::lidar) return uint64_t{std::max(1u, work.rays / lidar_channels)} * lidar_channels;
   return work.rays;
 }
@@ -253,6 +256,8 @@ std::unique_ptr<SuitePass> make_suite_pass(SuiteKind kind, scene::GpuScene& gpu_
       return std::make_unique<CandidateRays>(gpu_scene, scene, work);
     case SuiteKind::radar:
       return std::make_unique<RadarRays>(gpu_scene, scene, work);
+    case SuiteKind::events:
+      return make_suite_events(gpu_scene, scene, work);
     case SuiteKind::camera:
     case SuiteKind::lamps:
       return make_suite_picture(gpu_scene, scene, work, kind == SuiteKind::lamps);

@@ -45,6 +45,8 @@ class SuitePass {
   virtual ~SuitePass() = default;
   /// Records the pass into the slot, for a scene whose update was recorded before.
   virtual void record(gpu::TickSlot& slot, const std::vector<Pose>& bodies) = 0;
+  /// Takes what the host makes of the slot's submission, which is done. It belongs to the measured time.
+  virtual void collect(const gpu::TickSlot& slot) { (void)slot; }
   /// Returns one answer for each ray, after the slot's submission is done; empty if the pass traces no rays.
   virtual std::vector<SuiteAnswer> answers(const std::vector<Pose>& bodies) {
     (void)bodies;
@@ -53,7 +55,7 @@ class SuitePass {
 };
 
 /// Names of the passes, in the order of the rows.
-enum class SuiteKind { single_rays, lidar, crossings, candidates, radar, camera, lamps };
+enum class SuiteKind { single_rays, lidar, crossings, candidates, radar, camera, events, lamps };
 struct SuiteKindInfo {
   SuiteKind kind;
   const char* name;
@@ -64,7 +66,7 @@ struct SuiteKindInfo {
 const std::vector<SuiteKindInfo>& suite_kinds();
 const SuiteKindInfo& info_of(SuiteKind kind);
 
-/// Returns the number of units of one run: rays, segments or pixels.
+/// Returns the number of units of one run: rays, segments, or pixels of all pictures.
 uint64_t suite_count(SuiteKind kind, const SuiteWork& work);
 /// Makes a pass. Both arguments outlive it.
 std::unique_ptr<SuitePass> make_suite_pass(SuiteKind kind, scene::GpuScene& gpu_scene,

@@ -4,6 +4,7 @@
 
 #include "core/units.h"
 #include "renderer/camera/camera.h"
+#include "renderer/event/event_pass.h"
 #include "renderer/light/lighting.h"
 
 namespace greatx::apps {
@@ -37,12 +38,16 @@ render::CameraDesc suite_camera(const SuiteWork& work) {
   return desc;
 }
 
+Pose view_of(const SuiteScene& scene, double yaw) {
+  return {scene.mast, orientation_from_yaw_pitch_roll(yaw, radians(15.0), 0.0)};
+}
+
 class SuitePicture : public SuitePass {
  public:
   SuitePicture(scene::GpuScene& gpu_scene, const SuiteScene& scene, const SuiteWork& work, bool night)
       : lighting_(gpu_scene, suite_light(night), suite_effects(night)),
         camera_(lighting_, suite_camera(work)),
-        pose_{scene.mast, orientation_from_yaw_pitch_roll(0.3, radians(15.0), 0.0)} {}
+        pose_(view_of(scene, 0.3)) {}
   void record(gpu::TickSlot& slot, const std::vector<Pose>& bodies) override {
     lighting_.record(slot, bodies);
     camera_.record(slot, pose_);
@@ -54,7 +59,63 @@ class SuitePicture : public SuitePass {
   Pose pose_;
 };
 
+render::CameraDesc luminance_camera(const SuiteWork& work) {
+  render::CameraDesc desc = suite_camera(work);
+  desc.outputs = render::CameraOutputs::of_luminance(false);
+  return desc;
+}
+
+render::EventDesc suite_event_camera(const SuiteWork& work) {
+  render::EventDesc desc;
+  desc.width = work.width;
+  desc.height = work.height;
+  desc.substeps = suite_event_pictures;
+  desc.capacity = 16 * work.width * work.height;
+  return desc;
+}
+
+class SuiteEvents : public SuitePass {
+ public:
+  SuiteEvents(scene::GpuScene& gpu_scene, const SuiteScene& scene, const SuiteWork& work)
+      : gpu_(gpu_scene),
+        scene_(scene),
+        lighting_(gpu_scene, suite_light(false), suite_effects(false)),
+        camera_(lighting_, luminance_camera(work)),
+        events_(gpu_scene, suite_event_camera(work)) {}
+
+  void record(gpu::TickSlot& slot, const std::vector<Pose>& bodies) override {
+    const bool first = events_.first();
+    const int64_t begin_ns = first ? 0 : interval_ns * sample_;
+    if (!first) ++sample_;
+    events_.begin(slot, {begin_ns, interval_ns * sample_, sample_, 0});
+    for (uint32_t i = first ? 0 : 1; i <= (first ? 0 : suite_event_pictures); ++i) {
+      gpu_.record_poses(slot, bodies);
+      lighting_.record(slot, bodies);
+      // 0.8 degrees in an interval: 2.2 pixels in the middle of the picture.
+      const double turns = double(sample_) - 1.0 + double(i) / suite_event_pictures;
+      camera_.record(slot, view_of(scene_, 0.3 + radians(0.8) * turns));
+      events_.step(slot, i, camera_.luminance(), nullptr, {});
+    }
+    events_.end(slot, camera_.luminance());
+  }
+  void collect(const gpu::TickSlot& slot) override { events_.collect(slot); }
+
+ private:
+  static constexpr int64_t interval_ns = 100'000'000;
+  scene::GpuScene& gpu_;
+  const SuiteScene& scene_;
+  render::SceneLighting lighting_;
+  render::CameraPass camera_;
+  render::EventPass events_;
+  int64_t sample_ = 0;
+};
+
 }  // namespace
+
+std::unique_ptr<SuitePass> make_suite_events(scene::GpuScene& gpu_scene, const SuiteScene& scene,
+                                             const SuiteWork& work) {
+  return std::make_unique<SuiteEvents>(gpu_scene, scene, work);
+}
 
 std::unique_ptr<SuitePass> make_suite_picture(scene::GpuScene& gpu_scene, const SuiteScene& scene,
                                               const SuiteWork& work, bool night) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -33,12 +34,13 @@ class SuiteBuilder {
     scene_.facets.reserve(triangles / 2 + 1);
     scene_.facet_triangles.reserve(triangles);
     scene_.facet_of_triangle.reserve(triangles);
-    for (const auto& [name, color] : {std::pair{"ground", vec3(0.30f, 0.32f, 0.28f)},
-                                      {"wall", vec3(0.62f, 0.55f, 0.48f)},
-                                      {"paint", vec3(0.20f, 0.35f, 0.65f)}}) {
+    for (const auto& [name, medium, color] : {std::tuple{"ground", "concrete", vec3(0.30f, 0.32f, 0.28f)},
+                                              {"wall", "concrete", vec3(0.62f, 0.55f, 0.48f)},
+                                              {"paint", "metal", vec3(0.20f, 0.35f, 0.65f)}}) {
       scene::Material material;
       material.name = name;
       material.pbr.base_color = vec4(color, 1.0f);
+      material.radio.emplace().layers.push_back({*scene::itu_medium(medium), 0.0});
       scene_.materials.push_back(material);
     }
   }

@@ -12,7 +12,8 @@ import pathlib
 import sys
 
 BEGIN, END = "<!-- devices: begin -->\n", "<!-- devices: end -->\n"
-PASSES = ["single rays", "LiDAR sweep", "path segments", "candidate rays", "radar rays", "camera picture"]
+PASSES = ["single rays", "LiDAR sweep", "path segments", "candidate rays", "radar rays", "camera picture",
+          "event interval", "whole tick"]
 DEVICE_FIELDS = {"name": str, "type": str, "driver": str, "api_version": str, "mesa": str, "llvm": str}
 FIELDS = {"greatx": str, "device": dict, "cores": int, "date": str, "embree": str, "triangles": int,
           "note": str, "passes": list}
@@ -51,12 +52,13 @@ def cell(text: str) -> str:
 
 
 def rates(device: dict, name: str) -> str:
-    """Returns millions of units per second, the fastest tracer of greatx with its name."""
+    """Returns the rate of greatx's fastest tracer with its name: millions of units per second, or ticks."""
     rows = [row for row in device["passes"] if row["pass"] == name and row["tracer"] != "embree"]
     if not rows:
         return "–"
     best = max(rows, key=lambda row: row["per_second"])
-    return f"{best['per_second'] / 1e6:.2f} ({best['tracer']})"
+    rate = best["per_second"] / (1 if best["unit"] == "ticks" else 1e6)
+    return f"{rate:.2f} ({best['tracer']})"
 
 
 def table(folder: pathlib.Path) -> str:

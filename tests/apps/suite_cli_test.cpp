@@ -55,13 +55,15 @@ TEST(Suite, MeasuresEveryPassWithEveryTracerAndWritesItsFiles) {
   std::vector<std::string> tracers{"tree"};
   if (result["device"]["ray_query"]) tracers.push_back("driver");
   for (const std::string& tracer : tracers) {
-    for (const char* pass :
-         {"set-up", "single rays", "LiDAR sweep", "path segments", "candidate rays", "radar rays"})
+    for (const char* pass : {"set-up", "single rays", "LiDAR sweep", "path segments", "candidate rays",
+                             "radar rays", "whole tick"})
       EXPECT_TRUE(seen.contains(fmt::format("triangles 1000 {} {}", pass, tracer))) << pass << " " << tracer;
     EXPECT_TRUE(seen.contains("bodies 100 radar rays " + tracer));
+    EXPECT_TRUE(seen.contains("bodies 100 whole tick " + tracer));
     EXPECT_TRUE(seen.contains("receivers 1000 path segments " + tracer));
   }
   EXPECT_TRUE(seen.contains("triangles 1000 camera picture raster"));
+  EXPECT_TRUE(seen.contains("triangles 1000 event interval raster"));
   EXPECT_TRUE(seen.contains("lamps 1000 camera at night raster"));
   EXPECT_EQ(seen.contains("triangles 1000 single rays embree"), result["embree"] != "");
   const std::string table = read_file(folder / "suite.md");
@@ -72,7 +74,7 @@ TEST(Suite, MeasuresEveryPassWithEveryTracerAndWritesItsFiles) {
   const nlohmann::json device = nlohmann::json::parse(read_file(folder / "device.json"));
   EXPECT_EQ(device["triangles"], 1000);
   EXPECT_EQ(device["device"], result["device"]);
-  EXPECT_GE(device["passes"].size(), 6u * tracers.size() + 1);
+  EXPECT_GE(device["passes"].size(), 7u * tracers.size() + 2);
 }
 
 TEST(Suite, NeedsAFolder) {
