@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/suite_tick.h"
 
-#include <numeric>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,11 +63,13 @@ constexpr int64_t tick_limit = 1000;  ///< ticks that the bodies' trajectories l
 
 std::string rig_text(const SuiteScene& scene) {
   const double seconds = 0.1 * double(tick_limit);
-  std::string text =
-      fmt::format(fmt::runtime(tick_rig), fmt::arg("ticks", tick_limit), fmt::arg("seconds", seconds),
-                  fmt::arg("x", scene.mast.x), fmt::arg("y", scene.mast.y), fmt::arg("z", scene.mast.z),
-                  fmt::arg("ue_x", scene.cell_m), fmt::arg("ue_y", -scene.cell_m),
-                  fmt::arg("ue_end", -0.8 * scene.cell_m));
+  // The receiver goes along the street between two rows of boxes, some cells from the mast.
+  const double street =
+      -0.5 * scene.side_m + scene.cell_m * (std::floor(0.5 * scene.side_m / scene.cell_m) + 1.0);
+  std::string text = fmt::format(
+      fmt::runtime(tick_rig), fmt::arg("ticks", tick_limit), fmt::arg("seconds", seconds),
+      fmt::arg("x", scene.mast.x), fmt::arg("y", scene.mast.y), fmt::arg("z", scene.mast.z),
+      fmt::arg("ue_x", street), fmt::arg("ue_y", -scene.cell_m), fmt::arg("ue_end", -0.8 * scene.cell_m));
   const std::vector<Pose> first = suite_poses(scene, 0), last = suite_poses(scene, 30);
   for (size_t body = 1; body < first.size(); ++body) {
     const dvec3 a = first[body].position, b = last[body].position;
