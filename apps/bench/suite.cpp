@@ -240,6 +240,12 @@ class Suite {
 
   /// Measures ticks of all modalities with every tracer, one after the other.
   void measure_ticks(const Step& step, const SuiteScene& scene) {
+    const uint64_t needed = suite_tick_bytes(step.scene.triangles), free = available_bytes();
+    if (needed > free) {
+      skip(step, "whole tick",
+           fmt::format("needs about {} MiB more memory, {} MiB are free", needed >> 20, free >> 20));
+      return;
+    }
     for (const gpu::Tracer tracer : tracers_) {
       Times times;
       try {

@@ -202,4 +202,6 @@ uint64_t suite_bytes(uint64_t triangles, size_t tracers) {
   return base_bytes + triangles * (650 + 350 * uint64_t{tracers});
 }
 
+uint64_t suite_tick_bytes(uint64_t triangles) { return base_bytes + triangles * 2'400; }
+
 }  // namespace greatx::apps

@@ -38,5 +38,8 @@ std::vector<Pose> suite_poses(const SuiteScene& scene, uint32_t round);
 /// Returns an estimate of the memory that a suite of `triangles` needs at its peak: for the scene, the
 /// passes, and for each of `tracers` the copy on the device with its tree.
 uint64_t suite_bytes(uint64_t triangles, size_t tracers);
+/// Returns an estimate of the memory that whole ticks need beside the scene: another copy of it, its surfaces
+/// prepared for radar and channel, and the copy on the device.
+uint64_t suite_tick_bytes(uint64_t triangles);
 
 }  // namespace greatx::apps

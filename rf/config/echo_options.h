@@ -11,6 +11,7 @@
 
 #include "core/vec.h"
 #include "rf/antenna/element.h"
+#include "rf/config/radar_config.h"
 
 namespace greatx::rf {
 
@@ -61,10 +62,12 @@ struct EchoOptions {
 
   /// Coherent fields fall by Ament's factor of the materials' rms heights.
   bool roughness = false;
-  /// Rough surfaces scatter as their materials say, with phases that are fixed to the surface.
+  /// Rough surfaces send back what their materials scatter (docs/clutter.md).
   bool diffuse = false;
-  double diffuse_patch_m = 0.25;  ///< side of a patch, whose scattering has one random phase, metres
-  uint64_t seed = 1;              ///< seed of these phases
+  /// Side of the squares with one scatterer each, metres. 0: half a range cell of `waveform`.
+  double diffuse_patch_m = 0.0;
+  uint64_t seed = 1;       ///< seed of the scatterers
+  RadarWaveform waveform;  ///< of the radar, if `diffuse`
 
   /// Tubes merge into one echo if they fall into one cell of delay, delay rate and direction at both ends.
   /// The size of a cell is `merge_share` times the resolution of an output: 1/bandwidth, wavelength/frame,

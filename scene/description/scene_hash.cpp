@@ -53,7 +53,7 @@ void feed(Feeder& feeder, const RadioMedium& medium) {
 
 void feed(Feeder& feeder, const RadioMaterial& radio) {
   const auto& [layers, foliage, scattering_coefficient, pattern, pattern_exponent, backscatter_exponent,
-               backscatter_share, cross_polarization, roughness_m] = radio;
+               backscatter_share, cross_polarization, roughness_m, clutter] = radio;
   if (foliage) {
     const auto& [attenuation_db_per_m] = *foliage;
     feeder.values(static_cast<uint32_t>(attenuation_db_per_m.has_value()),
@@ -67,6 +67,10 @@ void feed(Feeder& feeder, const RadioMaterial& radio) {
   }
   feeder.values(scattering_coefficient, static_cast<uint32_t>(pattern), pattern_exponent,
                 backscatter_exponent, backscatter_share, cross_polarization, roughness_m);
+  if (!clutter) return;
+  const auto& [form, level_db, angle_db, frequency_db, sea_state, cross_db] = *clutter;
+  feeder.text("clutter").values(static_cast<uint32_t>(form), level_db, angle_db, frequency_db, sea_state,
+                                cross_db);
 }
 
 void feed(Feeder& feeder, const PbrMaterial& pbr) {

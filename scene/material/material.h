@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "scene/material/clutter.h"
 
 namespace greatx::scene {
 
@@ -72,7 +73,7 @@ struct Foliage {
 struct RadioMaterial {
   /// At least one layer, or none for foliage. A single layer of thickness 0 is a half-space.
   std::vector<RadioLayer> layers;
-  /// A volume instead of a surface. The fields below then have no meaning.
+  /// A volume instead of a surface. The fields below, except `clutter`, then have no meaning.
   std::optional<Foliage> foliage;
   double scattering_coefficient = 0.0;  ///< S in [0, 1]
   ScatteringPattern pattern = ScatteringPattern::lambertian;
@@ -81,6 +82,9 @@ struct RadioMaterial {
   double backscatter_share = 0.5;     ///< 1 - Lambda, the part of the energy in the backscattering lobe
   double cross_polarization = 0.0;    ///< K_x in [0, 1]
   double roughness_m = 0.0;           ///< rms height
+  /// The power that the surface, or the outside of foliage, sends back to radars; empty: that which
+  /// `scattering_coefficient` scatters back.
+  std::optional<SurfaceClutter> clutter;
   friend bool operator==(const RadioMaterial&, const RadioMaterial&) = default;
 };
 

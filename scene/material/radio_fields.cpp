@@ -25,6 +25,7 @@ const Keys material_keys = Keys{"foliage", "layers"} + layer_keys + Keys{"scatte
                                                                          "backscatter_share",
                                                                          "cross_polarization",
                                                                          "roughness_m",
+                                                                         "clutter",
                                                                          "reflectance_905nm",
                                                                          "reflectance_1550nm"};
 
@@ -203,7 +204,7 @@ std::optional<Foliage> read_foliage(const FieldMap& map) {
   const std::optional<Field> field = map.find("foliage");
   if (!field) return std::nullopt;
   for (const auto& [key, other] : map.field().entries()) {
-    if (key == "foliage" || key.starts_with("reflectance_")) continue;
+    if (key == "foliage" || key == "clutter" || key.starts_with("reflectance_")) continue;
     throw_user_error_at(other.where(), "{}: foliage has no wall and no surface: expected no '{}' beside it",
                         map.field().path(), key);
   }
@@ -239,6 +240,43 @@ void read_surface(const FieldMap& map, std::optional<RadioMaterial>& radio) {
   if (roughness) radio->roughness_m = *roughness;
 }
 
+/// Reads the numbers of a clutter model, of which a form has those that it needs.
+SurfaceClutter read_clutter_numbers(const Field& field) {
+  const FieldMap map(field, {"level_db", "gamma_db", "angle_db", "frequency_db", "sea_state", "cross_db"});
+  SurfaceClutter clutter;
+  const auto decibels = [&](const char* key) {
+    return number(map, key, -200.0, 100.0, "dB from -200 to 100");
+  };
+  const auto level = decibels("level_db"), gamma = decibels("gamma_db"), angle = decibels("angle_db"),
+             frequency = decibels("frequency_db"), cross = decibels("cross_db");
+  const auto state = number(map, "sea_state", 0.0, 6.0, "a sea state from 0 to 6");
+  if ((level ? 1 : 0) + (gamma ? 1 : 0) + (state ? 1 : 0) != 1)
+    field.refuse("a clutter model has one of level_db, gamma_db and sea_state");
+  if (angle && !level) field.refuse("angle_db belongs to level_db");
+  if (frequency && state) field.refuse("frequency_db belongs to level_db and gamma_db");
+  clutter.form = level ? ClutterForm::kulemin : gamma ? ClutterForm::constant_gamma : ClutterForm::sea;
+  clutter.level_db = level.value_or(gamma.value_or(0.0));
+  clutter.angle_db = angle.value_or(0.0);
+  clutter.frequency_db = frequency.value_or(0.0);
+  clutter.sea_state = state.value_or(0.0);
+  if (cross) clutter.cross_db = *cross;
+  return clutter;
+}
+
+/// Reads the clutter of a surface or of foliage.
+void read_clutter(const FieldMap& map, std::optional<RadioMaterial>& radio) {
+  const std::optional<Field> field = map.find("clutter");
+  if (!field) return;
+  if (!radio) map.field().refuse("clutter needs a medium, layers or foliage");
+  if (field->is_map()) {
+    radio->clutter = read_clutter_numbers(*field);
+    return;
+  }
+  radio->clutter = clutter_called(std::string(field->scalar()));
+  if (!radio->clutter)
+    field->fail(fmt::format("one of {}, or a map of numbers", fmt::join(clutter_names(), ", ")));
+}
+
 std::shared_ptr<const FieldValue> value_from_json(const nlohmann::json& json) {
   auto value = std::make_shared<FieldValue>();
   if (json.is_array()) {
@@ -271,6 +309,7 @@ RadioSources read_radio_fields(const Field& fields, const RadioSources& below) {
   }
   read_wall(map, result.radio);
   read_surface(map, result.radio);
+  read_clutter(map, result.radio);
   if (const auto value = unit_interval(map, "reflectance_905nm"))
     result.reflectance_905nm = static_cast<float>(*value);
   if (const auto value = unit_interval(map, "reflectance_1550nm"))

@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "rf/surface/scattering.h"
 
 namespace greatx::rf {
 namespace {
@@ -50,14 +49,6 @@ Bounce bounce(const RadioSurfaces& surfaces, const PosedFacet& facet, const Fiel
 }
 
 void scale(FieldVector& field, double by) { field.re *= by, field.im *= by; }
-
-/// Returns the number of the patch that contains a point. Patches are counted along the plane coordinates of
-/// the facet.
-uint32_t patch_of(const PosedFacet& facet, const dvec3& point, double side_m) {
-  const dvec2 p = glm::floor(facet.plane_coordinates(point) / side_m);
-  return (static_cast<uint32_t>(static_cast<int64_t>(p.x)) & 0xffffu) |
-         (static_cast<uint32_t>(static_cast<int64_t>(p.y)) << 16);
-}
 
 }  // namespace
 
@@ -139,32 +130,6 @@ Complex EchoField::density(const EchoPoint& point) const {
   const Bounce over = bounce(surfaces_, mirror, source, out);
   return scale_by * coherent_share(mirror.material, over.cosine, over.cosine) *
          received(over.reflected, -over.out);
-}
-
-Complex EchoField::diffuse(const EchoPoint& point, double area_m2) const {
-  const PosedFacet& facet = world_.facet(point.chain.back());
-  const DiffuseScattering& surface = surfaces_.surface(facet.material).scattering;
-  if (surface.coefficient == 0.0) return 0.0;
-  dvec3 in;
-  const FieldVector field = incident(point, in);
-  const dvec3 arm = receiver_at_ - point.point;
-  const double distance = glm::length(arm);
-  const dvec3 out = arm / distance;
-  const double towards = glm::dot(in, facet.normal);
-  const dvec3 normal = towards < 0.0 ? facet.normal : -facet.normal;
-  const double cosine = std::min(1.0, std::abs(towards));
-  const ReflectionCoefficients fresnel = surfaces_.reflect(facet.material, towards < 0.0, cosine);
-  const double amplitude =
-      surface.coefficient * std::sqrt(scattering_pattern(surface, in, out, normal) * cosine * area_m2);
-  const ScatteringMatrix m = scattering_matrix(surface.cross_polarization, options_.seed, point.chain.back(),
-                                               patch_of(facet, point.point, options_.diffuse_patch_m));
-  const dvec3 s_in = across(in, normal), s_out = across(out, normal);
-  const Complex te = amplitude * fresnel.r_te * field.along(s_in);
-  const Complex tm = amplitude * fresnel.r_tm * field.along(glm::cross(in, s_in));
-  FieldVector scattered;
-  scattered.add(m.ss * te + m.sp * tm, s_out);
-  scattered.add(m.ps * te + m.pp * tm, glm::cross(out, s_out));
-  return surfaces_.wavelength_m() / (4.0 * pi) / (point.length_m * distance) * received(scattered, -out);
 }
 
 Complex EchoField::direct(const dvec3& transmitter_at) const {

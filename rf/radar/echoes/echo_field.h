@@ -40,10 +40,6 @@ class EchoField {
   /// Returns the ratio of received to transmitted amplitude for 1 m^2 of the surface around the point,
   /// without the phase of the path. Returns 0 if the receiver is behind the surface.
   Complex density(const EchoPoint& point) const;
-  /// Returns the same ratio for a patch of `area_m2` that scatters diffusely (rf/surface/scattering.h). The
-  /// point lies on the first surface of the path. The random phases of a patch depend on its place on the
-  /// facet, so that they move with the surface.
-  Complex diffuse(const EchoPoint& point, double area_m2) const;
   /// Returns the ratio for the line of sight: lambda/(4 pi d) F_r . F_t.
   Complex direct(const dvec3& transmitter_at) const;
 

@@ -37,8 +37,8 @@ void check(const EchoOptions& o) {
     throw_user_error(
         "radar merging: expected a share >= 0, a bandwidth and a beam > 0, found {}, {} Hz, {} rad",
         o.merge_share, o.bandwidth_hz, o.beam_rad);
-  if (!(o.diffuse_patch_m > 0.0))
-    throw_user_error("radar patches: expected more than 0 m, found {}", o.diffuse_patch_m);
+  if (!(o.diffuse_patch_m >= 0.0))
+    throw_user_error("radar patches: expected 0 m or more, found {}", o.diffuse_patch_m);
 }
 
 TurnedElement turned(const EchoEnd& end, const Pose& pose) {
@@ -128,6 +128,17 @@ void keep_strongest(std::vector<MergedEcho>& merged, uint32_t most, EchoStatisti
   merged.swap(kept);
 }
 
+/// Adds scatterers that turn too fast for a patch as echoes of one bounce.
+void add_fast(std::span<const Scatterer> fast, const dvec3& source, const dvec3& receiver, RawEchoes& raw) {
+  for (const Scatterer& one : fast) {
+    const dvec3 out = one.point - source, home = one.point - receiver;
+    const double before = glm::length(out), after = glm::length(home);
+    raw.echoes.push_back({one.amplitude, out / before, home / after, one.point, before + after,
+                          static_cast<uint32_t>(raw.chains.size()), 1});
+    raw.chains.push_back(one.facet);
+  }
+}
+
 Echo echo_of(const MergedEcho& merged, const RawEcho& raw, const RawEchoes& all, const scene::Scene& scene) {
   Echo echo;
   echo.amplitude = merged.amplitude;
@@ -194,6 +205,8 @@ EchoFinder::EchoFinder(scene::GpuScene& scene, const RadioSurfaces& surfaces, co
   if (on_host || over_mirrors) tracer_.emplace(scene.scene(), trees_);
   if (!on_host) pass_.emplace(scene, traced_, monostatic_, transmitter.own_body != 0);
   if (over_mirrors) mirrors_.emplace(scene.scene(), world_, surfaces_);
+  if (options_.diffuse)
+    clutter_.emplace(scene.scene(), surfaces_, options_, transmitter_, monostatic_ ? nullptr : &receiver_);
 }
 
 std::vector<TargetBox> EchoFinder::targets(std::span<const Pose> body_poses) const {
@@ -288,7 +301,14 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   check_antenna(source, *grid, words);
   RayHits hits(words, grid->size());
   if (monostatic_) hits.find_seen(*grid, world_, source, options_.max_bounces, options_.threads);
-  RawEchoes raw = TubeEchoes(*grid, hits, world_, trees_, field, scene, source, monostatic_, options_).find();
+  RawEchoes raw = TubeEchoes(*grid, hits, world_, trees_, field, scene, source, monostatic_, options_,
+                             clutter_ ? &*clutter_ : nullptr)
+                      .find();
+  FoundPatches patches;
+  if (clutter_) {
+    patches = clutter_->find(raw.rough, world_, *grid, pending.transmitter, pending.receiver, motion);
+    add_fast(patches.fast, source, pending.receiver.position, raw);
+  }
   const dvec3 arm = pending.receiver.position - source;
   // Two elements at one place (with different polarizations) have no path between them.
   if (const double length = glm::length(arm); !monostatic_ && direct && length > 0.0) {
@@ -303,6 +323,8 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   counted.mirror_tube_m = grid->mirror_tube_m();
   counted.contributions = raw.echoes.size();
   counted.below_floor = raw.below_floor;
+  counted.patches = patches.list.size();
+  counted.patch_blocks = patches.list.empty() ? 0 : patches.list.blocks;
   const Movers movers(scene, world_, raw, motion, source, options_.threads);
   MergeCells cells;
   cells.wavelength_m = surfaces_.wavelength_m();
@@ -320,6 +342,7 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   for (const MergedEcho& echo : merged)
     list.echoes.push_back(echo_of(echo, raw.echoes[echo.strongest], raw, scene));
   add_tracks(movers, raw, merged, motion, cells.wavelength_m, options_.threads, list);
+  list.patches = std::move(patches.list);
   if (statistics != nullptr) *statistics = counted;
   return list;
 }

@@ -10,6 +10,7 @@
 //   collect  (EchoTracer: the same on the host, where the device is a CPU)
 //              ─► TubeEchoes (fp64): fields and phase integrals of every tube
 //              ─► merge ─► delay tracks ─► EchoList
+//              ─► ClutterPatches: scatterers on what the tubes see of rough surfaces ─► EchoList::patches
 #pragma once
 
 #include <memory>
@@ -18,6 +19,7 @@
 
 #include "rf/config/echo_options.h"
 #include "rf/facets/facet_world.h"
+#include "rf/radar/echoes/clutter_patches.h"
 #include "rf/radar/echoes/echo_motion.h"
 #include "rf/radar/echoes/echo_pass.h"
 #include "rf/radar/echoes/echo_tracer.h"
@@ -79,6 +81,7 @@ class EchoFinder {
   std::optional<EchoPass> pass_;      ///< empty if the host traces
   std::optional<EchoTracer> tracer_;  ///< present if the host traces or looks for mirrors
   std::optional<MirrorFinder> mirrors_;
+  std::optional<ClutterPatches> clutter_;  ///< present if rough surfaces are asked for
 };
 
 }  // namespace greatx::rf

@@ -36,6 +36,8 @@ struct EchoStatistics {
   double mirror_tube_m = 0.0;   ///< width of tubes on targets seen over mirrors
   uint64_t contributions = 0;   ///< number of contributions before merging
   uint64_t below_floor = 0;     ///< number of edges and corners below EchoOptions::border_floor_m2
+  uint64_t patches = 0;         ///< scatterers of rough surfaces
+  uint32_t patch_blocks = 0;    ///< blocks of constant rate that they need
   uint64_t left_out = 0;        ///< number of echoes beyond EchoOptions::max_echoes
   double left_out_power = 0.0;  ///< sum of |amplitude|^2 of the echoes left out
 };

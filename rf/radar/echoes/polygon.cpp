@@ -7,12 +7,6 @@
 #include "core/error.h"
 
 namespace greatx::rf {
-namespace {
-
-double cross(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
-
-}  // namespace
-
 void Polygon::push(const dvec2& p) {
   if (count_ > 0 && points_[count_ - 1] == p) return;
   if (count_ == capacity) {

@@ -14,6 +14,9 @@
 
 namespace greatx::rf {
 
+/// Returns the area that turns a towards b: the third component of the cross product.
+inline double cross(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
+
 /// The half-plane x . normal + offset >= 0.
 struct HalfPlane {
   dvec2 normal{0.0};

@@ -57,6 +57,8 @@ class RayGrid {
   /// Returns the tube that contains a direction (local axes, any length), or `outside` beyond the field of
   /// view. Within the sagitta of a side of a cell, the result may be the tube on the other side.
   uint32_t tube_at(const dvec3& direction) const;
+  /// Returns the cell of a tube: its tube in the grid without subdivision.
+  uint32_t cell(uint32_t tube) const { return tubes_[tube].cell; }
   /// Returns whether two tubes that share a side have the same subdivision. Their sides are then identical.
   bool same_level(uint32_t a, uint32_t b) const { return count_[tubes_[a].cell] == count_[tubes_[b].cell]; }
 

@@ -15,7 +15,6 @@ namespace greatx::rf {
 namespace {
 
 constexpr double smallest_share = 1e-9;  ///< fraction of a tube's area; smaller parts are dropped
-constexpr uint32_t most_pieces = 256;    ///< number of pieces into which a diffuse part is cut
 
 PhasePlane phase_plane(const PosedFacet& facet, const dvec3& source, const dvec3& receiver,
                        double wavenumber) {
@@ -75,7 +74,8 @@ struct TubeEchoes::Job {
 
 TubeEchoes::TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorld& world,
                        const FacetTrees& trees, const EchoField& field, const scene::Scene& scene,
-                       const dvec3& source, bool monostatic, const EchoOptions& options)
+                       const dvec3& source, bool monostatic, const EchoOptions& options,
+                       const ClutterPatches* clutter)
     : grid_(grid),
       hits_(hits),
       world_(world),
@@ -85,6 +85,7 @@ TubeEchoes::TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorl
       source_(source),
       monostatic_(monostatic),
       options_(options),
+      clutter_(clutter),
       bounces_(hits.bounces()),
       home_(monostatic && options.max_bounces >= mirror_bounces) {
   // sigma = 4 pi |value|^2 / lambda^2
@@ -150,6 +151,7 @@ RawEchoes TubeEchoes::find() const {
   for (RawEchoes& part : found) {
     const uint32_t shift = static_cast<uint32_t>(all.chains.size());
     all.below_floor += part.below_floor;
+    all.rough.insert(all.rough.end(), part.rough.begin(), part.rough.end());
     all.chains.insert(all.chains.end(), part.chains.begin(), part.chains.end());
     for (RawEcho& echo : part.echoes) {
       echo.first_facet += shift;
@@ -244,8 +246,10 @@ void TubeEchoes::bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint
   const PosedFacet& posed = world_.facet(facet);
   job.chain[bounce] = facet;
   job.chain_at = ~0u;
-  if (!field_.reflects(facet)) return;
   const uint32_t word = whole ? hits_.word(job.tube, bounce) : word_of(job, bounce, facet);
+  if (clutter_ != nullptr && bounce == 0 && RayHits::sees_receiver(word) && clutter_->rough(posed.material))
+    keep_rough(job, part, facet);
+  if (!field_.reflects(facet)) return;
   if (RayHits::sees_receiver(word) && bounce < options_.max_bounces)
     send_back(job, bounce, part, facet, whole);
   if (RayHits::sees_over(word)) send_over(job, bounce, part, job.chain[0], Over::first, whole && bounce == 1);
@@ -402,48 +406,13 @@ void TubeEchoes::send_back(Job& job, uint32_t bounce, const Polygon& part, uint3
     job.out->echoes.push_back(
         {amplitude, place.departure, place.arrival, place.point, place.length_m, job.chain_at, bounce + 1});
   }
-  if (options_.diffuse && bounce == 0) scatter(job, piece, facet);
 }
 
-/// Cuts the part into pieces whose spread of path length is less than half a resolution cell of the
-/// bandwidth.
-void TubeEchoes::scatter(Job& job, const Polygon& part, uint32_t facet) const {
+void TubeEchoes::keep_rough(Job& job, const Polygon& part, uint32_t facet) const {
   const PosedFacet& posed = world_.facet(facet);
   if (posed.distance(source_) * posed.distance(field_.receiver_at()) <= 0.0) return;
-  std::vector<Polygon> pieces{part};
-  const PhasePlane plane = phase_plane(posed, source_, field_.receiver_at(), field_.wavenumber());
-  for (size_t i = 0; i < pieces.size() && pieces.size() < most_pieces;) {
-    double least = 1e300, most = -1e300;
-    dvec2 far(0.0);
-    const dvec2 middle = pieces[i].centroid();
-    for (uint32_t k = 0; k < pieces[i].size(); ++k) {
-      const double length = plane.length(pieces[i][k]);
-      least = std::min(least, length), most = std::max(most, length);
-      if (glm::length(pieces[i][k] - middle) > glm::length(far)) far = pieces[i][k] - middle;
-    }
-    if (most - least < 0.5 * speed_of_light / options_.bandwidth_hz) {
-      ++i;
-      continue;
-    }
-    const HalfPlane cut{far, -glm::dot(far, middle)};
-    const Polygon second = pieces[i].clipped({-cut.normal, -cut.offset});
-    pieces[i] = pieces[i].clipped(cut);
-    pieces.push_back(second);
-  }
-  for (const Polygon& piece : pieces) {
-    const dvec3 point = point_of(posed, piece.centroid()), arm = point - source_,
-                back = point - field_.receiver_at();
-    const double before = glm::length(arm), after = glm::length(back);
-    const Complex amplitude =
-        field_.diffuse({arm / before, before, point, std::span(job.chain.data(), 1)}, piece.area());
-    if (amplitude == 0.0) continue;
-    if (job.chain_at == ~0u) {
-      job.chain_at = static_cast<uint32_t>(job.out->chains.size());
-      job.out->chains.push_back(facet);
-    }
-    job.out->echoes.push_back(
-        {amplitude, arm / before, back / after, point, before + after, job.chain_at, 1});
-  }
+  const Polygon piece = on_facet(posed, job.beams[0], part);
+  if (!piece.empty()) job.out->rough.push_back({job.tube, facet, piece});
 }
 
 }  // namespace greatx::rf

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "rf/radar/echoes/clutter_patches.h"
 #include "rf/radar/echoes/echo_field.h"
 #include "rf/radar/echoes/ray_grid.h"
 #include "rf/radar/echoes/ray_hits.h"
@@ -30,6 +31,7 @@ struct RawEchoes {
   std::vector<RawEcho> echoes;
   std::vector<uint32_t> chains;
   uint64_t below_floor = 0;
+  std::vector<ClutterPart> rough;  ///< what the tubes see first of surfaces that scatter
   std::span<const uint32_t> chain(const RawEcho& echo) const {
     return std::span(chains).subspan(echo.first_facet, echo.bounces);
   }
@@ -56,9 +58,10 @@ struct RawEchoes {
 /// fine mesh), uncovered parts count as the facet of the middle ray.
 class TubeEchoes {
  public:
+  /// `clutter` is null if rough surfaces are not asked for.
   TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorld& world, const FacetTrees& trees,
              const EchoField& field, const scene::Scene& scene, const dvec3& source, bool monostatic,
-             const EchoOptions& options);
+             const EchoOptions& options, const ClutterPatches* clutter);
 
   /// Returns the raw echoes of all tubes in the order of the tubes. Uses options.threads threads.
   RawEchoes find() const;
@@ -86,7 +89,8 @@ class TubeEchoes {
   /// the opposite path is not searched for, it is added with this one.
   void send_over(Job& job, uint32_t last, const Polygon& part, uint32_t mirror, Over way_home,
                  bool whole) const;
-  void scatter(Job& job, const Polygon& part, uint32_t facet) const;
+  /// Keeps a part on a rough surface.
+  void keep_rough(Job& job, const Polygon& part, uint32_t facet) const;
   /// Returns whether the ray of a tube met, from `bounce` on, a facet from which the receiver is seen.
   bool may_send(uint32_t tube, uint32_t bounce) const;
   /// Returns the word of the first ray, of this tube or else of one around it, that met `facet` at `bounce`
@@ -110,6 +114,7 @@ class TubeEchoes {
   dvec3 source_;
   bool monostatic_;
   const EchoOptions& options_;
+  const ClutterPatches* clutter_;
   uint32_t bounces_;  ///< number of surfaces that were traced
   bool home_;         ///< tubes that came over mirrors send back over them
   IntegralLimits limits_;

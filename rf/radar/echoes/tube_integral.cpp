@@ -14,8 +14,6 @@ namespace {
 
 constexpr Complex j{0.0, 1.0};
 
-double cross(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
-
 double sinc(double x) { return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x; }
 
 Complex turned(double phase) { return {std::cos(phase), std::sin(phase)}; }

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "rf/radar/signal/patches.h"
 
 namespace greatx::rf {
 
@@ -55,6 +56,7 @@ struct EchoList {
   std::vector<Echo> echoes;  ///< in a total order that does not depend on threads
   /// [tables, slots] delay (s) and its rate (s/s) at the start of each slot.
   std::vector<std::array<double, 2>> tables;
+  PatchList patches;  ///< of rough surfaces
 };
 
 }  // namespace greatx::rf

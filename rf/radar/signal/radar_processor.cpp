@@ -26,7 +26,11 @@ uint64_t late_echoes(const EchoList& list, const RadarWaveform& w) {
 
 RadarProcessor::RadarProcessor(std::string name, const RadarSignalConfig& config, RadarGain transmit_gain,
                                RadarGain receive_gain)
-    : name_(std::move(name)), config_(checked(name_, config)), synthesizer_(config_), maps_(config_) {
+    : name_(std::move(name)),
+      config_(checked(name_, config)),
+      synthesizer_(config_),
+      patches_(config_),
+      maps_(config_) {
   if (!config_.processing.detections) return;
   const uint32_t antennas =
       static_cast<uint32_t>(config_.arrays.receive_m.size()) * config_.waveform.transmitters;
@@ -54,7 +58,10 @@ RadarFrame RadarProcessor::process(const RadarFrameInput& input, uint32_t thread
     check_echoes(list, config_, name_);
     const BeatReport report =
         synthesizer_.add(list, attitude(i), walk ? &*walk : nullptr, threads, frame.cube);
+    patches_.add(list.patches, list.first_slot, list.slots, attitude(i), walk ? &*walk : nullptr, threads,
+                 frame.cube);
     frame.report.echoes += list.echoes.size();
+    frame.report.patches += list.patches.size();
     frame.report.beat.tones += report.tones;
     frame.report.beat.bent_tones += report.bent_tones;
     frame.report.late_echoes += late_echoes(list, w);

@@ -16,6 +16,7 @@
 #include "rf/radar/signal/cfar.h"
 #include "rf/radar/signal/detections.h"
 #include "rf/radar/signal/maps.h"
+#include "rf/radar/signal/patches.h"
 #include "rf/radar/signal/receiver.h"
 
 namespace greatx::rf {
@@ -28,7 +29,8 @@ struct RadarFrameInput {
 };
 
 struct RadarReport {
-  uint64_t echoes = 0;  ///< number of echoes of all lists
+  uint64_t echoes = 0;   ///< number of echoes of all lists
+  uint64_t patches = 0;  ///< number of patches of all lists
   BeatReport beat;
   uint64_t saturated_samples = 0;  ///< samples beyond the full scale of the converter
   /// Echoes delayed beyond adc_start_s. In a real receiver their first samples belong to no ramp.
@@ -66,6 +68,7 @@ class RadarProcessor {
   std::string name_;
   RadarSignalConfig config_;
   BeatSynthesizer synthesizer_;
+  PatchSynthesizer patches_;
   RadarMaps maps_;
   std::optional<Cfar> cfar_;
   std::optional<DetectionMaker> maker_;

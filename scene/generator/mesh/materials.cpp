@@ -15,7 +15,7 @@ namespace {
 const char* const concrete_wall =
     R"({"itu":"concrete","thickness_m":0.25,"scattering_coefficient":0.2,"cross_polarization":0.1})";
 const char* const concrete_ground =
-    R"({"itu":"concrete","scattering_coefficient":0.2,"cross_polarization":0.1})";
+    R"({"itu":"concrete","scattering_coefficient":0.2,"cross_polarization":0.1,"clutter":"concrete"})";
 const char* const brick_wall = R"({"itu":"brick","extrapolate":true,"thickness_m":0.3,)"
                                R"("scattering_coefficient":0.3,"cross_polarization":0.1})";
 // Double glazing, outer pane first.
@@ -25,14 +25,19 @@ const char* const glazing = R"({"layers":[{"itu":"glass","thickness_m":0.006},)"
 const char* const pane = R"({"itu":"glass","thickness_m":0.005})";
 const char* const sheet_metal = R"({"itu":"metal","thickness_m":0.002,"scattering_coefficient":0.1})";
 const char* const asphalt_ground =
-    R"({"itu":"asphalt_concrete","extrapolate":true,"scattering_coefficient":0.2})";
+    R"({"itu":"asphalt_concrete","extrapolate":true,"scattering_coefficient":0.2,"clutter":"asphalt"})";
 // The table's row for soil ends at 10 GHz. Its formula is extrapolated above 10 GHz, and the file says so.
-const char* const soil =
-    R"({"itu":"medium_dry_ground","extrapolate":true,"scattering_coefficient":0.4,"cross_polarization":0.2})";
+#define GREATX_GROUND(clutter)                                                                              \
+  R"({"itu":"medium_dry_ground","extrapolate":true,"scattering_coefficient":0.4,"cross_polarization":0.2,)" \
+  R"("clutter":")" clutter R"("})"
+const char* const soil = GREATX_GROUND("soil");
+const char* const lawn = GREATX_GROUND("grass");
+const char* const corn = GREATX_GROUND("tall_grass");
+#undef GREATX_GROUND
 const char* const timber = R"({"itu":"wood","thickness_m":0.05,"scattering_coefficient":0.2})";
 const char* const trunk = R"({"itu":"wood","thickness_m":0.25,"scattering_coefficient":0.3})";
 // A volume: its faces do not reflect, and the loss grows with the depth.
-const char* const canopy = R"({"foliage":"weissberger"})";
+const char* const canopy = R"({"foliage":"weissberger","clutter":"foliage"})";
 const char* const rubber = R"({"relative_permittivity":3.0,"conductivity":0.02,"thickness_m":0.02})";
 const char* const plastic = R"({"relative_permittivity":2.8,"conductivity":0.003,"thickness_m":0.003})";
 const char* const radome = R"({"relative_permittivity":3.5,"conductivity":0.005,"thickness_m":0.003})";
@@ -40,7 +45,7 @@ const char* const radome = R"({"relative_permittivity":3.5,"conductivity":0.005,
 const char* const carbon_fibre =
     R"({"relative_permittivity":1.0,"conductivity":10000.0,"thickness_m":0.003})";
 // Fresh water near 20 C at a few GHz. Unlike Debye's model, the values do not depend on frequency.
-const char* const fresh_water = R"({"relative_permittivity":75.0,"conductivity":2.5})";
+const char* const fresh_water = R"({"relative_permittivity":75.0,"conductivity":2.5,"clutter":"water"})";
 const char* const clay_tiles = R"({"itu":"brick","extrapolate":true,"thickness_m":0.03,)"
                                R"("scattering_coefficient":0.3,"cross_polarization":0.1})";
 
@@ -59,18 +64,18 @@ std::vector<MaterialSpec> make_library() {
       {"kerb", "concrete", dvec2(2.0), 0, vec3(0.85f), 0.85f, 0.0f, vec3(0), concrete_ground},
       {"paving", "pavement", dvec2(4.8), 0, vec3(0.86f, 0.78f, 0.68f), 0.9f, 0.0f, vec3(0), concrete_ground},
       {"subsoil", "", dvec2(2.0), 0, vec3(0.12f, 0.09f, 0.06f), 1.0f, 0.0f, vec3(0), soil},
-      {"grass", "grass", dvec2(6.0), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), soil},
-      {"meadow", "pasture", dvec2(40.0), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), soil},
-      {"wheat", "crop", dvec2(48.0), 0, vec3(0.62f, 0.46f, 0.18f), 1.0f, 0.0f, vec3(0), soil},
-      {"wheat_pale", "crop", dvec2(48.0), 0, vec3(0.70f, 0.58f, 0.30f), 1.0f, 0.0f, vec3(0), soil},
-      {"crop", "crop", dvec2(48.0), 0, vec3(0.16f, 0.27f, 0.06f), 1.0f, 0.0f, vec3(0), soil},
-      {"crop_dark", "crop", dvec2(48.0), 0, vec3(0.10f, 0.20f, 0.05f), 1.0f, 0.0f, vec3(0), soil},
-      {"crop_young", "crop", dvec2(48.0), 0, vec3(0.26f, 0.33f, 0.10f), 1.0f, 0.0f, vec3(0), soil},
+      {"grass", "grass", dvec2(6.0), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), lawn},
+      {"meadow", "pasture", dvec2(40.0), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), lawn},
+      {"wheat", "crop", dvec2(48.0), 0, vec3(0.62f, 0.46f, 0.18f), 1.0f, 0.0f, vec3(0), corn},
+      {"wheat_pale", "crop", dvec2(48.0), 0, vec3(0.70f, 0.58f, 0.30f), 1.0f, 0.0f, vec3(0), corn},
+      {"crop", "crop", dvec2(48.0), 0, vec3(0.16f, 0.27f, 0.06f), 1.0f, 0.0f, vec3(0), corn},
+      {"crop_dark", "crop", dvec2(48.0), 0, vec3(0.10f, 0.20f, 0.05f), 1.0f, 0.0f, vec3(0), corn},
+      {"crop_young", "crop", dvec2(48.0), 0, vec3(0.26f, 0.33f, 0.10f), 1.0f, 0.0f, vec3(0), lawn},
       {"ploughed_soil", "crop", dvec2(48.0), 0, vec3(0.24f, 0.15f, 0.09f), 1.0f, 0.0f, vec3(0), soil, -1,
        true},
-      {"stubble", "crop", dvec2(48.0), 0, vec3(0.52f, 0.43f, 0.24f), 1.0f, 0.0f, vec3(0), soil},
-      {"rapeseed", "crop", dvec2(48.0), 0, vec3(0.66f, 0.56f, 0.07f), 1.0f, 0.0f, vec3(0), soil},
-      {"verge", "grass", dvec2(5.0), 0, vec3(0.9f, 0.85f, 0.7f), 1.0f, 0.0f, vec3(0), soil},
+      {"stubble", "crop", dvec2(48.0), 0, vec3(0.52f, 0.43f, 0.24f), 1.0f, 0.0f, vec3(0), lawn},
+      {"rapeseed", "crop", dvec2(48.0), 0, vec3(0.66f, 0.56f, 0.07f), 1.0f, 0.0f, vec3(0), corn},
+      {"verge", "grass", dvec2(5.0), 0, vec3(0.9f, 0.85f, 0.7f), 1.0f, 0.0f, vec3(0), lawn},
       {"water", "", dvec2(4.0), 0, vec3(0.03f, 0.07f, 0.08f), 0.06f, 0.0f, vec3(0), fresh_water},
 
       {"facade_brick_red", "facade_brick", facade, facade_bays, vec3(1.0f), 1.0f, 1.0f, home_light,

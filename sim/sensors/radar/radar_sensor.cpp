@@ -111,6 +111,7 @@ rf::EchoOptions RadarSensor::echo_options(const Experiment& experiment) const {
   options.roughness = experiment.plan.radar_roughness.on;
   options.diffuse = experiment.plan.radar_clutter.on;
   options.seed = experiment.scenario.seed;
+  options.waveform = config_.signal.waveform;
   options.bandwidth_hz = config_.signal.waveform.bandwidth_hz();
   options.beam_rad = beam_of(config_.signal);
   if (config_.signal.receiver.noise_figure_db)

@@ -1,0 +1,305 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/radar/echoes/clutter_patches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/units.h"
+#include "rf/radar/echoes/echo_tracks.h"
+#include "rf/radar/echoes/tube_beam.h"
+#include "rf/radar/signal/lanes.h"
+
+namespace greatx::rf {
+namespace {
+
+constexpr size_t part_chunk = 64, scatterer_chunk = 1024;
+/// Scatterers that need more blocks than this become echoes with delays of their own.
+constexpr uint32_t most_blocks = 8;
+/// A small facet has squares of half its width, but not more than this many in a square of the others.
+constexpr double finest_share = 1.0 / 16.0;
+
+/// Returns a well mixed number (S. Vigna, SplitMix64, 2015).
+uint64_t mixed(uint64_t value) {
+  value += 0x9e3779b97f4a7c15ull;
+  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9ull;
+  value = (value ^ (value >> 27)) * 0x94d049bb133111ebull;
+  return value ^ (value >> 31);
+}
+
+double share_of(uint64_t bits) { return (double(bits & 0xffffffffu) + 0.5) * 0x1.0p-32; }
+
+/// Returns a circular Gaussian number of mean power 1 (Box-Muller).
+std::complex<float> gaussian(uint64_t bits) {
+  const float radius = std::sqrt(-natural_log(static_cast<float>(share_of(bits))));
+  float cosine, sine;
+  cos_sin_of_turns(static_cast<float>(share_of(bits >> 32)), cosine, sine);
+  return {radius * cosine, radius * sine};
+}
+
+/// Holds the sides of a polygon, for testing many points.
+struct Outline {
+  std::array<HalfPlane, Polygon::capacity> sides;
+  uint32_t count = 0;
+  dvec2 low{1e300}, high{-1e300};
+  explicit Outline(const Polygon& polygon) : count(polygon.size()) {
+    for (uint32_t i = 0; i < count; ++i) {
+      sides[i] = polygon.inside(i);
+      low = glm::min(low, polygon[i]), high = glm::max(high, polygon[i]);
+    }
+  }
+  bool has(const dvec2& p) const {
+    for (uint32_t i = 0; i < count; ++i)
+      if (sides[i].at(p) < 0.0) return false;
+    return true;
+  }
+  /// Returns the range of x that the polygon may have where y is in [from, to].
+  dvec2 reach(double from, double to) const {
+    double least = low.x, most = high.x;
+    for (uint32_t i = 0; i < count; ++i) {
+      const dvec2& n = sides[i].normal;
+      if (n.x == 0.0) continue;
+      // n.x x >= -offset - n.y y for some y of the strip.
+      const double bound = -sides[i].offset - std::max(n.y * from, n.y * to);
+      if (n.x > 0.0)
+        least = std::max(least, bound / n.x);
+      else
+        most = std::min(most, bound / n.x);
+    }
+    return {least, most};
+  }
+};
+
+double square_side(const PosedFacet& facet, double side_m) {
+  const double width = std::sqrt((facet.max_u - facet.min_u) * (facet.max_v - facet.min_v));
+  return std::clamp(0.5 * width, finest_share * side_m, side_m);
+}
+
+dvec3 horizontal(const dvec3& direction, const dvec3& normal) {
+  const dvec3 product = glm::cross(direction, normal);
+  const double sine = glm::length(product);
+  if (sine > 1e-8) return product / sine;
+  return glm::normalize(glm::cross(direction, std::abs(direction.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
+}
+
+}  // namespace
+
+struct ClutterPatches::Ends {
+  Pose transmitter, receiver;
+  dmat3 turn{1.0};                       ///< local axes from those of the transmitter
+  std::optional<TurnedElement> element;  ///< the receiver's; empty if it is the transmitter's
+};
+
+ClutterPatches::ClutterPatches(const scene::Scene& scene, const RadioSurfaces& surfaces,
+                               const EchoOptions& options, const EchoEnd& transmitter,
+                               const EchoEnd* receiver)
+    : scene_(scene),
+      options_(options),
+      table_(scene, surfaces),
+      cells_(options, transmitter.pattern, transmitter.slant),
+      receiver_pattern_(receiver != nullptr ? receiver->pattern : transmitter.pattern),
+      receiver_slant_(receiver != nullptr ? receiver->slant : transmitter.slant),
+      monostatic_(receiver == nullptr),
+      wavelength_m_(surfaces.wavelength_m()),
+      side_m_(options.diffuse_patch_m > 0.0 ? options.diffuse_patch_m
+                                            : 0.25 * speed_of_light / options.waveform.bandwidth_hz()) {}
+
+Complex ClutterPatches::amplitude(const PosedFacet& facet, const dvec3& point, double side,
+                                  const CellField& field, const Ends& ends, uint64_t draw) const {
+  const dvec3 arm = point - ends.transmitter.position;
+  const double before = glm::length(arm);
+  const dvec3 in = arm / before;
+  const double towards = glm::dot(in, facet.normal);
+  const dvec3 normal = towards < 0.0 ? facet.normal : -facet.normal;
+  const dvec3 h_in = horizontal(in, normal), v_in = glm::cross(in, h_in);
+  const FieldVector sent = field.towards(in);
+  double after = before, sine = std::abs(towards);
+  dvec3 home = in, h_out = h_in, v_out = v_in;
+  FieldVector heard = sent;
+  if (ends.element) {
+    const dvec3 back = point - ends.receiver.position;
+    after = glm::length(back);
+    home = back / after;
+    sine = 0.5 * (sine + std::abs(glm::dot(home, normal)));
+    h_out = horizontal(home, normal), v_out = glm::cross(home, h_out);
+    Jones jones[1];
+    const Angles at = angles_of(home);
+    ends.element->respond(home, jones);
+    heard = {};
+    heard.add(jones[0].theta, at.theta_hat());
+    heard.add(jones[0].phi, at.phi_hat());
+  }
+  const ClutterTable::Roots root = table_.at(facet.material, towards < 0.0, sine);
+  const Complex sent_h = sent.along(h_in), sent_v = sent.along(v_in), heard_h = heard.along(h_out),
+                heard_v = heard.along(v_out);
+  const Complex co = double(root.hh) * sent_h * heard_h + double(root.vv) * sent_v * heard_v,
+                cross = double(root.hv) * (sent_h * heard_v + sent_v * heard_h);
+  const std::complex<float> g = gaussian(mixed(draw + 1)), g_cross = gaussian(mixed(draw + 2));
+  const double scale = wavelength_m_ * side / (std::pow(4.0 * pi, 1.5) * before * after);
+  return scale * (Complex(g) * co + Complex(g_cross) * cross);
+}
+
+void ClutterPatches::cover(const ClutterPart& part, const FacetWorld& world, const RayGrid& grid,
+                           const Ends& ends, std::vector<Scatterer>& out) const {
+  const PosedFacet& facet = world.facet(part.facet);
+  const Outline outline(part.piece);
+  const double side = square_side(facet, side_m_);
+  const uint64_t key = mixed(options_.seed ^ mixed(part.facet));
+  const CellField field = cells_.turned(grid.cell(part.tube), ends.turn);
+  const auto last_row = static_cast<int64_t>(std::floor(outline.high.y / side));
+  for (auto row = static_cast<int64_t>(std::floor(outline.low.y / side)); row <= last_row; ++row) {
+    const dvec2 reach = outline.reach(double(row) * side, double(row + 1) * side);
+    const auto last = static_cast<int64_t>(std::floor(reach.y / side));
+    for (auto column = static_cast<int64_t>(std::floor(reach.x / side)); column <= last; ++column) {
+      const uint64_t draw = mixed(key ^ (static_cast<uint64_t>(row) << 32 | static_cast<uint32_t>(column)));
+      const dvec2 place = side * dvec2(double(column) + share_of(draw), double(row) + share_of(draw >> 32));
+      if (!outline.has(place)) continue;
+      Scatterer& one = out.emplace_back();
+      one.point = point_of(facet, place);
+      one.facet = part.facet;
+      one.amplitude = amplitude(facet, one.point, side, field, ends, draw);
+    }
+  }
+}
+
+std::vector<Scatterer> ClutterPatches::scatterers(std::span<const ClutterPart> parts, const FacetWorld& world,
+                                                  const RayGrid& grid, const Ends& ends) const {
+  std::vector<std::vector<Scatterer>> found((parts.size() + part_chunk - 1) / part_chunk);
+  parallel_for(found.size(), options_.threads, [&](size_t chunk) {
+    for (size_t i = chunk * part_chunk; i < std::min(parts.size(), (chunk + 1) * part_chunk); ++i)
+      cover(parts[i], world, grid, ends, found[chunk]);
+  });
+  size_t count = 0;
+  for (const auto& some : found) count += some.size();
+  std::vector<Scatterer> all;
+  all.reserve(count);
+  for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+namespace {
+
+/// The lengths of the ways over scatterers at a few times.
+class Ways {
+ public:
+  Ways(const std::vector<Scatterer>& all, const FacetWorld& world, const EchoMotion& motion,
+       std::vector<double> times)
+      : all_(all), world_(world), table_(motion, asked(all, world), std::move(times)) {}
+
+  double length(size_t i, size_t time) const {
+    const uint32_t body = world_.facet(all_[i].facet).body;
+    const dvec3 at = body == 0 ? all_[i].point : table_.body(body, time).apply(carried_[i]);
+    return glm::distance(at, table_.transmitter(time)) + glm::distance(at, table_.receiver(time));
+  }
+
+ private:
+  std::span<const bool> asked(const std::vector<Scatterer>& all, const FacetWorld& world) {
+    uint32_t bodies = 1;
+    for (uint32_t facet = 0; facet < world.facet_count(); ++facet)
+      bodies = std::max(bodies, world.facet(facet).body + 1);
+    asked_ = std::make_unique<bool[]>(bodies);
+    for (size_t i = 0; i < all.size(); ++i)
+      if (const uint32_t body = world.facet(all[i].facet).body; body != 0) {
+        if (carried_.empty()) carried_.resize(all.size());
+        carried_[i] = world.motion(body).pose.inverse().apply(all[i].point);
+        asked_[body] = true;
+      }
+    return {asked_.get(), bodies};
+  }
+
+  const std::vector<Scatterer>& all_;
+  const FacetWorld& world_;
+  std::unique_ptr<bool[]> asked_;
+  std::vector<dvec3> carried_;  ///< places in the frames of the bodies; empty if nothing moves
+  PoseTable table_;
+};
+
+/// Returns rate and curvature of the delay in the middle of three times that are `step_s` apart.
+struct Slopes {
+  double delay_s, rate, curvature_per_s;
+};
+Slopes slopes(const Ways& ways, size_t i, size_t first, double step_s) {
+  const double before = ways.length(i, first), now = ways.length(i, first + 1),
+               after = ways.length(i, first + 2);
+  return {now / speed_of_light, (after - before) / (2.0 * step_s * speed_of_light),
+          (after - 2.0 * now + before) / (step_s * step_s * speed_of_light)};
+}
+
+std::vector<double> about(double middle_s, double step_s) {
+  return {middle_s - step_s, middle_s, middle_s + step_s};
+}
+
+}  // namespace
+
+FoundPatches ClutterPatches::timed(std::vector<Scatterer> all, const FacetWorld& world, const Ends& ends,
+                                   const EchoMotion& motion) const {
+  const RadarWaveform& w = options_.waveform;
+  const uint32_t slots = static_cast<uint32_t>(motion.slot_start_s.size());
+  const double frame_s = std::max(motion.frame_s(), w.interval_s);
+  const auto chunks = [](size_t count) { return (count + scatterer_chunk - 1) / scatterer_chunk; };
+  FoundPatches found;
+  std::vector<uint32_t> blocks(all.size());
+  {
+    const double step_s = 0.5 * frame_s;
+    const Ways ways(all, world, motion, about(motion.slot_start_s.front() + step_s, step_s));
+    parallel_for(chunks(all.size()), options_.threads, [&](size_t chunk) {
+      for (size_t i = chunk * scatterer_chunk; i < std::min(all.size(), (chunk + 1) * scatterer_chunk); ++i) {
+        const Slopes at = slopes(ways, i, 0, step_s);
+        blocks[i] = patch_blocks(w, slots, std::abs(at.rate), std::abs(at.curvature_per_s));
+      }
+    });
+  }
+  size_t kept = 0;
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (blocks[i] > most_blocks) {
+      found.fast.push_back(all[i]);
+      continue;
+    }
+    found.list.blocks = std::max(found.list.blocks, blocks[i]);
+    all[kept++] = all[i];
+  }
+  all.resize(kept);
+  PatchList& list = found.list;
+  const size_t count = all.size();
+  for (auto* column : {&list.re, &list.im}) column->resize(count);
+  list.departure.resize(count), list.instance.resize(count);
+  if (!monostatic_) list.arrival.resize(count);
+  list.delay_s.resize(list.blocks * count), list.rate.resize(list.blocks * count);
+  const double step_s = 0.25 * frame_s / list.blocks;
+  std::vector<double> times;
+  for (uint32_t block = 0; block < list.blocks; ++block)
+    for (const double time :
+         about(patch_block(w, motion.first_slot, slots, list.blocks, block).middle_s, step_s))
+      times.push_back(time);
+  const Ways ways(all, world, motion, std::move(times));
+  parallel_for(chunks(count), options_.threads, [&](size_t chunk) {
+    for (size_t i = chunk * scatterer_chunk; i < std::min(count, (chunk + 1) * scatterer_chunk); ++i) {
+      const Scatterer& one = all[i];
+      list.re[i] = static_cast<float>(one.amplitude.real());
+      list.im[i] = static_cast<float>(one.amplitude.imag());
+      list.departure[i] = vec3(glm::normalize(one.point - ends.transmitter.position));
+      if (!monostatic_) list.arrival[i] = vec3(glm::normalize(one.point - ends.receiver.position));
+      list.instance[i] = scene_.facets[one.facet].instance + 1;
+      for (uint32_t block = 0; block < list.blocks; ++block) {
+        const Slopes at = slopes(ways, i, 3 * size_t{block}, step_s);
+        list.delay_s[block * count + i] = at.delay_s;
+        list.rate[block * count + i] = at.rate;
+      }
+    }
+  });
+  return found;
+}
+
+FoundPatches ClutterPatches::find(std::span<const ClutterPart> parts, const FacetWorld& world,
+                                  const RayGrid& grid, const Pose& transmitter, const Pose& receiver,
+                                  const EchoMotion& motion) const {
+  Ends ends{transmitter, receiver, glm::mat3_cast(transmitter.orientation), std::nullopt};
+  if (!monostatic_)
+    ends.element.emplace(receiver_pattern_, std::span(&receiver_slant_, 1), receiver.orientation);
+  return timed(scatterers(parts, world, grid, ends), world, ends, motion);
+}
+
+}  // namespace greatx::rf

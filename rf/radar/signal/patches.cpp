@@ -1,0 +1,322 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/radar/signal/patches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/phase.h"
+#include "rf/radar/signal/beat.h"
+#include "rf/radar/signal/fft.h"
+#include "rf/radar/signal/lanes.h"
+#include "rf/radar/signal/patch_kernel.h"
+#include "rf/radar/signal/receiver.h"
+
+namespace greatx::rf {
+namespace {
+
+constexpr int kernel_taps = PatchKernel::taps;
+/// Rows of a grid that one task adds patches to. The sums do not depend on it.
+constexpr uint32_t stripe_rows = 24;
+
+/// Adds `value` times `weight` to the cells from `cells` on: one row of a patch's kernel.
+GREATX_LANES void spread_row(float* cells, const float* value, const float* weights, int count) {
+  for (int tap = 0; tap < count; ++tap)
+    for (int lane = 0; lane < 8; ++lane) cells[8 * tap + lane] += weights[tap] * value[lane];
+}
+
+/// Holds the elements of both arrays in world axes.
+struct Leads {
+  std::vector<dvec3> transmit, receive;  ///< m/c, s
+  Leads(const RadarArrays& arrays, const RadarAttitude& attitude) {
+    for (const dvec3& p : arrays.transmit_m) transmit.push_back(attitude.transmitter * p / speed_of_light);
+    for (const dvec3& p : arrays.receive_m) receive.push_back(attitude.receiver * p / speed_of_light);
+  }
+};
+
+std::complex<float> phasor_of(double turns) {
+  float cosine, sine;
+  cos_sin_of_turns(static_cast<float>(fraction_of_turn(turns)), cosine, sine);
+  return {cosine, sine};
+}
+
+std::complex<float> times(std::complex<float> a, std::complex<float> b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+/// The transforms along one axis of a block.
+struct PatchAxis {
+  PatchKernel kernel;
+  Fft transform;
+  explicit PatchAxis(uint32_t count) : kernel(count), transform(kernel.grid(), Fft::Direction::backward) {}
+  /// Reads [grid] cells and writes the outputs, [count], in order.
+  void outputs(const Fft::Value* cells, Fft::Value* room, Fft::Value* out) const {
+    transform.transform(cells, room);
+    const uint32_t count = kernel.count(), middle = count / 2, grid = kernel.grid();
+    for (uint32_t i = 0; i < count; ++i)
+      out[i] = room[i >= middle ? i - middle : i + grid - middle] * Four(kernel.correction()[i]);
+  }
+};
+
+}  // namespace
+
+PatchBlock patch_block(const RadarWaveform& w, uint32_t first_slot, uint32_t slots, uint32_t blocks,
+                       uint32_t block) {
+  const uint32_t first = first_slot / w.transmitters;
+  const uint64_t chirps = slots / w.transmitters;
+  PatchBlock result;
+  result.first = first + static_cast<uint32_t>(chirps * block / blocks);
+  result.last = first + static_cast<uint32_t>(chirps * (block + 1) / blocks);
+  const uint32_t middle = result.first + (result.last - result.first) / 2;
+  result.middle_s = w.slot_middle_s(middle * w.transmitters) + 0.5 * (w.transmitters - 1) * w.interval_s;
+  return result;
+}
+
+uint32_t patch_blocks(const RadarWaveform& w, uint32_t slots, double rate, double curvature_per_s) {
+  const double frame_s = slots * w.interval_s;
+  // 2 pi S rate (T/2)(N/2 f_s), and pi f_c curvature (T/2)^2.
+  const double crossed = 0.5 * pi * w.bandwidth_hz() * rate * frame_s;
+  const double bent = 0.25 * pi * w.carrier_hz * curvature_per_s * frame_s * frame_s;
+  const double blocks = std::max(crossed / largest_patch_phase, std::sqrt(bent / largest_patch_phase));
+  const uint32_t most = std::max(1u, slots / w.transmitters);
+  return blocks >= most ? most : std::max(1u, static_cast<uint32_t>(std::ceil(blocks)));
+}
+
+struct PatchSynthesizer::Shared {
+  RadarSignalConfig config;
+  PatchAxis range, doppler;  ///< the latter for all chirps of a frame
+  explicit Shared(const RadarSignalConfig& of)
+      : config(of), range(of.waveform.samples), doppler(of.waveform.chirps()) {}
+};
+
+namespace {
+
+/// Adds the patches of one block, or those of a block that share a node of the phase noise.
+class BlockSum {
+ public:
+  BlockSum(const RadarSignalConfig& config, const PatchAxis& range, const PatchAxis& doppler,
+           const PatchList& patches, const PatchBlock& block, uint32_t index, const Leads& leads,
+           uint32_t threads)
+      : config_(config),
+        w_(config.waveform),
+        range_(range),
+        doppler_(doppler),
+        patches_(patches),
+        block_(block),
+        delay_(patches.delay_s.data() + index * patches.size()),
+        rate_(patches.rate.data() + index * patches.size()),
+        leads_(leads),
+        threads_(threads),
+        antennas_(static_cast<uint32_t>(config.arrays.receive_m.size()) * w_.transmitters),
+        groups_((antennas_ + Fft::lanes - 1) / Fft::lanes),
+        rows_(range.kernel.grid()),
+        columns_(doppler.kernel.grid()),
+        amplitude_scale_(static_cast<float>(std::sqrt(config.transmit_power_w))) {}
+
+  /// `turns` [slots of the block, samples] is added to the phase of every sample; empty: nothing is.
+  void add(std::span<const uint32_t> members, std::span<const float> turns,
+           std::span<std::complex<float>> cube) {
+    sort(members);
+    grid_.assign(size_t{groups_} * rows_ * columns_, Fft::Value{});
+    parallel_for((rows_ + stripe_rows - 1) / stripe_rows, threads_, [&](size_t stripe) {
+      const uint32_t begin = static_cast<uint32_t>(stripe) * stripe_rows;
+      spread(begin, std::min(rows_, begin + stripe_rows));
+    });
+    parallel_for(rows_, threads_, [&](size_t row) { transform_row(static_cast<uint32_t>(row)); });
+    parallel_for(block_.last - block_.first, threads_,
+                 [&](size_t chirp) { transform_chirp(static_cast<uint32_t>(chirp), turns, cube); });
+  }
+
+ private:
+  double doppler_hz(uint32_t i) const { return (w_.carrier_hz - w_.slope_hz_per_s * delay_[i]) * rate_[i]; }
+  double range_turns(uint32_t i) const {
+    return (w_.slope_hz_per_s * delay_[i] + doppler_hz(i)) / w_.sample_rate_hz;
+  }
+
+  /// Orders the members by the first row of their kernels; first_ [rows + 1] says where each row begins.
+  void sort(std::span<const uint32_t> members) {
+    std::vector<uint32_t> row(members.size());
+    std::array<float, kernel_taps> unused;
+    first_.assign(rows_ + 1, 0);
+    for (size_t k = 0; k < members.size(); ++k) {
+      row[k] = range_.kernel.spread(range_turns(members[k]), unused);
+      ++first_[row[k] + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    order_.resize(members.size());
+    std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
+    for (size_t k = 0; k < members.size(); ++k) order_[next[row[k]]++] = members[k];
+  }
+
+  /// Computes the amplitudes of a patch at all virtual antennas, in groups of four: [groups][re 4, im 4].
+  void amplitudes(uint32_t i, std::vector<float>& values) const {
+    const double tau = delay_[i], doppler = doppler_hz(i);
+    const double turns = turns_of(w_.carrier_hz, tau) - 0.5 * w_.slope_hz_per_s * tau * tau;
+    const std::complex<float> conjugate(amplitude_scale_ * patches_.re[i],
+                                        -amplitude_scale_ * patches_.im[i]);
+    const std::complex<float> base = times(conjugate, phasor_of(turns));
+    const double lead_hz = w_.slope_hz_per_s * tau - w_.carrier_hz;
+    const dvec3 out(patches_.departure[i]), in(patches_.arrival_of(i));
+    const uint32_t transmitters = w_.transmitters;
+    for (uint32_t t = 0; t < transmitters; ++t) {
+      const double late_s = (t - 0.5 * (transmitters - 1)) * w_.interval_s;
+      const std::complex<float> sent =
+          times(base, phasor_of(lead_hz * glm::dot(leads_.transmit[t], out) + doppler * late_s));
+      for (size_t r = 0; r < leads_.receive.size(); ++r) {
+        const std::complex<float> value = times(sent, phasor_of(lead_hz * glm::dot(leads_.receive[r], in)));
+        const size_t antenna = r * transmitters + t;
+        values[8 * (antenna / 4) + antenna % 4] = value.real();
+        values[8 * (antenna / 4) + antenna % 4 + 4] = value.imag();
+      }
+    }
+  }
+
+  /// Adds to rows [begin, end) what all patches have there, in the order of the patches.
+  void spread(uint32_t begin, uint32_t end) {
+    std::vector<float> values(8 * groups_, 0.0f);
+    std::array<float, kernel_taps> range_weights, doppler_weights, weights;
+    for (uint32_t k = 0; k < std::min(rows_, end - begin + kernel_taps - 1); ++k) {
+      const uint32_t row = (begin + rows_ + k - (kernel_taps - 1)) % rows_;
+      for (uint32_t at = first_[row]; at < first_[row + 1]; ++at) {
+        const uint32_t i = order_[at];
+        range_.kernel.spread(range_turns(i), range_weights);
+        const uint32_t column = doppler_.kernel.spread(doppler_hz(i) * w_.repetition_s(), doppler_weights);
+        amplitudes(i, values);
+        const int before = std::min<int>(kernel_taps, static_cast<int>(columns_ - column));
+        for (int tap = 0; tap < kernel_taps; ++tap) {
+          const uint32_t to = (row + tap) % rows_;
+          if (to < begin || to >= end) continue;
+          for (int d = 0; d < kernel_taps; ++d) weights[d] = range_weights[tap] * doppler_weights[d];
+          for (uint32_t group = 0; group < groups_; ++group) {
+            float* const cells = reinterpret_cast<float*>(row_of(group, to));
+            spread_row(cells + 8 * column, values.data() + 8 * group, weights.data(), before);
+            spread_row(cells, values.data() + 8 * group, weights.data() + before, kernel_taps - before);
+          }
+        }
+      }
+    }
+  }
+
+  Fft::Value* row_of(uint32_t group, uint32_t row) {
+    return grid_.data() + (size_t{group} * rows_ + row) * columns_;
+  }
+  bool empty(uint32_t row) const {
+    for (uint32_t k = 0; k < kernel_taps; ++k) {
+      const uint32_t from = (row + rows_ - k) % rows_;
+      if (first_[from] != first_[from + 1]) return false;
+    }
+    return true;
+  }
+
+  /// Replaces a row of Doppler frequencies by the chirps of the block.
+  void transform_row(uint32_t row) {
+    if (empty(row)) return;
+    std::vector<Fft::Value> room(columns_), out(doppler_.kernel.count());
+    for (uint32_t group = 0; group < groups_; ++group) {
+      Fft::Value* const cells = row_of(group, row);
+      doppler_.outputs(cells, room.data(), out.data());
+      std::copy(out.begin(), out.end(), cells);
+    }
+  }
+
+  /// Transforms the beat frequencies of a chirp to its samples, and adds them.
+  void transform_chirp(uint32_t chirp, std::span<const float> turns, std::span<std::complex<float>> cube) {
+    std::vector<Fft::Value> cells(rows_), room(rows_), out(w_.samples);
+    std::vector<std::complex<float>> lines(size_t{Fft::lanes} * w_.samples);
+    std::complex<float>* rows[Fft::lanes];
+    for (uint32_t lane = 0; lane < Fft::lanes; ++lane) rows[lane] = lines.data() + lane * w_.samples;
+    for (uint32_t group = 0; group < groups_; ++group) {
+      const Fft::Value* from = row_of(group, 0) + chirp;
+      for (uint32_t row = 0; row < rows_; ++row) cells[row] = from[size_t{row} * columns_];
+      range_.outputs(cells.data(), room.data(), out.data());
+      Fft::scatter(out.data(), w_.samples, rows);
+      for (uint32_t lane = 0; lane < Fft::lanes; ++lane) {
+        const uint32_t antenna = group * Fft::lanes + lane;
+        if (antenna >= antennas_) break;
+        std::complex<float>* const to =
+            cube.data() + (size_t{antenna} * w_.chirps() + block_.first + chirp) * w_.samples;
+        if (turns.empty()) {
+          for (uint32_t n = 0; n < w_.samples; ++n) to[n] += rows[lane][n];
+          continue;
+        }
+        const uint32_t slot = chirp * w_.transmitters + antenna % w_.transmitters;
+        const float* const turn = turns.data() + size_t{slot} * w_.samples;
+        for (uint32_t n = 0; n < w_.samples; ++n) to[n] += times(rows[lane][n], phasor_of(turn[n]));
+      }
+    }
+  }
+
+  const RadarSignalConfig& config_;
+  const RadarWaveform& w_;
+  const PatchAxis &range_, &doppler_;
+  const PatchList& patches_;
+  const PatchBlock block_;
+  const double *delay_, *rate_;
+  const Leads& leads_;
+  const uint32_t threads_, antennas_, groups_, rows_, columns_;
+  const float amplitude_scale_;
+  std::vector<uint32_t> order_, first_;
+  std::vector<Fft::Value> grid_;  ///< [groups][rows][columns]
+};
+
+/// Returns the phases of the oscillator over the slots of a block for a node, [slots, samples] turns.
+std::vector<float> walk_turns(const PhaseWalk& walk, const RadarWaveform& w, const PatchBlock& block,
+                              uint32_t node, uint32_t threads) {
+  const uint32_t first = block.first * w.transmitters, slots = (block.last - block.first) * w.transmitters;
+  std::vector<float> turns(size_t{slots} * w.samples);
+  parallel_for(slots, threads, [&](size_t slot) {
+    PhaseWalk::Ramp ramp = walk.ramp(first + static_cast<uint32_t>(slot));
+    ramp.differences(node, std::span(turns).subspan(slot * w.samples, w.samples));
+  });
+  return turns;
+}
+
+}  // namespace
+
+PatchSynthesizer::PatchSynthesizer(const RadarSignalConfig& config)
+    : shared_(std::make_unique<const Shared>(config)) {}
+PatchSynthesizer::~PatchSynthesizer() = default;
+PatchSynthesizer::PatchSynthesizer(PatchSynthesizer&&) noexcept = default;
+
+void PatchSynthesizer::add(const PatchList& patches, uint32_t first_slot, uint32_t slots,
+                           const RadarAttitude& attitude, const PhaseWalk* walk, uint32_t threads,
+                           std::span<std::complex<float>> cube) const {
+  const RadarSignalConfig& config = shared_->config;
+  const RadarWaveform& w = config.waveform;
+  if (patches.empty()) return;
+  GREATX_CHECK(patches.delay_s.size() == patches.blocks * patches.size(), "{} delays of {} patches",
+               patches.delay_s.size(), patches.size());
+  GREATX_CHECK(first_slot % w.transmitters == 0 && slots % w.transmitters == 0, "slots {} + {} of {}",
+               first_slot, slots, w.transmitters);
+  const Leads leads(config.arrays, attitude);
+  for (uint32_t index = 0; index < patches.blocks; ++index) {
+    const PatchBlock block = patch_block(w, first_slot, slots, patches.blocks, index);
+    const uint32_t chirps = block.last - block.first;
+    std::unique_ptr<PatchAxis> other;
+    if (chirps != shared_->doppler.kernel.count()) other = std::make_unique<PatchAxis>(chirps);
+    BlockSum sum(config, shared_->range, other ? *other : shared_->doppler, patches, block, index, leads,
+                 threads);
+    std::vector<uint32_t> members(patches.size());
+    std::iota(members.begin(), members.end(), 0u);
+    if (walk == nullptr) {
+      sum.add(members, {}, cube);
+      continue;
+    }
+    const auto node_of = [&](uint32_t i) {
+      return PhaseWalk::node_of(patches.delay_s[index * patches.size() + i]);
+    };
+    std::stable_sort(members.begin(), members.end(),
+                     [&](uint32_t a, uint32_t b) { return node_of(a) < node_of(b); });
+    for (size_t begin = 0, end = 0; begin < members.size(); begin = end) {
+      const uint32_t node = node_of(members[begin]);
+      while (end < members.size() && node_of(members[end]) == node) ++end;
+      sum.add(std::span(members).subspan(begin, end - begin), walk_turns(*walk, w, block, node, threads),
+              cube);
+    }
+  }
+}
+
+}  // namespace greatx::rf
