@@ -42,6 +42,7 @@ struct RadarOffers {
   double roughness_m = 0.0;  ///< the largest of all materials
   std::string roughest;
   bool scattering = false;
+  std::string clutter;  ///< a material with a model of its clutter; empty: none
 };
 
 RadarOffers radar_offers(const scene::Scene& scene) {
@@ -50,6 +51,7 @@ RadarOffers radar_offers(const scene::Scene& scene) {
     const scene::Material& material = scene.materials[primitive.material];
     if (!material.radio) continue;
     offers.scattering |= material.radio->scattering_coefficient > 0.0;
+    if (offers.clutter.empty() && material.radio->clutter) offers.clutter = material.name;
     if (material.radio->roughness_m <= offers.roughness_m) continue;
     offers.roughness_m = material.radio->roughness_m;
     offers.roughest = material.name;
@@ -76,12 +78,12 @@ void plan_radar(EffectPlan& plan, const Planner& planner, const Scenario& scenar
          fmt::format("surfaces are rough: {} has {:g} mm rms", offers.roughest, 1e3 * offers.roughness_m),
          offers.roughness_m > 0.0 ? "rough surfaces are smooth at these wavelengths" : "no material is rough",
          radar && offers.roughness_m > 0.0 ? fmt::format("at most {:.3g} dB an echo", most_db) : "");
-  // Clutter must be asked for, because rough ground returns many times as many echoes as targets do.
-  planner.decide(plan.radar_clutter, false,
-                 !radar               ? "no radar"
-                 : !offers.scattering ? "no material scatters"
-                                      : "surfaces answer as if smooth (effects: {radar_clutter: on} to have "
-                                        "what they scatter; accuracy: decides by measurement)");
+  decide(plan.radar_clutter, !offers.clutter.empty(),
+         fmt::format("surfaces have models of their clutter: {} is one", offers.clutter),
+         offers.scattering
+             ? "no material has a model of its clutter (effects: {radar_clutter: on} to have what "
+               "scattering coefficients send back)"
+             : "no material has a model of its clutter");
   decide(plan.radar_noise, asks.noise, "a receiver has a noise figure", "no receiver has one");
   decide(plan.radar_phase_noise, asks.phase_noise, "an oscillator has phase noise", "no oscillator has any");
   decide(plan.radar_quantisation, asks.adc, "a converter has steps", "no converter is described");

@@ -359,7 +359,6 @@ void add_radar(Table& table) {
   if (plan.name.switchable) table.add_effect(plan.name, documentation);
   GREATX_RADAR_EFFECTS(GREATX_ROW)
 #undef GREATX_ROW
-  table.skip_if_quick("radar_clutter", "twenty times the default");
 }
 
 /// Takes the noise away from a radar for all knobs but those of the noise itself.

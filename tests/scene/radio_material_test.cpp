@@ -59,6 +59,7 @@ TEST(RadioMaterial, ExtensionWithEveryField) {
                                                 {"backscatter_share", 0.25},
                                                 {"cross_polarization", 0.1},
                                                 {"roughness_m", 0.002},
+                                                {"clutter", "snow"},
                                                 {"reflectance_905nm", 0.4},
                                                 {"reflectance_1550nm", 0.35}}))
                           .load();
@@ -74,6 +75,7 @@ TEST(RadioMaterial, ExtensionWithEveryField) {
   EXPECT_EQ(material.radio->backscatter_share, 0.25);
   EXPECT_EQ(material.radio->cross_polarization, 0.1);
   EXPECT_EQ(material.radio->roughness_m, 0.002);
+  EXPECT_EQ(material.radio->clutter, clutter_called("snow"));
   EXPECT_EQ(material.reflectance_905nm, 0.4f);
   EXPECT_EQ(material.reflectance_1550nm, 0.35f);
 }
@@ -170,6 +172,9 @@ TEST(RadioMaterial, EveryMemberCountsInEqualityAndHash) {
                                     [](Material& m) { m.radio->backscatter_share = 0.3; },
                                     [](Material& m) { m.radio->cross_polarization = 0.3; },
                                     [](Material& m) { m.radio->roughness_m = 0.3; },
+                                    [](Material& m) { m.radio->clutter = clutter_called("soil"); },
+                                    [](Material& m) { m.radio->clutter = clutter_called("snow"); },
+                                    [](Material& m) { m.radio->clutter = clutter_called("water"); },
                                     [](Material& m) { m.radio->foliage = Foliage{}; },
                                     [](Material& m) { m.radio.reset(); },
                                     [](Material& m) { m.reflectance_905nm = 0.3f; },
@@ -226,6 +231,12 @@ TEST(RadioMaterial, ExtensionErrorsNameFileMaterialAndField) {
   refuse({{"itu", "concrete"}, {"pattern", "spiky"}}, {"pattern", "spiky", "lambertian"});
   refuse({{"itu", "concrete"}, {"pattern_exponent", 2.5}}, {"pattern_exponent", "whole number"});
   refuse({{"itu", "concrete"}, {"roughness_m", -1}}, {"roughness_m"});
+  refuse({{"itu", "concrete"}, {"clutter", "lawn"}}, {"clutter", "one of asphalt", "'lawn'"});
+  refuse({{"itu", "concrete"}, {"clutter", {{"angle_db", 3}}}}, {"clutter", "one of level_db, gamma_db"});
+  refuse({{"itu", "concrete"}, {"clutter", {{"level_db", -30}, {"sea_state", 1}}}}, {"one of level_db"});
+  refuse({{"itu", "concrete"}, {"clutter", {{"gamma_db", -15}, {"angle_db", 3}}}}, {"belongs to level_db"});
+  refuse({{"itu", "concrete"}, {"clutter", {{"sea_state", 7}}}}, {"sea_state", "from 0 to 6"});
+  refuse({{"clutter", "soil"}}, {"clutter needs a medium"});
   refuse({{"itu", "concrete"}, {"reflectance_905nm", 2}}, {"reflectance_905nm"});
   refuse({{"itu", "concrete"}, {"thicknes_m", 0.1}}, {"unknown key 'thicknes_m'", "thickness_m"});
   refuse({{"itu", "concrete"}, {"relative_permittivity", 4}, {"conductivity", 0}}, {"given twice"});

@@ -3,6 +3,7 @@
 #include "rf/radar/echoes/clutter_patches.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -19,8 +20,8 @@ namespace {
 constexpr size_t part_chunk = 64, scatterer_chunk = 1024;
 /// Scatterers that need more blocks than this become echoes with delays of their own.
 constexpr uint32_t most_blocks = 8;
-/// A small facet has squares of half its width, but not more than this many in a square of the others.
-constexpr double finest_share = 1.0 / 16.0;
+constexpr double scatterers_in_a_cell = 4.0;
+constexpr double least_slope = 0.2;  ///< cosine of the steepest grazing angle that still counts for a cell
 
 /// Returns a well mixed number (S. Vigna, SplitMix64, 2015).
 uint64_t mixed(uint64_t value) {
@@ -73,11 +74,6 @@ struct Outline {
   }
 };
 
-double square_side(const PosedFacet& facet, double side_m) {
-  const double width = std::sqrt((facet.max_u - facet.min_u) * (facet.max_v - facet.min_v));
-  return std::clamp(0.5 * width, finest_share * side_m, side_m);
-}
-
 dvec3 horizontal(const dvec3& direction, const dvec3& normal) {
   const dvec3 product = glm::cross(direction, normal);
   const double sine = glm::length(product);
@@ -90,6 +86,7 @@ dvec3 horizontal(const dvec3& direction, const dvec3& normal) {
 struct ClutterPatches::Ends {
   Pose transmitter, receiver;
   dmat3 turn{1.0};                       ///< local axes from those of the transmitter
+  double cell_rad = 0.1;                 ///< width of a resolution cell
   std::optional<TurnedElement> element;  ///< the receiver's; empty if it is the transmitter's
 };
 
@@ -142,12 +139,25 @@ Complex ClutterPatches::amplitude(const PosedFacet& facet, const dvec3& point, d
   return scale * (Complex(g) * co + Complex(g_cross) * cross);
 }
 
+double ClutterPatches::side_of(const PosedFacet& facet, const Polygon& piece, const Ends& ends) const {
+  double side = side_m_;
+  if (options_.diffuse_patch_m == 0.0) {
+    const dvec3 arm = point_of(facet, piece.centroid()) - ends.transmitter.position;
+    const double distance = glm::length(arm), sine = std::abs(glm::dot(arm, facet.normal)) / distance;
+    const double along =
+        options_.waveform.range_bin_m() / std::max(least_slope, std::sqrt(1.0 - sine * sine));
+    const double wanted = std::sqrt(along * distance * ends.cell_rad / scatterers_in_a_cell);
+    if (wanted > side) side *= std::exp2(std::nearbyint(std::log2(wanted / side)));
+  }
+  return side;
+}
+
 void ClutterPatches::cover(const ClutterPart& part, const FacetWorld& world, const RayGrid& grid,
                            const Ends& ends, std::vector<Scatterer>& out) const {
   const PosedFacet& facet = world.facet(part.facet);
   const Outline outline(part.piece);
-  const double side = square_side(facet, side_m_);
-  const uint64_t key = mixed(options_.seed ^ mixed(part.facet));
+  const double side = side_of(facet, part.piece, ends);
+  const uint64_t key = mixed(options_.seed ^ mixed(part.facet ^ mixed(std::bit_cast<uint64_t>(side))));
   const CellField field = cells_.turned(grid.cell(part.tube), ends.turn);
   const auto last_row = static_cast<int64_t>(std::floor(outline.high.y / side));
   for (auto row = static_cast<int64_t>(std::floor(outline.low.y / side)); row <= last_row; ++row) {
@@ -293,10 +303,21 @@ FoundPatches ClutterPatches::timed(std::vector<Scatterer> all, const FacetWorld&
   return found;
 }
 
+/// Returns the width of a resolution cell across the range: that of the beam, or that which the Doppler
+/// frequencies of a moving radar resolve beside its course.
+double ClutterPatches::cell_rad(const EchoMotion& motion) const {
+  const double frame_s = motion.frame_s(), begin_s = motion.slot_start_s.front();
+  const double moved = frame_s > 0.0 ? glm::distance(motion.transmitter(begin_s + frame_s).position,
+                                                     motion.transmitter(begin_s).position)
+                                     : 0.0;
+  return std::min(options_.beam_rad, 0.5 * wavelength_m_ / std::max(moved, 1e-12));
+}
+
 FoundPatches ClutterPatches::find(std::span<const ClutterPart> parts, const FacetWorld& world,
                                   const RayGrid& grid, const Pose& transmitter, const Pose& receiver,
                                   const EchoMotion& motion) const {
-  Ends ends{transmitter, receiver, glm::mat3_cast(transmitter.orientation), std::nullopt};
+  Ends ends{transmitter, receiver, glm::mat3_cast(transmitter.orientation), 0.0, std::nullopt};
+  ends.cell_rad = cell_rad(motion);
   if (!monostatic_)
     ends.element.emplace(receiver_pattern_, std::span(&receiver_slant_, 1), receiver.orientation);
   return timed(scatterers(parts, world, grid, ends), world, ends, motion);

@@ -3,9 +3,11 @@
 //
 // Covers the rough surfaces that a radar sees with patches (docs/clutter.md).
 //
-// Every facet has a lattice of scatterers, one in each square of a side of half a range cell, at a random
-// place within its square. Places and amplitudes are drawn from (seed, facet, square): they belong to the
-// surface and move with it. The part of a tube on a facet (TubeEchoes) has the scatterers that lie in it, so
+// Every facet has lattices of scatterers, one in each square, at a random place within it. The squares are
+// half a range cell wide, or 2, 4, ... times as wide where a resolution cell of range and angle, or Doppler
+// frequency, is so large that it still holds about four. Places and amplitudes are drawn from (seed, facet,
+// width, square): they belong to the surface and move with it. A facet smaller than a square has a scatterer
+// with the probability of its share of the square, so that many small facets send back the right power. The part of a tube on a facet (TubeEchoes) has the scatterers that lie in it, so
 // that shadows are exact. Each scatterer sends back
 //   a = lambda/((4 pi)^(3/2) r1 r2) sqrt(A) F_r . [g sqrt(sigma0_hh) h h + g sqrt(sigma0_vv) v v
 //       + g' sqrt(sigma0_hv) (h v + v h)] . F_t,
@@ -63,6 +65,8 @@ class ClutterPatches {
 
  private:
   struct Ends;
+  double side_of(const PosedFacet& facet, const Polygon& piece, const Ends& ends) const;
+  double cell_rad(const EchoMotion& motion) const;
   std::vector<Scatterer> scatterers(std::span<const ClutterPart> parts, const FacetWorld& world,
                                     const RayGrid& grid, const Ends& ends) const;
   void cover(const ClutterPart& part, const FacetWorld& world, const RayGrid& grid, const Ends& ends,

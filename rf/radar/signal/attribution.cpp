@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/phase.h"
 #include "rf/radar/signal/delay.h"
@@ -20,10 +21,14 @@ double around(double value, double period) { return value - period * std::nearby
 
 Attribution::Attribution(const RadarSignalConfig& config, const RadarMaps& maps,
                          std::span<const EchoList> lists)
-    : maps_(maps), ranges_(config.waveform.samples), velocities_(config.waveform.chirps()) {
+    : maps_(maps),
+      ranges_(config.waveform.samples),
+      velocities_(config.waveform.chirps()),
+      patches_(config.waveform.samples) {
   const RadarWaveform& w = config.waveform;
   const double frame_s = w.chirps() * w.repetition_s();
   for (const EchoList& list : lists) {
+    add_patches(config, list);
     const double share = double(list.slots) / w.slots;  // share of the slots of the frame
     const double mid_s =
         0.5 * (w.slot_middle_s(list.first_slot) + w.slot_middle_s(list.first_slot + list.slots - 1));
@@ -55,10 +60,48 @@ Attribution::Attribution(const RadarSignalConfig& config, const RadarMaps& maps,
                    [](const Tone& a, const Tone& b) { return a.instance < b.instance; });
 }
 
+void Attribution::add_patches(const RadarSignalConfig& config, const EchoList& list) {
+  const RadarWaveform& w = config.waveform;
+  const PatchList& patches = list.patches;
+  const double frame_s = w.chirps() * w.repetition_s(), share = double(list.slots) / w.slots;
+  const size_t middle = patches.size() * (patches.blocks / 2);
+  for (size_t i = 0; i < patches.size(); ++i) {
+    const double delay_s = patches.delay_s[middle + i];
+    const double doppler_hz = (w.carrier_hz - w.slope_hz_per_s * delay_s) * patches.rate[middle + i];
+    const double range = (w.slope_hz_per_s * delay_s + doppler_hz) * w.sampled_s();
+    const double power = patches.re[i] * patches.re[i] + patches.im[i] * patches.im[i];
+    const double within = range - ranges_ * std::floor(range / ranges_);
+    patches_[std::min(patches_.size() - 1, static_cast<size_t>(within))].push_back(
+        {patches.instance[i], static_cast<float>(within), static_cast<float>(doppler_hz * frame_s),
+         static_cast<float>(share * share * config.transmit_power_w * power)});
+    instances_ = std::max(instances_, patches.instance[i] + 1);
+  }
+}
+
+void Attribution::add_powers(uint32_t range_bin, double doppler, std::vector<double>& powers) const {
+  constexpr int whole_reach = static_cast<int>(reach);
+  const int bins = static_cast<int>(patches_.size());
+  for (int off = -std::min(whole_reach + 1, bins / 2); off <= std::min(whole_reach, (bins - 1) / 2); ++off)
+    for (const Patch& patch : patches_[(static_cast<int>(range_bin) + off + bins) % bins]) {
+      const double range_off = around(double(patch.range) - range_bin, ranges_),
+                   doppler_off = around(patch.doppler - doppler, velocities_);
+      if (std::abs(range_off) > reach || std::abs(doppler_off) > reach) continue;
+      powers[patch.instance] +=
+          patch.power_w * maps_.range_window().power(range_off) * maps_.doppler_window().power(doppler_off);
+    }
+}
+
 uint32_t Attribution::instance(uint32_t range_bin, uint32_t velocity_bin, double power_w) const {
   const double doppler = doppler_turns(velocity_bin, static_cast<uint32_t>(velocities_));
+  std::vector<double> of_patches(instances_, 0.0);
+  if (instances_ > 0) add_powers(range_bin, doppler, of_patches);
   uint32_t best = 0;
   double largest = least_share * power_w;
+  const auto compare = [&](uint32_t instance, double power) {
+    if (instance == 0 || power < largest || (power == largest && (best == 0 || instance >= best))) return;
+    largest = power;
+    best = instance;
+  };
   for (size_t i = 0; i < tones_.size();) {
     const uint32_t instance = tones_[i].instance;
     std::complex<double> sum = 0.0;
@@ -79,11 +122,12 @@ uint32_t Attribution::instance(uint32_t range_bin, uint32_t velocity_bin, double
       sum += part;
       powers += std::norm(part);
     }
-    const double power = std::max(std::norm(sum), powers);
-    if (instance == 0 || power <= largest) continue;
-    largest = power;
-    best = instance;
+    double power = std::max(std::norm(sum), powers);
+    if (instance < instances_) power += std::exchange(of_patches[instance], 0.0);
+    compare(instance, power);
   }
+  for (uint32_t instance = 1; instance < instances_; ++instance)
+    if (of_patches[instance] > 0.0) compare(instance, of_patches[instance]);
   return best;
 }
 

@@ -23,7 +23,7 @@ class Attribution {
 
   /// Returns the instance that accounts for most of the power of a cell, among those whose echoes lie within
   /// two bins of the cell. The power of an instance is the larger of |sum of tones|^2 and the sum of the
-  /// tones' powers. Of equal instances the one with the lower id counts. Returns 0 if the power of the
+  /// tones' powers, with those of its patches. Of equal instances the one with the lower id counts. Returns 0 if the power of the
   /// instance is not more than least_share of `power_w`. An echo with a delay table counts in all Doppler
   /// bins between its slowest and its fastest rate, and shares its power among these bins.
   uint32_t instance(uint32_t range_bin, uint32_t velocity_bin, double power_w) const;
@@ -38,6 +38,16 @@ class Attribution {
   const RadarMaps& maps_;
   double ranges_, velocities_;
   std::vector<Tone> tones_;  ///< sorted by instance
+  /// A patch, which counts by its power alone: thousands of them add up with random phases.
+  struct Patch {
+    uint32_t instance;
+    float range, doppler, power_w;
+  };
+  void add_patches(const RadarSignalConfig& config, const EchoList& list);
+  /// Adds the powers that patches have in a cell to powers_of_patches, by instance.
+  void add_powers(uint32_t range_bin, double doppler, std::vector<double>& powers) const;
+  std::vector<std::vector<Patch>> patches_;  ///< [range bin]
+  uint32_t instances_ = 0;                   ///< largest instance of a patch + 1
 };
 
 }  // namespace greatx::rf

@@ -68,18 +68,13 @@ PatchKernel::PatchKernel(uint32_t count) : count_(count), grid_(grid_for(count))
 
 uint32_t PatchKernel::spread(double turns, std::array<float, taps>& weights) const {
   static const KernelTable table;
-  // The middle of the kernel is `place` cells from the origin; its first tap is the first cell within half a
-  // width of it.
-  const double place = (turns - std::floor(turns)) * grid_, begin = place - 0.5 * taps;
-  const double first = std::floor(begin) + 1.0;
-  const double between = first - begin;  // in (0, 1]
-  const double step = (1.0 - between) * kernel_steps;
+  const Begin begin = begin_of(turns);
+  const double step = (1.0 - begin.between) * kernel_steps;
   const int row = std::min(static_cast<int>(step), kernel_steps - 1);
   const float part = static_cast<float>(step - row);
   for (int tap = 0; tap < taps; ++tap)
     weights[tap] = table.rows[row][tap] + part * (table.rows[row + 1][tap] - table.rows[row][tap]);
-  const int64_t cell = static_cast<int64_t>(first);
-  return static_cast<uint32_t>((cell + grid_) % grid_);
+  return begin.cell;
 }
 
 }  // namespace greatx::rf

@@ -22,10 +22,28 @@ constexpr int kernel_taps = PatchKernel::taps;
 /// Rows of a grid that one task adds patches to. The sums do not depend on it.
 constexpr uint32_t stripe_rows = 24;
 
-/// Adds `value` times `weight` to the cells from `cells` on: one row of a patch's kernel.
-GREATX_LANES void spread_row(float* cells, const float* value, const float* weights, int count) {
-  for (int tap = 0; tap < count; ++tap)
-    for (int lane = 0; lane < 8; ++lane) cells[8 * tap + lane] += weights[tap] * value[lane];
+using Eight [[gnu::vector_size(32), gnu::aligned(4), gnu::may_alias]] = float;
+
+/// Adds a patch to the rows of a grid. `rows` holds the places of its first column in each row of the first
+/// group, or null for a row that another task adds to; the groups are `group_stride` floats apart. `values` is
+/// [groups, 8].
+GREATX_LANES void spread_patch(float* const* rows, size_t group_stride, uint32_t groups, const float* values,
+                               const float* range_weights, const float* doppler_weights) {
+  for (uint32_t group = 0; group < groups; ++group) {
+    const Eight value = *reinterpret_cast<const Eight*>(values + 8 * group);
+    Eight along[kernel_taps];
+    for (int d = 0; d < kernel_taps; ++d) along[d] = value * doppler_weights[d];
+    for (int r = 0; r < kernel_taps; ++r) {
+      if (rows[r] == nullptr) continue;
+      Eight* const cells = reinterpret_cast<Eight*>(rows[r] + group * group_stride);
+      for (int d = 0; d < kernel_taps; ++d) cells[d] += along[d] * range_weights[r];
+    }
+  }
+}
+
+/// Computes cos and sin of 2 pi `turns`, [count].
+GREATX_LANES void phasors_of(const float* turns, uint32_t count, float* re, float* im) {
+  for (uint32_t i = 0; i < count; ++i) cos_sin_of_turns(turns[i], re[i], im[i]);
 }
 
 /// Holds the elements of both arrays in world axes.
@@ -114,13 +132,14 @@ class BlockSum {
         groups_((antennas_ + Fft::lanes - 1) / Fft::lanes),
         rows_(range.kernel.grid()),
         columns_(doppler.kernel.grid()),
+        stride_(columns_ + kernel_taps - 1),
         amplitude_scale_(static_cast<float>(std::sqrt(config.transmit_power_w))) {}
 
   /// `turns` [slots of the block, samples] is added to the phase of every sample; empty: nothing is.
   void add(std::span<const uint32_t> members, std::span<const float> turns,
            std::span<std::complex<float>> cube) {
     sort(members);
-    grid_.assign(size_t{groups_} * rows_ * columns_, Fft::Value{});
+    grid_.assign(size_t{groups_} * rows_ * stride_, Fft::Value{});
     parallel_for((rows_ + stripe_rows - 1) / stripe_rows, threads_, [&](size_t stripe) {
       const uint32_t begin = static_cast<uint32_t>(stripe) * stripe_rows;
       spread(begin, std::min(rows_, begin + stripe_rows));
@@ -136,13 +155,14 @@ class BlockSum {
     return (w_.slope_hz_per_s * delay_[i] + doppler_hz(i)) / w_.sample_rate_hz;
   }
 
+  static float turn_part(double turns) { return static_cast<float>(turns - nearest(turns)); }
+
   /// Orders the members by the first row of their kernels; first_ [rows + 1] says where each row begins.
   void sort(std::span<const uint32_t> members) {
     std::vector<uint32_t> row(members.size());
-    std::array<float, kernel_taps> unused;
     first_.assign(rows_ + 1, 0);
     for (size_t k = 0; k < members.size(); ++k) {
-      row[k] = range_.kernel.spread(range_turns(members[k]), unused);
+      row[k] = range_.kernel.first_cell(range_turns(members[k]));
       ++first_[row[k] + 1];
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
@@ -151,57 +171,69 @@ class BlockSum {
     for (size_t k = 0; k < members.size(); ++k) order_[next[row[k]]++] = members[k];
   }
 
-  /// Computes the amplitudes of a patch at all virtual antennas, in groups of four: [groups][re 4, im 4].
-  void amplitudes(uint32_t i, std::vector<float>& values) const {
+  /// Room for the amplitudes of a patch.
+  struct Room {
+    std::vector<float> turns, re, im;  ///< [1 + transmitters + receivers]
+    std::vector<float> values;         ///< [groups, re 4 | im 4] virtual antennas
+  };
+
+  /// Computes the amplitudes of a patch at all virtual antennas.
+  void amplitudes(uint32_t i, Room& room) const {
     const double tau = delay_[i], doppler = doppler_hz(i);
-    const double turns = turns_of(w_.carrier_hz, tau) - 0.5 * w_.slope_hz_per_s * tau * tau;
-    const std::complex<float> conjugate(amplitude_scale_ * patches_.re[i],
-                                        -amplitude_scale_ * patches_.im[i]);
-    const std::complex<float> base = times(conjugate, phasor_of(turns));
     const double lead_hz = w_.slope_hz_per_s * tau - w_.carrier_hz;
     const dvec3 out(patches_.departure[i]), in(patches_.arrival_of(i));
-    const uint32_t transmitters = w_.transmitters;
+    const uint32_t transmitters = w_.transmitters, receivers = static_cast<uint32_t>(leads_.receive.size());
+    float* turns = room.turns.data();
+    const auto add = [&](double value) { *turns++ = turn_part(value); };
+    const ExactProduct carrier = exact_product(w_.carrier_hz, tau);
+    add((carrier.value - nearest(carrier.value)) + carrier.error - 0.5 * w_.slope_hz_per_s * tau * tau);
+    for (uint32_t t = 0; t < transmitters; ++t)
+      add(lead_hz * glm::dot(leads_.transmit[t], out) +
+          doppler * (t - 0.5 * (transmitters - 1)) * w_.interval_s);
+    for (uint32_t r = 0; r < receivers; ++r) add(lead_hz * glm::dot(leads_.receive[r], in));
+    phasors_of(room.turns.data(), 1 + transmitters + receivers, room.re.data(), room.im.data());
+    const auto phasor = [&](uint32_t at) { return std::complex<float>(room.re[at], room.im[at]); };
+    const std::complex<float> conjugate(amplitude_scale_ * patches_.re[i],
+                                        -amplitude_scale_ * patches_.im[i]),
+        base = times(conjugate, phasor(0));
     for (uint32_t t = 0; t < transmitters; ++t) {
-      const double late_s = (t - 0.5 * (transmitters - 1)) * w_.interval_s;
-      const std::complex<float> sent =
-          times(base, phasor_of(lead_hz * glm::dot(leads_.transmit[t], out) + doppler * late_s));
-      for (size_t r = 0; r < leads_.receive.size(); ++r) {
-        const std::complex<float> value = times(sent, phasor_of(lead_hz * glm::dot(leads_.receive[r], in)));
-        const size_t antenna = r * transmitters + t;
-        values[8 * (antenna / 4) + antenna % 4] = value.real();
-        values[8 * (antenna / 4) + antenna % 4 + 4] = value.imag();
+      const std::complex<float> sent = times(base, phasor(1 + t));
+      for (uint32_t r = 0; r < receivers; ++r) {
+        const std::complex<float> value = times(sent, phasor(1 + transmitters + r));
+        const uint32_t antenna = r * transmitters + t;
+        room.values[8 * (antenna / 4) + antenna % 4] = value.real();
+        room.values[8 * (antenna / 4) + antenna % 4 + 4] = value.imag();
       }
     }
   }
 
   /// Adds to rows [begin, end) what all patches have there, in the order of the patches.
   void spread(uint32_t begin, uint32_t end) {
-    std::vector<float> values(8 * groups_, 0.0f);
-    std::array<float, kernel_taps> range_weights, doppler_weights, weights;
+    Room room;
+    for (auto* column : {&room.turns, &room.re, &room.im})
+      column->resize(1 + w_.transmitters + leads_.receive.size());
+    room.values.resize(8 * groups_, 0.0f);
+    std::array<float, kernel_taps> range_weights, doppler_weights;
+    std::array<float*, kernel_taps> rows;
     for (uint32_t k = 0; k < std::min(rows_, end - begin + kernel_taps - 1); ++k) {
       const uint32_t row = (begin + rows_ + k - (kernel_taps - 1)) % rows_;
       for (uint32_t at = first_[row]; at < first_[row + 1]; ++at) {
         const uint32_t i = order_[at];
         range_.kernel.spread(range_turns(i), range_weights);
         const uint32_t column = doppler_.kernel.spread(doppler_hz(i) * w_.repetition_s(), doppler_weights);
-        amplitudes(i, values);
-        const int before = std::min<int>(kernel_taps, static_cast<int>(columns_ - column));
         for (int tap = 0; tap < kernel_taps; ++tap) {
           const uint32_t to = (row + tap) % rows_;
-          if (to < begin || to >= end) continue;
-          for (int d = 0; d < kernel_taps; ++d) weights[d] = range_weights[tap] * doppler_weights[d];
-          for (uint32_t group = 0; group < groups_; ++group) {
-            float* const cells = reinterpret_cast<float*>(row_of(group, to));
-            spread_row(cells + 8 * column, values.data() + 8 * group, weights.data(), before);
-            spread_row(cells, values.data() + 8 * group, weights.data() + before, kernel_taps - before);
-          }
+          rows[tap] = to >= begin && to < end ? reinterpret_cast<float*>(row_of(0, to) + column) : nullptr;
         }
+        amplitudes(i, room);
+        spread_patch(rows.data(), size_t{8} * rows_ * stride_, groups_, room.values.data(),
+                     range_weights.data(), doppler_weights.data());
       }
     }
   }
 
   Fft::Value* row_of(uint32_t group, uint32_t row) {
-    return grid_.data() + (size_t{group} * rows_ + row) * columns_;
+    return grid_.data() + (size_t{group} * rows_ + row) * stride_;
   }
   bool empty(uint32_t row) const {
     for (uint32_t k = 0; k < kernel_taps; ++k) {
@@ -217,6 +249,7 @@ class BlockSum {
     std::vector<Fft::Value> room(columns_), out(doppler_.kernel.count());
     for (uint32_t group = 0; group < groups_; ++group) {
       Fft::Value* const cells = row_of(group, row);
+      for (uint32_t k = columns_; k < stride_; ++k) cells[k - columns_] += cells[k];
       doppler_.outputs(cells, room.data(), out.data());
       std::copy(out.begin(), out.end(), cells);
     }
@@ -230,7 +263,7 @@ class BlockSum {
     for (uint32_t lane = 0; lane < Fft::lanes; ++lane) rows[lane] = lines.data() + lane * w_.samples;
     for (uint32_t group = 0; group < groups_; ++group) {
       const Fft::Value* from = row_of(group, 0) + chirp;
-      for (uint32_t row = 0; row < rows_; ++row) cells[row] = from[size_t{row} * columns_];
+      for (uint32_t row = 0; row < rows_; ++row) cells[row] = from[size_t{row} * stride_];
       range_.outputs(cells.data(), room.data(), out.data());
       Fft::scatter(out.data(), w_.samples, rows);
       for (uint32_t lane = 0; lane < Fft::lanes; ++lane) {
@@ -256,10 +289,11 @@ class BlockSum {
   const PatchBlock block_;
   const double *delay_, *rate_;
   const Leads& leads_;
-  const uint32_t threads_, antennas_, groups_, rows_, columns_;
+  const uint32_t threads_, antennas_, groups_, rows_, columns_, stride_;
   const float amplitude_scale_;
   std::vector<uint32_t> order_, first_;
-  std::vector<Fft::Value> grid_;  ///< [groups][rows][columns]
+  std::vector<Fft::Value>
+      grid_;  ///< [groups][rows][stride]: the last cells of a row belong to its first ones
 };
 
 /// Returns the phases of the oscillator over the slots of a block for a node, [slots, samples] turns.

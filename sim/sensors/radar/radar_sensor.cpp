@@ -195,6 +195,7 @@ RadarSensor::Echoes RadarSensor::find_echoes(const gpu::TickSlot& slot) {
     tubes_ += statistics.tubes;
     echoes_ += echoes.lists.back().echoes.size();
     echoes_left_out_ += statistics.left_out;
+    patches_ += statistics.patches;
   }
   frame.updates.clear();
   return echoes;
@@ -219,6 +220,7 @@ void RadarSensor::count(std::map<std::string, uint64_t>& counters) const {
   counters[name_ + " frames"] = frames_done_;
   counters[name_ + " ray tubes"] = tubes_;
   counters[name_ + " echoes"] = echoes_;
+  if (patches_ > 0) counters[name_ + " patches"] = patches_;
   counters[name_ + " detections"] = detections_;
   if (echoes_left_out_ > 0) counters[name_ + " echoes left out"] = echoes_left_out_;
   if (saturated_ > 0) counters[name_ + " saturated samples"] = saturated_;

@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Holds the patches of rough surfaces against the radar equation, and their speckle against its statistics.
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "tests/rf/radar_echo_scenes.h"
+
+namespace greatx::rf {
+namespace {
+
+using test::TinyScene;
+using testing::EchoScene;
+using testing::looking;
+using testing::radar_carrier_hz;
+using testing::radar_wavelength_m;
+
+/// A material of a perfect conductor with a clutter model.
+scene::Material rough_material(const char* clutter, double cross_db = -200.0) {
+  scene::Material material;
+  material.name = clutter;
+  material.radio.emplace().clutter = scene::clutter_called(clutter);
+  material.radio->clutter->cross_db = cross_db;
+  return material;
+}
+
+/// Options of a radar at rest with one slot, whose range cell is 1 m.
+EchoOptions still_options(double half_azimuth_deg, double elevation_min_deg, double elevation_max_deg) {
+  EchoOptions options;
+  options.field_of_view = {radians(-half_azimuth_deg), radians(half_azimuth_deg), radians(elevation_min_deg),
+                           radians(elevation_max_deg)};
+  options.tubes = 2000;
+  options.diffuse = true;
+  options.waveform.carrier_hz = radar_carrier_hz;
+  options.waveform.slope_hz_per_s = 3.5e12;
+  options.waveform.slots = options.waveform.transmitters = 1;
+  options.beam_rad = 0.1;
+  return options;
+}
+
+/// A floor of 60 m x 40 m, 10 m below the radar.
+TinyScene floor_scene(const scene::Material& material) {
+  TinyScene tiny;
+  const uint32_t rough = tiny.material_as(material);
+  tiny.object("floor", 0, rough).quad({5, -20, -10}, {65, -20, -10}, {65, 20, -10}, {5, 20, -10});
+  return tiny;
+}
+
+double patch_range(const PatchList& list, size_t i) { return 0.5 * speed_of_light * list.delay_s[i]; }
+Complex patch_amplitude(const PatchList& list, size_t i) { return {list.re[i], list.im[i]}; }
+
+double power_between(const PatchList& list, double from_m, double to_m) {
+  double power = 0.0;
+  for (size_t i = 0; i < list.size(); ++i)
+    if (patch_range(list, i) > from_m && patch_range(list, i) < to_m)
+      power += std::norm(patch_amplitude(list, i));
+  return power;
+}
+
+/// The radar equation over the floor, for elements of gain 1 with vertical polarization.
+double floor_power(const scene::SurfaceClutter& clutter, double half_azimuth, double from_m, double to_m) {
+  double power = 0.0;
+  constexpr double step = 0.05;
+  for (double x = 5.0 + 0.5 * step; x < 65.0; x += step)
+    for (double y = -20.0 + 0.5 * step; y < 20.0; y += step) {
+      const double r = std::sqrt(x * x + y * y + 100.0);
+      if (r < from_m || r > to_m || std::abs(std::atan2(y, x)) > half_azimuth) continue;
+      const double sigma = scene::backscatter(clutter, 10.0 / r, radar_carrier_hz).vv * step * step;
+      power += radar_wavelength_m * radar_wavelength_m * sigma / std::pow(4.0 * pi, 3) / std::pow(r, 4);
+    }
+  return power;
+}
+
+TEST(RadarClutter, PowerIsThatOfTheRadarEquation) {
+  for (const char* name : {"grass", "asphalt", "foliage"}) {
+    const TinyScene tiny = floor_scene(rough_material(name));
+    EchoScene scene(tiny);
+    EchoOptions options = still_options(30.0, -60.0, -5.0);
+    double near = 0.0, far = 0.0;
+    constexpr int draws = 16;
+    for (options.seed = 1; options.seed <= draws; ++options.seed) {
+      const PatchList patches = scene.find(options, Pose{}).patches;
+      ASSERT_GT(patches.size(), 300u) << name;
+      near += power_between(patches, 15.0, 25.0) / draws, far += power_between(patches, 25.0, 45.0) / draws;
+    }
+    // Some 3,000 Gaussian powers and more are added: 0.08 dB of standard deviation.
+    const scene::SurfaceClutter clutter = *scene::clutter_called(name);
+    EXPECT_NEAR(decibels(near), decibels(floor_power(clutter, radians(30.0), 15.0, 25.0)), 0.25) << name;
+    EXPECT_NEAR(decibels(far), decibels(floor_power(clutter, radians(30.0), 25.0, 45.0)), 0.25) << name;
+  }
+}
+
+/// Sums the patches at the carrier between two ranges for a pose of the radar.
+Complex cell_of(const PatchList& list, double from_m, double to_m) {
+  Complex sum = 0.0;
+  for (size_t i = 0; i < list.size(); ++i)
+    if (patch_range(list, i) > from_m && patch_range(list, i) < to_m)
+      sum += patch_amplitude(list, i) *
+             std::polar(1.0, -2.0 * pi * std::remainder(radar_carrier_hz * list.delay_s[i], 1.0));
+  return sum;
+}
+
+TEST(RadarClutter, SpecklesAreThoseOfRayleigh) {
+  const TinyScene tiny = floor_scene(rough_material("grass"));
+  EchoScene scene(tiny);
+  EchoOptions options = still_options(5.0, -40.0, -10.0);
+  double power = 0.0, squares = 0.0;
+  int count = 0;
+  for (options.seed = 1; options.seed <= 60; ++options.seed) {
+    const PatchList patches = scene.find(options, Pose{}).patches;
+    for (double range = 20.0; range < 40.0; range += 1.0) {
+      // The mean over the draws is taken out: it falls with range.
+      const double mean = floor_power(*scene::clutter_called("grass"), radians(5.0), range, range + 1.0);
+      const double drawn = std::norm(cell_of(patches, range, range + 1.0)) / mean;
+      power += drawn, squares += drawn * drawn, ++count;
+    }
+  }
+  power /= count, squares /= count;
+  // 1,200 exponential numbers: the mean is right to 0.03, and that of the squares to 0.13.
+  EXPECT_NEAR(power, 1.0, 0.12);
+  EXPECT_NEAR(squares / (power * power), 2.0, 0.4);
+}
+
+TEST(RadarClutter, SpeckleChangesWithTheAspectAsItsWidthSays) {
+  // A strip of 2 m across the line of sight and 0.2 m along it, 50 m away: two aspects that differ by d see
+  // fields whose correlation is sinc(2 L d/lambda) (M. A. Richards, "Fundamentals of Radar Signal Processing",
+  // 2nd ed., 2.2).
+  constexpr double width_m = 2.0, distance_m = 50.0;
+  TinyScene tiny;
+  const uint32_t rough = tiny.material_as(rough_material("grass"));
+  tiny.object("strip", 0, rough)
+      .quad({50.0, -0.5 * width_m, -0.1}, {50.0, 0.5 * width_m, -0.1}, {50.0, 0.5 * width_m, 0.1},
+            {50.0, -0.5 * width_m, 0.1});
+  EchoScene scene(tiny);
+  EchoOptions options = still_options(2.0, -1.0, 1.0);
+  options.tubes = 400;
+  options.diffuse_patch_m = 0.05;
+  for (const double share : {0.0, 0.25, 0.5, 1.0, 1.5}) {
+    const double turned = share * radar_wavelength_m / (2.0 * width_m);
+    const dvec3 place(distance_m - distance_m * std::cos(turned), distance_m * std::sin(turned), 0.0);
+    Complex product = 0.0;
+    double first = 0.0, second = 0.0;
+    for (options.seed = 1; options.seed <= 100; ++options.seed) {
+      const Complex a = cell_of(scene.find(options, Pose{}).patches, 1.0, 100.0),
+                    b = cell_of(scene.find(options, looking(place, {50, 0, 0})).patches, 1.0, 100.0);
+      product += a * std::conj(b), first += std::norm(a), second += std::norm(b);
+    }
+    const double expected = share == 0.0 ? 1.0 : std::abs(std::sin(pi * share) / (pi * share));
+    // The estimate of a correlation from 100 draws has a standard deviation of 0.1 or less.
+    EXPECT_NEAR(std::abs(product) / std::sqrt(first * second), expected, 0.25) << share;
+  }
+}
+
+TEST(RadarClutter, ScatterersStayOnTheirSurface) {
+  // A plate that moves together with the radar sends back the same field; a static one does not.
+  TinyScene tiny;
+  const uint32_t rough = tiny.material_as(rough_material("soil"));
+  const uint32_t body = tiny.body("plate");
+  tiny.object("plate", body, rough).quad({0, -2, -2}, {0, -2, 2}, {0, 2, 2}, {0, 2, -2});
+  EchoScene scene(tiny);
+  EchoOptions options = still_options(10.0, -10.0, 10.0);
+  options.diffuse_patch_m = 0.2;
+  const EchoEnd end;
+  const auto patches_at = [&](const Pose& radar, const Pose& plate) {
+    EchoFinder finder(scene.gpu, scene.surfaces(), end, std::nullopt, options);
+    EchoMotion motion = testing::at_rest(radar, radar);
+    motion.body = [plate](uint32_t, double) { return plate; };
+    return testing::trace_echoes(finder, scene.gpu, scene.scene.bodies.size(), motion).patches;
+  };
+  const dquat turn = orientation_from_yaw_pitch_roll(1.0, 0.2, 0.0);
+  const PatchList still = patches_at(Pose{}, {{30, 0, 0}, {1, 0, 0, 0}});
+  const PatchList moved =
+      patches_at({{100, 50, 5}, turn}, {dvec3(100, 50, 5) + turn * dvec3(30, 0, 0), turn});
+  ASSERT_EQ(still.size(), moved.size());
+  ASSERT_GT(still.size(), 50u);
+  for (size_t i = 0; i < still.size(); ++i) {
+    // The radar's element is vertical in its own frame, so that the fields turn with it.
+    EXPECT_NEAR(std::abs(patch_amplitude(still, i)), std::abs(patch_amplitude(moved, i)),
+                1e-5 * std::abs(patch_amplitude(still, i)));
+    EXPECT_NEAR(patch_range(still, i), patch_range(moved, i), 1e-9);
+  }
+}
+
+TEST(RadarClutter, ShadowsAreExact) {
+  TinyScene tiny = floor_scene(rough_material("grass"));
+  tiny.object("wall").quad({20, -20, -10}, {20, -20, -5}, {20, 20, -5}, {20, 20, -10});
+  EchoScene scene(tiny);
+  const PatchList patches = scene.find(still_options(20.0, -60.0, -5.0), Pose{}).patches;
+  // The top of the wall, 5 m below the radar and 20 m away, hides the floor from x = 20 m to x = 40 m.
+  size_t before = 0, behind = 0, beyond = 0;
+  for (size_t i = 0; i < patches.size(); ++i) {
+    const double x = patch_range(patches, i) * double(patches.departure[i].x);
+    before += x<20.0 - 1e-4, behind += x> 20.0 + 1e-4 && x<40.0 - 1e-4, beyond += x> 40.0 + 1e-4;
+  }
+  EXPECT_GT(before, 100u);
+  EXPECT_EQ(behind, 0u);
+  EXPECT_GT(beyond, 100u);
+}
+
+TEST(RadarClutter, FoliageSendsBackWithoutAWall) {
+  TinyScene tiny;
+  scene::Material leaves = rough_material("foliage");
+  leaves.radio->foliage.emplace();
+  const uint32_t material = tiny.material_as(leaves);
+  tiny.object("crown", 0, material).box({20, -3, -3}, {26, 3, 3});
+  RadioSurface volume;
+  volume.foliage = true;
+  EchoScene scene(tiny, {testing::conductor(), volume});
+  EchoOptions options = still_options(20.0, -20.0, 20.0);
+  options.diffuse_patch_m = 0.2;
+  const EchoList list = scene.find(options, Pose{});
+  EXPECT_TRUE(list.echoes.empty());
+  EXPECT_GT(list.patches.size(), 50u);
+}
+
+TEST(RadarClutter, AnotherElementAtTheReceiverUsesItsOwnPattern) {
+  // A bistatic radar with both ends nearly in one place receives the power of a monostatic one.
+  const TinyScene tiny = floor_scene(rough_material("grass"));
+  EchoScene scene(tiny);
+  const EchoOptions options = still_options(20.0, -50.0, -10.0);
+  const Pose beside{{0.0, 0.01, 0.0}, {1, 0, 0, 0}};
+  const PatchList mono = scene.find(options, Pose{}).patches,
+                  two = scene.find(options, Pose{}, beside).patches;
+  ASSERT_EQ(mono.size(), two.size());
+  EXPECT_NEAR(decibels(power_between(two, 10.0, 60.0)), decibels(power_between(mono, 10.0, 60.0)), 0.05);
+}
+
+TEST(RadarClutter, BytesDoNotDependOnThreads) {
+  const TinyScene tiny = floor_scene(rough_material("grass", -10.0));
+  EchoScene scene(tiny);
+  EchoOptions options = still_options(30.0, -60.0, -5.0);
+  options.threads = 1;
+  const PatchList one = scene.find(options, Pose{}).patches;
+  options.threads = 3;
+  const PatchList three = scene.find(options, Pose{}).patches;
+  ASSERT_EQ(one.size(), three.size());
+  EXPECT_EQ(std::memcmp(one.re.data(), three.re.data(), one.size() * sizeof(float)), 0);
+  EXPECT_EQ(std::memcmp(one.delay_s.data(), three.delay_s.data(), one.size() * sizeof(double)), 0);
+}
+
+}  // namespace
+}  // namespace greatx::rf
