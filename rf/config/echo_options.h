@@ -60,6 +60,8 @@ struct EchoOptions {
   /// each end. 0: nothing is hidden.
   double hidden_floor_m2 = 0.0;
 
+  /// Attenuation by the air over the whole way of an echo, dB/km.
+  double air_db_per_km = 0.0;
   /// Coherent fields fall by Ament's factor of the materials' rms heights.
   bool roughness = false;
   /// Rough surfaces send back what their materials scatter (docs/clutter.md).

@@ -6,7 +6,11 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "rf/atmosphere/fog.h"
+#include "rf/atmosphere/gas.h"
+#include "rf/atmosphere/path_attenuation.h"
 #include "rf/surface/roughness.h"
+#include "sim/plan/radio_plan.h"
 
 namespace greatx::sim {
 
@@ -17,6 +21,7 @@ struct RadarAsks {
   size_t radars = 0;
   double shortest_wavelength_m = 1e9;
   bool noise = false, phase_noise = false, adc = false;
+  double most_air_db = 0.0;  ///< out to the range span and back
 };
 
 RadarAsks radar_asks(const Scenario& scenario) {
@@ -26,6 +31,10 @@ RadarAsks radar_asks(const Scenario& scenario) {
       const auto* radar = std::get_if<RadarConfig>(&sensor.config);
       if (radar == nullptr) continue;
       ++asks.radars;
+      const rf::RadarWaveform& waveform = radar->signal.waveform;
+      asks.most_air_db =
+          std::max(asks.most_air_db, radar_air_db_per_km(scenario.environment, waveform.carrier_hz) * 2e-3 *
+                                         waveform.range_span_m());
       asks.shortest_wavelength_m =
           std::min(asks.shortest_wavelength_m, radar->signal.waveform.wavelength_m());
       const rf::RadarReceiver& receiver = radar->signal.receiver;
@@ -61,6 +70,14 @@ RadarOffers radar_offers(const scene::Scene& scene) {
 
 }  // namespace
 
+double radar_air_db_per_km(const Environment& environment, double carrier_hz) {
+  const rf::PathAttenuation air =
+      rf::path_attenuation(weather_of(environment), carrier_hz,
+                           {rf::gas_model_covers(carrier_hz), rf::rain_model_covers(carrier_hz),
+                            rf::fog_model_covers(carrier_hz)});
+  return air.isotropic() + 0.5 * (air.rain_h + air.rain_v);
+}
+
 void plan_radar(EffectPlan& plan, const Planner& planner, const Scenario& scenario,
                 const scene::Scene& scene) {
   const RadarAsks asks = radar_asks(scenario);
@@ -84,6 +101,9 @@ void plan_radar(EffectPlan& plan, const Planner& planner, const Scenario& scenar
              ? "no material has a model of its clutter (effects: {radar_clutter: on} to have what "
                "scattering coefficients send back)"
              : "no material has a model of its clutter");
+  const bool air = asks.most_air_db > scenario.tolerance_db;
+  decide(plan.radar_air, air, "more than the tolerance", "within the tolerance",
+         radar ? fmt::format("at most {:.3g} dB out to the range span and back", asks.most_air_db) : "");
   decide(plan.radar_noise, asks.noise, "a receiver has a noise figure", "no receiver has one");
   decide(plan.radar_phase_noise, asks.phase_noise, "an oscillator has phase noise", "no oscillator has any");
   decide(plan.radar_quantisation, asks.adc, "a converter has steps", "no converter is described");

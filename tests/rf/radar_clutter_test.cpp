@@ -227,6 +227,28 @@ TEST(RadarClutter, AnotherElementAtTheReceiverUsesItsOwnPattern) {
   EXPECT_NEAR(decibels(power_between(two, 10.0, 60.0)), decibels(power_between(mono, 10.0, 60.0)), 0.05);
 }
 
+TEST(RadarClutter, AirWeakensPatchesAndEchoesOverTheirWay) {
+  TinyScene tiny = floor_scene(rough_material("grass"));
+  tiny.object("plate").quad({40, -1, -1}, {40, -1, 1}, {40, 1, 1}, {40, 1, -1});
+  EchoScene scene(tiny);
+  EchoOptions options = still_options(20.0, -50.0, 5.0);
+  const EchoList vacuum = scene.find(options, Pose{});
+  options.air_db_per_km = 100.0;
+  const EchoList air = scene.find(options, Pose{});
+  ASSERT_EQ(vacuum.patches.size(), air.patches.size());
+  ASSERT_EQ(vacuum.echoes.size(), air.echoes.size());
+  ASSERT_GT(air.echoes.size(), 0u);
+  const auto expect_loss = [](const Complex& weak, const Complex& strong, double delay_s, double error_db) {
+    EXPECT_NEAR(decibels(std::norm(weak) / std::norm(strong)), -0.1 * speed_of_light * delay_s, error_db);
+  };
+  for (size_t i = 0; i < air.patches.size(); ++i)
+    expect_loss(patch_amplitude(air.patches, i), patch_amplitude(vacuum.patches, i), air.patches.delay_s[i],
+                1e-5);
+  for (size_t i = 0; i < air.echoes.size(); ++i)
+    expect_loss(air.echoes[i].amplitude, vacuum.echoes[i].amplitude, air.echoes[i].delay.coefficients[0],
+                1e-6);
+}
+
 TEST(RadarClutter, BytesDoNotDependOnThreads) {
   const TinyScene tiny = floor_scene(rough_material("grass", -10.0));
   EchoScene scene(tiny);

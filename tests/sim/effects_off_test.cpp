@@ -259,6 +259,7 @@ const std::map<std::string, Tried> tried{
     {"lidar_range_noise", {lidar_sensor, {}}},
     {"radar_roughness", {radar_sensor, {}}},
     {"radar_clutter", {radar_sensor, {}}},
+    {"radar_air", {radar_sensor, {}}},
     {"radar_noise", {radar_sensor, {}}},
     {"radar_phase_noise", {radar_sensor, {}}},
     {"radar_quantisation", {radar_sensor, {}}},

@@ -26,6 +26,8 @@ void check(const EchoOptions& o) {
   if (o.tubes < 1) throw_user_error("radar tubes: expected 1 at least, found {}", o.tubes);
   if (!(o.target_tube_m > 0.0))
     throw_user_error("radar tube on targets: expected more than 0 m, found {}", o.target_tube_m);
+  if (!(o.air_db_per_km >= 0.0))
+    throw_user_error("radar air: expected 0 dB/km or more, found {}", o.air_db_per_km);
   if (!(o.antenna_radius_m >= 0.0))
     throw_user_error("radar antenna: expected a radius of 0 m or more, found {}", o.antenna_radius_m);
   if (!(o.border_floor_m2 >= 0.0))
@@ -128,6 +130,18 @@ void keep_strongest(std::vector<MergedEcho>& merged, uint32_t most, EchoStatisti
   merged.swap(kept);
 }
 
+/// Returns the factor by which the air weakens a field over `length_m`.
+double air_factor(const EchoOptions& options, double length_m) {
+  return options.air_db_per_km == 0.0 ? 1.0 : std::pow(10.0, -0.05e-3 * options.air_db_per_km * length_m);
+}
+
+void weaken(const EchoOptions& options, PatchList& list) {
+  for (size_t i = 0; i < list.size(); ++i) {
+    const auto factor = static_cast<float>(air_factor(options, speed_of_light * list.delay_s[i]));
+    list.re[i] *= factor, list.im[i] *= factor;
+  }
+}
+
 /// Adds scatterers that turn too fast for a patch as echoes of one bounce.
 void add_fast(std::span<const Scatterer> fast, const dvec3& source, const dvec3& receiver, RawEchoes& raw) {
   for (const Scatterer& one : fast) {
@@ -139,9 +153,10 @@ void add_fast(std::span<const Scatterer> fast, const dvec3& source, const dvec3&
   }
 }
 
-Echo echo_of(const MergedEcho& merged, const RawEcho& raw, const RawEchoes& all, const scene::Scene& scene) {
+Echo echo_of(const MergedEcho& merged, const RawEcho& raw, const RawEchoes& all, const scene::Scene& scene,
+             const EchoOptions& options) {
   Echo echo;
-  echo.amplitude = merged.amplitude;
+  echo.amplitude = merged.amplitude * air_factor(options, raw.length_m);
   echo.departure = raw.departure;
   echo.arrival = raw.arrival;
   echo.point = raw.point;
@@ -340,8 +355,9 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   list.first_slot = motion.first_slot;
   list.slots = static_cast<uint32_t>(motion.slot_start_s.size());
   for (const MergedEcho& echo : merged)
-    list.echoes.push_back(echo_of(echo, raw.echoes[echo.strongest], raw, scene));
+    list.echoes.push_back(echo_of(echo, raw.echoes[echo.strongest], raw, scene, options_));
   add_tracks(movers, raw, merged, motion, cells.wavelength_m, options_.threads, list);
+  if (options_.air_db_per_km != 0.0) weaken(options_, patches.list);
   list.patches = std::move(patches.list);
   if (statistics != nullptr) *statistics = counted;
   return list;

@@ -9,6 +9,7 @@
 
 #include "core/hash.h"
 #include "core/units.h"
+#include "sim/plan/radar_plan.h"
 #include "sim/sensors/radar/radar_arrays.h"
 #include "sim/sensors/sensor_metadata.h"
 #include "sim/world/posed_scene.h"
@@ -110,6 +111,9 @@ rf::EchoOptions RadarSensor::echo_options(const Experiment& experiment) const {
   rf::EchoOptions options = config_.echoes;
   options.roughness = experiment.plan.radar_roughness.on;
   options.diffuse = experiment.plan.radar_clutter.on;
+  if (experiment.plan.radar_air.on)
+    options.air_db_per_km =
+        radar_air_db_per_km(experiment.scenario.environment, config_.signal.waveform.carrier_hz);
   options.seed = experiment.scenario.seed;
   options.waveform = config_.signal.waveform;
   options.bandwidth_hz = config_.signal.waveform.bandwidth_hz();
