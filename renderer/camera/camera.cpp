@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "renderer/camera/camera_view.h"
+#include "renderer/camera/cells.h"
 #include "renderer/camera/develop.h"
 #include "renderer/camera/edges.h"
 #include "renderer/camera/lamps.h"
@@ -57,6 +58,7 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
   create_pictures();
   upload_lens();
   if (desc_.smooth_edges) edges_ = std::make_unique<EdgePass>(*lighting_, desc_);
+  if (desc_.outputs.cells) cells_ = std::make_unique<CellPass>(*lighting_, desc_);
   if (desc_.outputs.arrays()) develop_ = std::make_unique<DevelopPass>(*lighting_, desc_);
 }
 
@@ -85,6 +87,8 @@ void CameraPass::check() const {
           desc_.near_m);
   require(desc_.msaa == 1 || desc_.msaa == 4, "msaa", "1 or 4", desc_.msaa);
   require(desc_.msaa == 1 || !desc_.smooth_edges, "msaa", "1, for edges are smoothed", desc_.msaa);
+  require(!desc_.outputs.cells || !desc_.distortion.any(), "distortion",
+          "none, for an event camera reconstructs instants from its pictures", 1);
   require(desc_.exposure_ev100 >= -20.0 && desc_.exposure_ev100 <= 24.0, "exposure_ev100", "-20 to 24",
           desc_.exposure_ev100);
   require(desc_.outputs.color() || desc_.outputs.luminance || desc_.outputs.ids(), "outputs", "at least one",
@@ -296,10 +300,16 @@ void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, cons
   record_visibility(*slot.cmd, view);
   record_shading(slot, view);
   if (!part.last) return;
+  if (cells_) cells_->see(view.constants);
   if (edges_)
     edges_->record(slot, view, gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_),
                    {shaded_, seen_, picture_});
   if (develop_) develop_->record(slot, picture_.color, seen_, frame);
+}
+
+void CameraPass::record_cells(gpu::TickSlot& slot, const gpu::Buffer& cells) {
+  GREATX_CHECK(cells_ != nullptr, "camera {}: cells were not asked for", desc_.name);
+  cells_->record(slot, seen_, edges_ ? shaded_.luminance : picture_.luminance, cells);
 }
 
 void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {

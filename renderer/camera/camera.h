@@ -31,6 +31,7 @@ struct CameraOutputs {
   bool hdr = false;
   // These outputs stay on the GPU for another pass (CameraPass::luminance, CameraPass::seen).
   bool luminance = false, seen = false;
+  bool cells = false;  ///< record_cells() works; needs luminance
   /// Returns the outputs for an event camera, which sends nothing to the host.
   static CameraOutputs of_luminance(bool seen) {
     return {.rgb = false,
@@ -42,7 +43,7 @@ struct CameraOutputs {
             .seen = seen};
   }
   bool color() const { return rgb || hdr; }
-  bool ids() const { return depth || instance || semantic || material || seen; }
+  bool ids() const { return depth || instance || semantic || material || seen || cells; }
   bool arrays() const { return rgb || hdr || depth || instance || semantic || material; }
 };
 
@@ -121,6 +122,7 @@ struct LampCounts {
 };
 
 struct CameraView;
+class CellPass;
 class DevelopPass;
 class EdgePass;
 struct PinholeView;
@@ -138,6 +140,10 @@ class CameraPass {
               const ExposurePart& part = {});
   /// Returns the picture that was recorded into `slot`, once its submission is done.
   CameraImages collect(const gpu::TickSlot& slot) const;
+
+  /// Keeps of the picture recorded last what other instants need (renderer/camera/cells.h), with
+  /// `outputs.cells`. `cells` is written. The bodies still stand as in that picture.
+  void record_cells(gpu::TickSlot& slot, const gpu::Buffer& cells);
 
   const CameraDesc& desc() const { return desc_; }
   // The buffers below are those of the last record(). A compute shader writes them, so a reader puts a
@@ -192,6 +198,7 @@ class CameraPass {
   PictureBuffers picture_;
   gpu::Buffer seen_;
   std::unique_ptr<EdgePass> edges_;       ///< null if not wanted
+  std::unique_ptr<CellPass> cells_;       ///< null if not wanted
   std::unique_ptr<DevelopPass> develop_;  ///< null if no array is wanted
   std::string visibility_scope_, shade_scope_;
   uint32_t drawn_ = 0, culled_ = 0;

@@ -81,7 +81,10 @@ void EventPass::check() const {
           desc_.bright_cd_m2);
   require(desc_.capacity >= 1 && desc_.capacity <= 1u << 28, "max_events_per_pixel",
           "room for 1 to 268435456 events an interval", desc_.capacity);
-  require(!desc_.adaptive() || desc_.wanted > 0.0, "steps", "a positive motion or change", desc_.wanted);
+  require(desc_.instants >= 1 && desc_.instants <= shared::most_instants, "steps.most", "1 to 256",
+          desc_.instants);
+  require(desc_.steps == EventSteps::fixed || desc_.wanted > 0.0, "steps", "a positive motion or change",
+          desc_.wanted);
   if (desc_.adaptive() && !gpu::has_conditions(scene_->device()))
     throw_user_error(
         "event camera {}: steps: expected a number, for adaptive ones need VK_EXT_conditional_rendering, "
@@ -116,7 +119,8 @@ void EventPass::build_pipelines() {
   compute.specialization[shared::event_spec_refractory] = desc_.refractory_s > 0.0;
   compute.specialization[shared::event_spec_bandwidth] = desc_.cutoff_hz > 0.0;
   compute.specialization[shared::event_spec_instance] = desc_.instance;
-  compute.specialization[shared::event_spec_adaptive] = static_cast<uint32_t>(desc_.steps);
+  compute.specialization[shared::event_spec_adaptive] =
+      desc_.adaptive() ? static_cast<uint32_t>(desc_.steps) : 0;
   const auto build = [&](gpu::ComputePipeline& pipeline, const char* name) {
     compute.shader = std::string("event/") + name + ".comp";
     pipeline = gpu::ComputePipeline(device, compute, desc_.name + " " + name);
@@ -125,6 +129,7 @@ void EventPass::build_pipelines() {
   build(step_, "step");
   build(scan_, "scan");
   build(emit_, "emit");
+  if (desc_.steps == EventSteps::by_pixel) reprojection_.emplace(*scene_, desc_, compute.specialization);
 }
 
 void EventPass::create_resources() {
@@ -290,7 +295,8 @@ void EventPass::bind(gpu::Cmd& cmd, const gpu::ComputePipeline& pipeline, uint32
 }
 
 void EventPass::step(gpu::TickSlot& slot, uint32_t index, const gpu::Buffer& luminance,
-                     const gpu::Buffer* seen, std::span<const shared::EventMotion> motions) {
+                     const gpu::Buffer* seen, std::span<const shared::EventMotion> motions,
+                     const PixelPaths* paths) {
   GREATX_CHECK((index == 0) == now_.first && index <= desc_.substeps, "{}: picture {} of {}", desc_.name,
                index, desc_.substeps);
   if (!desc_.events) return;
@@ -306,6 +312,11 @@ void EventPass::step(gpu::TickSlot& slot, uint32_t index, const gpu::Buffer& lum
       descriptor = gpu::Descriptor::buffer(descriptor.slot, *seen);
     if (descriptor.slot == shared::event_motion_binding && !motions.empty())
       descriptor = gpu::Descriptor::buffer(descriptor.slot, slot.upload.put(motions));
+  }
+  if (reprojection_) reprojection_->take();
+  if (reprojection_ && index > 0) {
+    GREATX_CHECK(paths != nullptr, "{}: the paths of pixels are needed", desc_.name);
+    return reprojection_->record(slot, descriptors_, constants(index), *paths, pixels_, extra_);
   }
   const uint32_t runs = groups(desc_.width, shared::run_pixels) * desc_.height;
   bind(cmd, step_, index);

@@ -15,6 +15,7 @@
 
 #include "gpu/tick_ring.h"
 #include "renderer/event/event_sort.h"
+#include "renderer/event/reprojection.h"
 #include "scene/device/gpu_scene.h"
 #include "shaders/shared/events.h"
 
@@ -27,6 +28,9 @@ enum class EventSteps {
   by_flow,
   /// At only as many even instants as keep the change of every pixel to `wanted` thresholds.
   by_brightness,
+  /// At each of `substeps` even instants. Between two pictures, each pixel looks at so many of `instants`
+  /// even instants as keep its own motion to `wanted` pixels (docs/events.md, "Reconstructed instants").
+  by_pixel,
 };
 
 struct EventDesc {
@@ -35,6 +39,8 @@ struct EventDesc {
   double fx = 1.0, fy = 1.0, cx = 0.0, cy = 0.0;  ///< pixels; used only by by_flow
   uint32_t substeps = 4;                          ///< even instants per interval, at most most_substeps
   EventSteps steps = EventSteps::fixed;
+  uint32_t instants = shared::most_instants;       ///< by_pixel: between two pictures, at most most_instants
+  bool smooth_edges = false;                       ///< by_pixel: the pictures have them
   double wanted = 0.5;                             ///< largest motion or change of adaptive steps
   double threshold_on = 0.2, threshold_off = 0.2;  ///< change of the natural logarithm, 0.01 to 1
   double threshold_sigma = 0.0;                    ///< standard deviation from pixel to pixel
@@ -49,7 +55,8 @@ struct EventDesc {
   double difference_on_cd_m2 = 1.0, difference_off_cd_m2 = 1.0;
   uint64_t seed = 0;
   uint32_t stream = 0;  ///< identifies the sensor, unique within a run
-  bool adaptive() const { return steps != EventSteps::fixed; }
+  /// Returns whether the device decides which pictures are taken.
+  bool adaptive() const { return steps == EventSteps::by_flow || steps == EventSteps::by_brightness; }
 };
 
 /// Thresholds of a pixel stay within these bounds, whatever the mismatch draws (0.01: v2e, ESIM).
@@ -116,7 +123,10 @@ class EventPass {
   /// by_flow, else null. A compute shader writes both, and one reads them until end(). `motions` has one
   /// element a body, for by_flow.
   void step(gpu::TickSlot& slot, uint32_t index, const gpu::Buffer& luminance, const gpu::Buffer* seen,
-            std::span<const shared::EventMotion> motions);
+            std::span<const shared::EventMotion> motions, const PixelPaths* paths = nullptr);
+  /// Returns the buffers for the cells of the next picture, which are recorded before step(); null unless
+  /// by_pixel. `paths` of step() leads from the picture before to that one.
+  const gpu::Buffer* next_cells() const { return reprojection_ ? &reprojection_->next() : nullptr; }
   /// Ends the interval; `luminance` is that of the last picture.
   void end(gpu::TickSlot& slot, const gpu::Buffer& luminance);
 
@@ -131,7 +141,9 @@ class EventPass {
 
   const EventDesc& desc() const { return desc_; }
   /// Returns whether step() reads the view of the pixels.
-  bool needs_seen() const { return desc_.instance || desc_.steps == EventSteps::by_flow; }
+  bool needs_seen() const {
+    return desc_.steps == EventSteps::by_flow || (desc_.instance && desc_.steps != EventSteps::by_pixel);
+  }
 
  private:
   struct Pending {
@@ -163,6 +175,7 @@ class EventPass {
   EventSorter<ListedEventOfInstance> instance_sorter_;
   std::vector<ListedEventOfInstance> with_instance_;
   bool first_ = true;
+  std::optional<Reprojection> reprojection_;  ///< by_pixel
   std::string scope_, difference_scope_;
 };
 

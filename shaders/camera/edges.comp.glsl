@@ -9,7 +9,7 @@
 #include "camera/effects.glsl"
 #include "camera/lens_ray.glsl"
 #include "camera/picture.glsl"
-#include "camera/triangle.glsl"
+#include "camera/reach.glsl"
 
 layout(local_size_x = shade_group_width, local_size_y = shade_group_height) in;
 layout(set = 0, binding = edges_seen_binding, scalar) readonly buffer SeenBlock { uvec2 picture_seen[]; };
@@ -34,20 +34,6 @@ Shaded shaded(ivec2 at) {
   if (color_on) pixel.color = unpack_color(from_color[element]);
   if (luminance_on) pixel.luminance = from_luminance[element];
   return pixel;
-}
-
-/// Returns how far from `ray` along `step` the triangle is left, in steps; 2 if it is not left within the
-/// first.
-float reach(Seen seen, vec3 ray, vec3 step) {
-  float side = dot(ray, seen.normal) < 0.0 ? -1.0 : 1.0;
-  vec3 here = side * vec3(dot(ray, seen.u_numerator), dot(ray, seen.v_numerator), dot(ray, seen.normal));
-  vec3 change = side * vec3(dot(step, seen.u_numerator), dot(step, seen.v_numerator), dot(step, seen.normal));
-  here.z -= here.x + here.y;
-  change.z -= change.x + change.y;
-  float least = 2.0;
-  for (int i = 0; i < 3; ++i)
-    if (change[i] < 0.0) least = min(least, max(here[i], 0.0) / -change[i]);
-  return least;
 }
 
 ivec2 step_to(int k) { return ivec2(k == 0 ? -1 : k == 1 ? 1 : 0, k == 2 ? -1 : k == 3 ? 1 : 0); }

@@ -11,6 +11,7 @@ layout(local_size_x = 1) in;
 
 void main() {
   control.events = 0u;
+  control.ranked = 0u;
   control.last = 0u;
   control.last_ns = interval.from_ns;
   control.leaked_last = interval.leaked_from;

@@ -81,6 +81,7 @@ struct Shot {
   float mean_ns;
   uint pixel;
   uint drawn;
+  uint step;  ///< number of the step within the interval
   uvec4 words;
   bool on;      ///< polarity of the next
   int next_ns;  ///< never_ns: none
@@ -90,7 +91,7 @@ void draw_shot(inout Shot shot, int after_ns, int dt_ns) {
   uint lane = shot.drawn & 3u;
   if (lane == 0u)
     shot.words = random_bits(interval.noise_seed, interval.noise_stream, interval.noise_sample, shot.pixel,
-                             interval.index * shot_blocks_per_step + (shot.drawn >> 2));
+                             shot.step * shot_blocks_per_step + (shot.drawn >> 2));
   uint word = lane == 0u   ? shot.words.x
               : lane == 1u ? shot.words.y
               : lane == 2u ? shot.words.z
@@ -101,13 +102,18 @@ void draw_shot(inout Shot shot, int after_ns, int dt_ns) {
   shot.next_ns = gap > dt_ns - after_ns ? never_ns : after_ns + gap;
 }
 
-Shot begin_shot(uint pixel, float luminance, int dt_ns) {
+Shot begin_shot_at(uint pixel, float luminance, int dt_ns, uint step) {
   Shot shot;
   shot.pixel = pixel;
+  shot.step = step;
   shot.drawn = 0u;
   shot.mean_ns = shot_mean_ns(model.shot_rate_hz, relative_intensity(luminance, model.bright));
   draw_shot(shot, 0, dt_ns);
   return shot;
+}
+
+Shot begin_shot(uint pixel, float luminance, int dt_ns) {
+  return begin_shot_at(pixel, luminance, dt_ns, interval.index);
 }
 
 /// Returns a Shot without noise.

@@ -221,7 +221,12 @@ const uint event_awake_binding = 11u;     // storage: int: end of the refractory
 const uint event_threshold_binding = 8u;  // storage: ivec2: on, off
 const uint event_objects_binding = 9u;    // storage: uvec2 [triangles]: instance + 1, body
 const uint event_motion_binding = 10u;    // storage: EventMotion [bodies]
-const uint event_previous_binding = 0u;   // storage, difference pass: float, the picture before
+// Reconstructed instants (shared/reproject.h): the state after the step, and the pixels' numbers of events.
+const uint event_after_binding = 12u;        // storage: as event_pixel_binding
+const uint event_extra_after_binding = 13u;  // storage: as event_extra_binding
+const uint event_counts_binding = 14u;       // storage: uint
+const uint event_reproject_binding = 15u;    // storage: ReprojectInterval
+const uint event_previous_binding = 0u;      // storage, difference pass: float, the picture before
 
 // Specialization constants. An effect that is off is not compiled.
 const uint event_spec_mismatch = 0u;
@@ -241,6 +246,7 @@ const uint run_pixels = 16u;
 const uint event_group_size = 64u;
 const uint event_scan_size = 256u;
 const uint most_substeps = 64u;
+const uint most_instants = 256u;  // of a pixel between two pictures, if they are reconstructed
 
 /// Holds the data that do not change.
 struct EventModel {
@@ -286,6 +292,7 @@ struct EventControl {
   int last_ns;           ///< time of the last picture
   int from_ns;           ///< time of the picture before the last one
   uint due[65];          ///< by grid index: whether a picture is taken
+  uint ranked;           ///< reconstructed instants: events up to the picture before
 };
 const uint event_due_offset = 52u;  ///< bytes
 
@@ -337,7 +344,7 @@ GREATX_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(greatx::shared::EventModel) == 68);
 static_assert(sizeof(greatx::shared::EventRun) == 12);
-static_assert(sizeof(greatx::shared::EventControl) == 52 + 260);
+static_assert(sizeof(greatx::shared::EventControl) == 52 + 260 + 8);
 static_assert(sizeof(greatx::shared::EventConstants) == 64);
 static_assert(sizeof(greatx::shared::DifferenceConstants) == 32);
 #endif

@@ -20,7 +20,13 @@ void set_pinhole(render::CameraDesc& desc, const PinholeConfig& config) {
 }
 
 bool needs_seen(const EventCameraConfig& config) {
-  return config.events && (config.instance || config.steps == EventCameraConfig::Steps::by_flow);
+  using Steps = EventCameraConfig::Steps;
+  return config.events &&
+         (config.steps == Steps::by_flow || (config.instance && config.steps != Steps::by_pixel));
+}
+
+bool needs_cells(const EventCameraConfig& config) {
+  return config.events && config.steps == EventCameraConfig::Steps::by_pixel;
 }
 
 render::TruthOutputs truth_outputs(const CameraConfig& config) {
@@ -53,6 +59,7 @@ render::CameraDesc camera_desc(const Scenario& scenario, const NodeConfig& node,
     if (events == nullptr || events->camera != sensor.name) continue;
     desc.outputs.luminance = true;
     desc.outputs.seen |= needs_seen(*events);
+    desc.outputs.cells |= needs_cells(*events);
   }
   if (body != 0 && !config.see_own_body) desc.excluded_body = body;
   return desc;

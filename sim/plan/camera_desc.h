@@ -33,5 +33,7 @@ render::CameraDesc camera_desc(const Scenario& scenario, const NodeConfig& node,
 render::TruthOutputs truth_outputs(const CameraConfig& config);
 /// Returns whether the event camera needs the instance that each pixel sees, or its motion.
 bool needs_seen(const EventCameraConfig& config);
+/// Returns whether the event camera reconstructs instants from its pictures.
+bool needs_cells(const EventCameraConfig& config);
 
 }  // namespace greatx::sim

@@ -93,7 +93,8 @@ CameraAsks camera_asks_of(const Scenario& scenario) {
       } else if (const auto* events = std::get_if<EventCameraConfig>(&sensor.config)) {
         ++asks.event_cameras;
         asks.shared_pixels += events->camera.empty() ? 0 : 1;
-        asks.adaptive_events |= events->steps != EventCameraConfig::Steps::fixed;
+        asks.adaptive_events |= events->steps == EventCameraConfig::Steps::by_flow ||
+                                events->steps == EventCameraConfig::Steps::by_brightness;
         add(asks, static_cast<const PinholeConfig&>(*events));
       } else if (const auto* lidar = std::get_if<LidarConfig>(&sensor.config)) {
         ++asks.lidars;

@@ -107,9 +107,12 @@ struct EventCameraConfig : PinholeConfig {
   /// the pictures are that camera's, and PinholeConfig, mount and see_own_body are too. Empty: none.
   std::string camera;
   uint32_t substeps = 4;  ///< pictures per interval between two samples; adaptive: at most
-  enum class Steps { fixed, by_flow, by_brightness } steps = Steps::fixed;
-  double max_flow_px = 0.5;  ///< for by_flow: the most motion from one picture to the next
-  double max_change = 0.5;   ///< for by_brightness: the most change of the logarithm over the threshold
+  enum class Steps { fixed, by_flow, by_brightness, by_pixel } steps = Steps::fixed;
+  uint32_t instants = 256;  ///< for by_pixel: the most instants of a pixel between two pictures
+  /// For by_flow the most motion from one picture to the next, for by_pixel that from one instant of a pixel
+  /// to its next.
+  double max_flow_px = 0.5;
+  double max_change = 0.5;  ///< for by_brightness: the most change of the logarithm over the threshold
   double threshold_on = 0.2, threshold_off = 0.2;  ///< change of the natural logarithm
   double threshold_sigma = 0.0;                    ///< mismatch from pixel to pixel, standard deviation
   double refractory_s = 0.0;

@@ -313,6 +313,23 @@ void add_events(Table& table) {
       "px");
   add("steps by brightness", "brightness", "max_change", {8, 4, 2, 1, 0.5},
       "adaptive steps: change of a pixel between pictures at most", "thresholds");
+  Knob& pixel =
+      table.add("steps by pixel", "reconstructed instants: motion of a pixel between two at most", "px");
+  for (const double value : {4.0, 2.0, 1.0, 0.5, 0.25}) {
+    if (events.steps == EventCameraConfig::Steps::by_pixel && events.max_flow_px == value)
+      pixel.standard = pixel.settings.size();
+    pixel.settings.push_back(
+        {fmt::format("{:g}", value), value,
+         table.everywhere({"steps"}, fmt::format("{{by: pixel, max_px: {:g}}}", value))});
+  }
+  pixel.settings.push_back({"64 even", {}, table.everywhere({"steps"}, "64")});
+  pixel.reference = pixel.settings.size() - 1;
+  for (const NodeConfig& node : table.scenario().nodes)
+    for (const SensorConfig& sensor : node.sensors)
+      if (const auto* camera = std::get_if<EventCameraConfig>(&sensor.config);
+          camera && camera->distortion.any())
+        pixel.skipped = "needs lenses without distortion";
+  table.skip_if_quick("steps by pixel", "many steps");
   table.skip_if_quick("steps by flow", "many steps");
   table.skip_if_quick("steps by brightness", "many steps");
 }

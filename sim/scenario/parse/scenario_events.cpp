@@ -10,15 +10,29 @@ namespace greatx::sim {
 namespace {
 
 constexpr uint32_t most_steps = 64;
+constexpr uint32_t most_instants = 256;
 constexpr double slowest_rate_hz = 0.5;  ///< times within an interval are 31-bit nanoseconds
 
-/// Parses a number of even instants, or {by: flow, max_px, most}, or {by: brightness, max_change, most}.
+/// Parses {by: pixel, max_px, most, pictures}.
+void parse_pixel_steps(const Field& field, EventCameraConfig& camera) {
+  const FieldMap map(field, {"by", "max_px", "most", "pictures"});
+  camera.steps = EventCameraConfig::Steps::by_pixel;
+  camera.substeps = 1;
+  if (const auto f = map.find("max_px")) camera.max_flow_px = f->positive();
+  if (const auto f = map.find("most")) camera.instants = f->integer32(1, most_instants);
+  if (const auto f = map.find("pictures")) camera.substeps = f->integer32(1, most_steps);
+}
+
+/// Parses a number of even instants, or {by: flow, max_px, most}, or {by: brightness, max_change, most}, or
+/// {by: pixel, max_px, most, pictures}.
 void parse_steps(const Field& field, EventCameraConfig& camera) {
   if (field.is_scalar()) {
     camera.substeps = field.integer32(1, most_steps);
     return;
   }
-  const bool by_flow = kind_of(field, "by", {"flow", "brightness"}) == 0;
+  const size_t by = kind_of(field, "by", {"flow", "brightness", "pixel"});
+  if (by == 2) return parse_pixel_steps(field, camera);
+  const bool by_flow = by == 0;
   const FieldMap map =
       by_flow ? FieldMap(field, {"by", "max_px", "most"}) : FieldMap(field, {"by", "max_change", "most"});
   camera.steps = by_flow ? EventCameraConfig::Steps::by_flow : EventCameraConfig::Steps::by_brightness;
@@ -107,12 +121,20 @@ void resolve_event_cameras(std::vector<NodeConfig>& nodes) {
     for (size_t s = 0; s < nodes[n].sensors.size(); ++s) {
       SensorConfig& sensor = nodes[n].sensors[s];
       auto* events = std::get_if<EventCameraConfig>(&sensor.config);
-      if (events == nullptr || events->camera.empty()) continue;
-      const SensorConfig& shared = camera_of(nodes[n], s, fmt::format("nodes[{}].sensors[{}]", n, s));
-      const auto& camera = std::get<CameraConfig>(shared.config);
-      static_cast<PinholeConfig&>(*events) = camera;
-      events->see_own_body = camera.see_own_body;
-      sensor.mount = shared.mount;
+      if (events == nullptr) continue;
+      const std::string path = fmt::format("nodes[{}].sensors[{}]", n, s);
+      if (!events->camera.empty()) {
+        const SensorConfig& shared = camera_of(nodes[n], s, path);
+        const auto& camera = std::get<CameraConfig>(shared.config);
+        static_cast<PinholeConfig&>(*events) = camera;
+        events->see_own_body = camera.see_own_body;
+        sensor.mount = shared.mount;
+      }
+      if (events->steps == EventCameraConfig::Steps::by_pixel && events->distortion.any())
+        throw_user_error_at(sensor.where,
+                            "{}.steps.by: expected 'flow', 'brightness' or a number behind a lens that "
+                            "distorts, found 'pixel'",
+                            path);
     }
   }
 }

@@ -39,7 +39,7 @@ class CameraSensor : public Sensor {
   bool remembers() const override { return pass_.desc().outputs.luminance; }
 
   /// Returns the camera pass, which holds the picture recorded last.
-  const render::CameraPass& pass() const { return pass_; }
+  render::CameraPass& pass() { return pass_; }
 
  private:
   void expose(gpu::TickSlot& slot, const TickContext& context, const Pose& local_from_sensor);

@@ -16,7 +16,9 @@ namespace {
 
 constexpr uint32_t chosen_events_per_pixel = 8;
 constexpr uint64_t most_events = 1u << 28;
-constexpr double longest_hdf5_s = 4294.967295;  ///< times in DSEC are 32-bit microseconds
+constexpr double nearest_point_m = 2.0;          ///< points for which reconstructed instants keep their error
+constexpr size_t most_listed_instances = 65534;  ///< a cell has 16 bits for its instance
+constexpr double longest_hdf5_s = 4294.967295;   ///< times in DSEC are 32-bit microseconds
 
 render::CameraDesc camera_desc(const std::string& name, const EventCameraConfig& config, bool seen,
                                uint32_t body) {
@@ -24,6 +26,7 @@ render::CameraDesc camera_desc(const std::string& name, const EventCameraConfig&
   desc.name = name + " sub-step";
   set_pinhole(desc, config);
   desc.outputs = render::CameraOutputs::of_luminance(seen);
+  desc.outputs.cells = needs_cells(config);
   if (body != 0 && !config.see_own_body) desc.excluded_body = body;
   return desc;
 }
@@ -36,8 +39,12 @@ render::EventDesc event_desc(const std::string& name, const Scenario& scenario,
   desc.substeps = config.events ? config.substeps : 1;
   if (config.steps == EventCameraConfig::Steps::by_flow) desc.steps = render::EventSteps::by_flow;
   if (config.steps == EventCameraConfig::Steps::by_brightness) desc.steps = render::EventSteps::by_brightness;
+  if (config.steps == EventCameraConfig::Steps::by_pixel) desc.steps = render::EventSteps::by_pixel;
   if (!config.events) desc.steps = render::EventSteps::fixed;
-  desc.wanted = config.steps == EventCameraConfig::Steps::by_flow ? config.max_flow_px : config.max_change;
+  desc.wanted =
+      config.steps == EventCameraConfig::Steps::by_brightness ? config.max_change : config.max_flow_px;
+  desc.instants = config.instants;
+  desc.smooth_edges = config.smooth_edges && config.msaa == 1;
   desc.threshold_on = config.threshold_on;
   desc.threshold_off = config.threshold_off;
   desc.threshold_sigma = config.threshold_sigma;
@@ -72,8 +79,8 @@ std::string name_of(const NodeConfig& node, uint32_t sensor) {
 
 }  // namespace
 
-EventSensor::EventSensor(PosedScene& posed, const CameraSensor* shared, const Scenario& scenario,
-                         uint32_t node, uint32_t sensor)
+EventSensor::EventSensor(PosedScene& posed, CameraSensor* shared, const Scenario& scenario, uint32_t node,
+                         uint32_t sensor)
     : posed_(posed),
       world_(posed.world()),
       config_(std::get<EventCameraConfig>(scenario.nodes[node].sensors[sensor].config)),
@@ -90,6 +97,12 @@ EventSensor::EventSensor(PosedScene& posed, const CameraSensor* shared, const Sc
   if (config_.hdf5 && clock_.seconds(scenario.ticks) > longest_hdf5_s)
     throw_user_error_at(config.where, "outputs: expected a run of at most {} s for 'hdf5', found {} s",
                         longest_hdf5_s, clock_.seconds(scenario.ticks));
+  if (config_.steps == EventCameraConfig::Steps::by_pixel && config_.instance &&
+      world_.scene.instances.size() > most_listed_instances)
+    throw_user_error_at(config.where,
+                        "outputs: expected a scene of at most {} instances for 'instance' with steps by "
+                        "pixel, found {}",
+                        most_listed_instances, world_.scene.instances.size());
   spec_.name = name_of(scenario.nodes[node], sensor);
   spec_.kind = "event_camera";
   spec_.rate = config.rate_hz.str();
@@ -127,6 +140,9 @@ void EventSensor::describe() {
     metadata["bright_cd_m2"] = config_.bright_cd_m2;
     metadata["capacity"] = events_.desc().capacity;
     metadata["steps"] = {{"most", events_.desc().substeps}};
+    if (config_.steps == EventCameraConfig::Steps::by_pixel)
+      metadata["steps"] = {
+          {"most", config_.instants}, {"max_px", config_.max_flow_px}, {"pictures", config_.substeps}};
     if (config_.steps == EventCameraConfig::Steps::by_flow) metadata["steps"]["max_px"] = config_.max_flow_px;
     if (config_.steps == EventCameraConfig::Steps::by_brightness)
       metadata["steps"]["max_change"] = config_.max_change;
@@ -154,6 +170,7 @@ void EventSensor::start(const TickContext& /*context*/) {
 void EventSensor::record(gpu::TickSlot& slot, const TickContext& context) {
   const int64_t now_ns = clock_.nanoseconds(context.tick), before_ns = last_ns_.value_or(now_ns);
   events_.begin(slot, {before_ns, now_ns, sample_, context.sequence});
+  picture_s_ = 1e-9 * double(before_ns);
   posed_.at_instants(slot, context, [&](Instants& at) {
     if (!last_ns_) return take_picture(slot, context, at, 0, context.time_s);
     const uint32_t last = events_.desc().substeps;
@@ -166,7 +183,7 @@ void EventSensor::record(gpu::TickSlot& slot, const TickContext& context) {
   ++sample_;
 }
 
-const render::CameraPass& EventSensor::picture_at(bool sample) const {
+render::CameraPass& EventSensor::picture_at(bool sample) {
   return sample && shared_ != nullptr ? shared_->pass() : *camera_;
 }
 
@@ -179,10 +196,24 @@ void EventSensor::take_picture(gpu::TickSlot& slot, const TickContext& context, 
     const Motion motion = sample ? context.nodes[node_] : context.motion_at(node_, time_s);
     camera_->record(slot, world_.scene.to_local(motion.pose) * mount_, {context.sequence, context.tick});
   }
-  const render::CameraPass& picture = picture_at(sample);
+  render::CameraPass& picture = picture_at(sample);
+  if (const gpu::Buffer* cells = events_.next_cells()) {
+    picture.record_cells(slot, *cells);
+    if (index > 0) find_paths(context, picture_s_, time_s);
+    picture_s_ = time_s;
+  }
   const bool by_flow = events_.desc().steps == render::EventSteps::by_flow;
   events_.step(slot, index, picture.luminance(), events_.needs_seen() ? &picture.seen() : nullptr,
-               by_flow ? motions(context, time_s) : std::vector<shared::EventMotion>());
+               by_flow ? motions(context, time_s) : std::vector<shared::EventMotion>(), &paths_);
+}
+
+void EventSensor::find_paths(const TickContext& context, double from_s, double to_s) {
+  const auto moment_at = [&](double part) {
+    const double time_s = part == 0.0 ? from_s : part == 1.0 ? to_s : from_s + part * (to_s - from_s);
+    const Motion carrier = time_s == context.time_s ? context.nodes[node_] : context.motion_at(node_, time_s);
+    return EventMoment{world_.scene.to_local(carrier.pose) * mount_, context.body_poses_at(time_s)};
+  };
+  find_pixel_paths(config_, config_.instants, nearest_point_m, moment_at, paths_);
 }
 
 /// Returns the motion of every body relative to the camera. With p_camera = R^T (P - c) and P = O + R_b p_b,

@@ -8,6 +8,7 @@
 #include "renderer/camera/camera.h"
 #include "renderer/event/event_pass.h"
 #include "sim/scenario/clock.h"
+#include "sim/sensors/event/pixel_paths.h"
 #include "sim/sensors/sensor.h"
 #include "sim/world/posed_scene.h"
 
@@ -23,7 +24,7 @@ class EventSensor : public Sensor {
  public:
   /// `node` and `sensor` are indices into the scenario. `shared` is the camera whose pixels it shares, or
   /// null. `posed` and the camera outlive this.
-  EventSensor(PosedScene& posed, const CameraSensor* shared, const Scenario& scenario, uint32_t node,
+  EventSensor(PosedScene& posed, CameraSensor* shared, const Scenario& scenario, uint32_t node,
               uint32_t sensor);
 
   const SensorSpec& spec() const override { return spec_; }
@@ -38,9 +39,10 @@ class EventSensor : public Sensor {
  private:
   void describe();
   /// Returns the pass that has the picture of an instant; `sample`: the instant is a sample.
-  const render::CameraPass& picture_at(bool sample) const;
+  render::CameraPass& picture_at(bool sample);
   void take_picture(gpu::TickSlot& slot, const TickContext& context, Instants& at, uint32_t index,
                     double time_s);
+  void find_paths(const TickContext& context, double from_s, double to_s);
   std::vector<shared::EventMotion> motions(const TickContext& context, double time_s) const;
 
   PosedScene& posed_;
@@ -49,9 +51,11 @@ class EventSensor : public Sensor {
   uint32_t node_;
   Pose mount_;
   Clock clock_;
-  const CameraSensor* shared_;
+  CameraSensor* shared_;
   std::optional<render::CameraPass> camera_;  ///< for the pictures that `shared_` does not take
   render::EventPass events_;
+  render::PixelPaths paths_;  ///< by_pixel: of the step that is being recorded
+  double picture_s_ = 0.0;    ///< by_pixel: time of the picture before
   SensorSpec spec_;
   std::optional<int64_t> last_ns_;  ///< time of the sample recorded last
   int64_t sample_ = 0;              ///< number of the next sample

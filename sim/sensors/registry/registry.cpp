@@ -23,7 +23,7 @@ namespace {
 /// Holds the parts, and the cameras made so far, since later sensors may share their pixels.
 struct Workshop {
   const SensorParts& parts;
-  std::map<std::string, const CameraSensor*> cameras;  ///< by "node/sensor"
+  std::map<std::string, CameraSensor*> cameras;  ///< by "node/sensor"
 };
 
 std::unique_ptr<Sensor> make_camera(Workshop& shop, SensorPlace at) {
@@ -40,7 +40,7 @@ std::unique_ptr<Sensor> make_event_camera(Workshop& shop, SensorPlace at) {
   const SensorParts& p = shop.parts;
   const NodeConfig& node = p.experiment.scenario.nodes[at.node];
   const std::string& camera = std::get<EventCameraConfig>(node.sensors[at.sensor].config).camera;
-  const CameraSensor* shared = nullptr;
+  CameraSensor* shared = nullptr;
   if (!camera.empty()) {
     const auto found = shop.cameras.find(node.name + "/" + camera);
     GREATX_CHECK(found != shop.cameras.end(), "{}: no camera '{}'", node.name, camera);

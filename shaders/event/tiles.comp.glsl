@@ -1,0 +1,31 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Finds the least and the largest luminance of each tile of both pictures.
+#include "event/pixels.glsl"
+#include "event/look.glsl"
+#include "lib/linear.glsl"
+
+layout(local_size_x = event_group_size) in;
+
+void main() {
+  begin_looks();
+  uint across = tiles_along(model.width), down = tiles_along(model.height);
+  uint tile = linear_invocation;
+  if (tile >= across * down) return;
+  uvec2 first = cell_tile * uvec2(tile % across, tile / across);
+  float least = 1e30, largest = 0.0;
+  for (uint i = 0u; i < cell_tile * cell_tile; ++i) {
+    uvec2 at = min(first + uvec2(i % cell_tile, i / cell_tile), uvec2(model.width, model.height) - 1u);
+    uint pixel = at.y * model.width + at.x;
+    for (uint picture = 0u; picture < 2u; ++picture) {
+      CellList list = CellList(between.cells[picture]);
+      float luminance = uintBitsToFloat(unpack32(list.v[cell_quads * pixel].y).y);
+      least = min(least, luminance);
+      largest = max(largest, luminance);
+    }
+  }
+  TileList(between.tiles[0]).v[tile] = vec4(least, largest, 0.0, 0.0);
+}
