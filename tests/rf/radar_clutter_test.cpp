@@ -125,8 +125,8 @@ TEST(RadarClutter, SpecklesAreThoseOfRayleigh) {
 
 TEST(RadarClutter, SpeckleChangesWithTheAspectAsItsWidthSays) {
   // A strip of 2 m across the line of sight and 0.2 m along it, 50 m away: two aspects that differ by d see
-  // fields whose correlation is sinc(2 L d/lambda) (M. A. Richards, "Fundamentals of Radar Signal Processing",
-  // 2nd ed., 2.2).
+  // fields whose correlation is sinc(2 L d/lambda) (M. A. Richards, "Fundamentals of Radar Signal
+  // Processing", 2nd ed., 2.2).
   constexpr double width_m = 2.0, distance_m = 50.0;
   TinyScene tiny;
   const uint32_t rough = tiny.material_as(rough_material("grass"));

@@ -7,8 +7,9 @@
 // half a range cell wide, or 2, 4, ... times as wide where a resolution cell of range and angle, or Doppler
 // frequency, is so large that it still holds about four. Places and amplitudes are drawn from (seed, facet,
 // width, square): they belong to the surface and move with it. A facet smaller than a square has a scatterer
-// with the probability of its share of the square, so that many small facets send back the right power. The part of a tube on a facet (TubeEchoes) has the scatterers that lie in it, so
-// that shadows are exact. Each scatterer sends back
+// with the probability of its share of the square, so that many small facets send back the right power. The
+// part of a tube on a facet (TubeEchoes) has the scatterers that lie in it, so that shadows are exact. Each
+// scatterer sends back
 //   a = lambda/((4 pi)^(3/2) r1 r2) sqrt(A) F_r . [g sqrt(sigma0_hh) h h + g sqrt(sigma0_vv) v v
 //       + g' sqrt(sigma0_hv) (h v + v h)] . F_t,
 // with independent circular Gaussian draws g and g' of mean power 1, the area A of a square, and the fields

@@ -23,9 +23,9 @@ class Attribution {
 
   /// Returns the instance that accounts for most of the power of a cell, among those whose echoes lie within
   /// two bins of the cell. The power of an instance is the larger of |sum of tones|^2 and the sum of the
-  /// tones' powers, with those of its patches. Of equal instances the one with the lower id counts. Returns 0 if the power of the
-  /// instance is not more than least_share of `power_w`. An echo with a delay table counts in all Doppler
-  /// bins between its slowest and its fastest rate, and shares its power among these bins.
+  /// tones' powers, with those of its patches. Of equal instances the one with the lower id counts. Returns 0
+  /// if the power of the instance is not more than least_share of `power_w`. An echo with a delay table counts
+  /// in all Doppler bins between its slowest and its fastest rate, and shares its power among these bins.
   uint32_t instance(uint32_t range_bin, uint32_t velocity_bin, double power_w) const;
 
  private:

@@ -25,8 +25,8 @@ constexpr uint32_t stripe_rows = 24;
 using Eight [[gnu::vector_size(32), gnu::aligned(4), gnu::may_alias]] = float;
 
 /// Adds a patch to the rows of a grid. `rows` holds the places of its first column in each row of the first
-/// group, or null for a row that another task adds to; the groups are `group_stride` floats apart. `values` is
-/// [groups, 8].
+/// group, or null for a row that another task adds to; the groups are `group_stride` floats apart. `values`
+/// is [groups, 8].
 GREATX_LANES void spread_patch(float* const* rows, size_t group_stride, uint32_t groups, const float* values,
                                const float* range_weights, const float* doppler_weights) {
   for (uint32_t group = 0; group < groups; ++group) {
