@@ -48,12 +48,14 @@ nodes:
       - {{name: antenna, type: antenna, pattern: isotropic, polarization: v}}
   - name: ue
     trajectory: {{type: waypoints, points: [
-      {{t_s: 0, position_m: [{ue_x}, {ue_y}, 1.5]}}, {{t_s: {seconds}, position_m: [{ue_x}, {ue_end}, 1.5]}}]}}
+      {{t_s: 0, position_m: [{ue_x}, {ue_y}, 1.5]}},
+      {{t_s: {seconds}, position_m: [{ue_x}, {ue_end}, 1.5]}}]}}
     sensors:
       - {{name: antenna, type: antenna, pattern: isotropic, polarization: v}}
 )";
 
-/// Every ray of the search costs the same in each scene; the exact search would grow with the facets in sight.
+/// Every ray of the search costs the same in each scene; the exact search would grow with the facets in
+/// sight.
 constexpr const char* tick_channel = R"(channels:
   - {name: csi, tx: mast/antenna, rx: [ue/antenna], rate_hz: 10, carrier_hz: 3.5e9, bandwidth_hz: 100e6,
      subcarriers: 256, max_depth: 2, candidates: rays, rays: 65536}

@@ -35,8 +35,16 @@ Axes axes_of(const PanelSource& source) {
 
 double dbm(float watt) { return watt > 0.0f ? 10.0 * std::log10(static_cast<double>(watt)) + 30.0 : -400.0; }
 
+/// Returns the level that the share `below` of the levels does not exceed.
+double quantile(std::vector<double>& levels, double below) {
+  const auto at = levels.begin() + static_cast<std::ptrdiff_t>(below * double(levels.size() - 1));
+  std::nth_element(levels.begin(), at, levels.end());
+  return *at;
+}
+
 /// Holds the maps of all rows. They have one scale, from 1 dB below the lowest median of a map (the noise) to
-/// the strongest cell; the scale is 12 to 60 dB wide.
+/// the level that one cell in a thousand exceeds; the scale is 12 to 60 dB wide. Stronger cells have the
+/// color of its end, so that a single bright wall does not hide the street.
 class RadarPanel : public FramePanel {
  public:
   RadarPanel(const PanelSource& source, const char* array) : source_(source), axes_(axes_of(source)) {
@@ -49,14 +57,15 @@ class RadarPanel : public FramePanel {
       std::vector<double>& levels = maps_.emplace_back();
       for (const float watt : map.as<float>()) levels.push_back(dbm(watt));
       std::vector<double> sorted = levels;
-      std::nth_element(sorted.begin(), sorted.begin() + std::ssize(sorted) / 2, sorted.end());
-      middles.push_back(sorted[sorted.size() / 2]);
-      top = std::max(top, *std::max_element(levels.begin(), levels.end()));
+      if (!sorted.empty()) {
+        middles.push_back(quantile(sorted, 0.5));
+        top = std::max(top, quantile(sorted, 0.999));
+      }
       load_detections(row);
     }
     if (middles.empty()) return;
     const double floor = *std::min_element(middles.begin(), middles.end());
-    scale_ = {std::clamp(floor - 1.0, top - 60.0, top - 12.0), top, false};
+    scale_ = {std::max(floor - 1.0, top - 60.0), std::max(top, floor + 11.0), false};
   }
 
  protected:

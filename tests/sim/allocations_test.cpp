@@ -87,8 +87,8 @@ Count most_of_a_tick(const std::string& scenario) {
 TEST(Allocations, TickOfTheDefaultScenarioStaysWithinItsNumber) {
   const Count most = most_of_a_tick(default_scenario());
   EXPECT_GT(most.allocations, 0u);  // the records themselves
-  EXPECT_LE(most.allocations, 24'000u);
-  EXPECT_LE(most.bytes, 80'000'000u);
+  EXPECT_LE(most.allocations, 28'000u);
+  EXPECT_LE(most.bytes, 112'000'000u);
 }
 
 TEST(Allocations, TickWithoutRadarStaysWithinItsNumber) {

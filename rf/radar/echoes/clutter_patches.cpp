@@ -83,6 +83,20 @@ dvec3 horizontal(const dvec3& direction, const dvec3& normal) {
 
 }  // namespace
 
+void ClutterParts::add(uint32_t tube, uint32_t facet, const Polygon& piece) {
+  parts.push_back({tube, facet, static_cast<uint32_t>(corners.size()), piece.size()});
+  for (uint32_t i = 0; i < piece.size(); ++i) corners.push_back(piece[i]);
+}
+
+void ClutterParts::append(const ClutterParts& more) {
+  const uint32_t shift = static_cast<uint32_t>(corners.size());
+  corners.insert(corners.end(), more.corners.begin(), more.corners.end());
+  for (Part part : more.parts) {
+    part.first += shift;
+    parts.push_back(part);
+  }
+}
+
 struct ClutterPatches::Ends {
   Pose transmitter, receiver;
   dmat3 turn{1.0};                       ///< local axes from those of the transmitter
@@ -152,13 +166,15 @@ double ClutterPatches::side_of(const PosedFacet& facet, const Polygon& piece, co
   return side;
 }
 
-void ClutterPatches::cover(const ClutterPart& part, const FacetWorld& world, const RayGrid& grid,
-                           const Ends& ends, std::vector<Scatterer>& out) const {
-  const PosedFacet& facet = world.facet(part.facet);
-  const Outline outline(part.piece);
-  const double side = side_of(facet, part.piece, ends);
-  const uint64_t key = mixed(options_.seed ^ mixed(part.facet ^ mixed(std::bit_cast<uint64_t>(side))));
-  const CellField field = cells_.turned(grid.cell(part.tube), ends.turn);
+void ClutterPatches::cover(uint32_t tube, uint32_t index, const Polygon& piece, const FacetWorld& world,
+                           const RayGrid& grid, const Ends& ends, std::vector<Scatterer>& out) const {
+  const PosedFacet& facet = world.facet(index);
+  const Outline outline(piece);
+  const double side = side_of(facet, piece, ends);
+  const uint64_t key = mixed(options_.seed ^ mixed(index ^ mixed(std::bit_cast<uint64_t>(side))));
+  const CellField field = cells_.turned(grid.cell(tube), ends.turn);
+  const size_t expected = out.size() + static_cast<size_t>(piece.area() / (side * side)) + 1;
+  if (expected > out.capacity()) out.reserve(expected + expected / 2);
   const auto last_row = static_cast<int64_t>(std::floor(outline.high.y / side));
   for (auto row = static_cast<int64_t>(std::floor(outline.low.y / side)); row <= last_row; ++row) {
     const dvec2 reach = outline.reach(double(row) * side, double(row + 1) * side);
@@ -169,18 +185,20 @@ void ClutterPatches::cover(const ClutterPart& part, const FacetWorld& world, con
       if (!outline.has(place)) continue;
       Scatterer& one = out.emplace_back();
       one.point = point_of(facet, place);
-      one.facet = part.facet;
+      one.facet = index;
       one.amplitude = amplitude(facet, one.point, side, field, ends, draw);
     }
   }
 }
 
-std::vector<Scatterer> ClutterPatches::scatterers(std::span<const ClutterPart> parts, const FacetWorld& world,
+std::vector<Scatterer> ClutterPatches::scatterers(const ClutterParts& parts, const FacetWorld& world,
                                                   const RayGrid& grid, const Ends& ends) const {
-  std::vector<std::vector<Scatterer>> found((parts.size() + part_chunk - 1) / part_chunk);
+  std::vector<std::vector<Scatterer>> found((parts.parts.size() + part_chunk - 1) / part_chunk);
   parallel_for(found.size(), options_.threads, [&](size_t chunk) {
-    for (size_t i = chunk * part_chunk; i < std::min(parts.size(), (chunk + 1) * part_chunk); ++i)
-      cover(parts[i], world, grid, ends, found[chunk]);
+    for (size_t i = chunk * part_chunk; i < std::min(parts.parts.size(), (chunk + 1) * part_chunk); ++i) {
+      const ClutterParts::Part& part = parts.parts[i];
+      cover(part.tube, part.facet, parts.piece(part), world, grid, ends, found[chunk]);
+    }
   });
   size_t count = 0;
   for (const auto& some : found) count += some.size();
@@ -313,8 +331,8 @@ double ClutterPatches::cell_rad(const EchoMotion& motion) const {
   return std::min(options_.beam_rad, 0.5 * wavelength_m_ / std::max(moved, 1e-12));
 }
 
-FoundPatches ClutterPatches::find(std::span<const ClutterPart> parts, const FacetWorld& world,
-                                  const RayGrid& grid, const Pose& transmitter, const Pose& receiver,
+FoundPatches ClutterPatches::find(const ClutterParts& parts, const FacetWorld& world, const RayGrid& grid,
+                                  const Pose& transmitter, const Pose& receiver,
                                   const EchoMotion& motion) const {
   Ends ends{transmitter, receiver, glm::mat3_cast(transmitter.orientation), 0.0, std::nullopt};
   ends.cell_rad = cell_rad(motion);

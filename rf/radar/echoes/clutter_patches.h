@@ -34,10 +34,20 @@
 
 namespace greatx::rf {
 
-/// A part of a tube on a rough surface that both ends see.
-struct ClutterPart {
-  uint32_t tube = 0, facet = 0;
-  Polygon piece;  ///< in the plane coordinates of the facet
+/// Parts of tubes on rough surfaces that both ends see.
+struct ClutterParts {
+  struct Part {
+    uint32_t tube = 0, facet = 0;
+    uint32_t first = 0, count = 0;  ///< range of `corners`
+  };
+  std::vector<Part> parts;
+  std::vector<dvec2> corners;  ///< in the plane coordinates of the facets
+
+  void add(uint32_t tube, uint32_t facet, const Polygon& piece);
+  void append(const ClutterParts& more);
+  Polygon piece(const Part& part) const {
+    return Polygon(std::span(corners).subspan(part.first, part.count));
+  }
 };
 
 /// One scatterer.
@@ -61,17 +71,17 @@ class ClutterPatches {
 
   bool rough(uint32_t material) const { return table_.rough(material); }
   /// Returns the patches of `parts`. The bytes do not depend on the number of threads.
-  FoundPatches find(std::span<const ClutterPart> parts, const FacetWorld& world, const RayGrid& grid,
+  FoundPatches find(const ClutterParts& parts, const FacetWorld& world, const RayGrid& grid,
                     const Pose& transmitter, const Pose& receiver, const EchoMotion& motion) const;
 
  private:
   struct Ends;
   double side_of(const PosedFacet& facet, const Polygon& piece, const Ends& ends) const;
   double cell_rad(const EchoMotion& motion) const;
-  std::vector<Scatterer> scatterers(std::span<const ClutterPart> parts, const FacetWorld& world,
-                                    const RayGrid& grid, const Ends& ends) const;
-  void cover(const ClutterPart& part, const FacetWorld& world, const RayGrid& grid, const Ends& ends,
-             std::vector<Scatterer>& out) const;
+  std::vector<Scatterer> scatterers(const ClutterParts& parts, const FacetWorld& world, const RayGrid& grid,
+                                    const Ends& ends) const;
+  void cover(uint32_t tube, uint32_t facet, const Polygon& piece, const FacetWorld& world,
+             const RayGrid& grid, const Ends& ends, std::vector<Scatterer>& out) const;
   Complex amplitude(const PosedFacet& facet, const dvec3& point, double side, const CellField& field,
                     const Ends& ends, uint64_t draw) const;
   FoundPatches timed(std::vector<Scatterer> all, const FacetWorld& world, const Ends& ends,

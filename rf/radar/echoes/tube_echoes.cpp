@@ -145,13 +145,17 @@ RawEchoes TubeEchoes::find() const {
     for (uint32_t tube = first; tube < last; ++tube) solve(tube, job);
   });
   RawEchoes all;
-  size_t echoes = 0, chains = 0;
-  for (const RawEchoes& part : found) echoes += part.echoes.size(), chains += part.chains.size();
+  size_t echoes = 0, chains = 0, rough = 0, corners = 0;
+  for (const RawEchoes& part : found) {
+    echoes += part.echoes.size(), chains += part.chains.size();
+    rough += part.rough.parts.size(), corners += part.rough.corners.size();
+  }
   all.echoes.reserve(echoes + 1), all.chains.reserve(chains);
+  all.rough.parts.reserve(rough), all.rough.corners.reserve(corners);
   for (RawEchoes& part : found) {
     const uint32_t shift = static_cast<uint32_t>(all.chains.size());
     all.below_floor += part.below_floor;
-    all.rough.insert(all.rough.end(), part.rough.begin(), part.rough.end());
+    all.rough.append(part.rough);
     all.chains.insert(all.chains.end(), part.chains.begin(), part.chains.end());
     for (RawEcho& echo : part.echoes) {
       echo.first_facet += shift;
@@ -412,7 +416,7 @@ void TubeEchoes::keep_rough(Job& job, const Polygon& part, uint32_t facet) const
   const PosedFacet& posed = world_.facet(facet);
   if (posed.distance(source_) * posed.distance(field_.receiver_at()) <= 0.0) return;
   const Polygon piece = on_facet(posed, job.beams[0], part);
-  if (!piece.empty()) job.out->rough.push_back({job.tube, facet, piece});
+  if (!piece.empty()) job.out->rough.add(job.tube, facet, piece);
 }
 
 }  // namespace greatx::rf

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/phase.h"
@@ -21,14 +22,11 @@ double around(double value, double period) { return value - period * std::nearby
 
 Attribution::Attribution(const RadarSignalConfig& config, const RadarMaps& maps,
                          std::span<const EchoList> lists)
-    : maps_(maps),
-      ranges_(config.waveform.samples),
-      velocities_(config.waveform.chirps()),
-      patches_(config.waveform.samples) {
+    : maps_(maps), ranges_(config.waveform.samples), velocities_(config.waveform.chirps()) {
   const RadarWaveform& w = config.waveform;
   const double frame_s = w.chirps() * w.repetition_s();
+  add_patches(config, lists);
   for (const EchoList& list : lists) {
-    add_patches(config, list);
     const double share = double(list.slots) / w.slots;  // share of the slots of the frame
     const double mid_s =
         0.5 * (w.slot_middle_s(list.first_slot) + w.slot_middle_s(list.first_slot + list.slots - 1));
@@ -60,35 +58,52 @@ Attribution::Attribution(const RadarSignalConfig& config, const RadarMaps& maps,
                    [](const Tone& a, const Tone& b) { return a.instance < b.instance; });
 }
 
-void Attribution::add_patches(const RadarSignalConfig& config, const EchoList& list) {
+void Attribution::add_patches(const RadarSignalConfig& config, std::span<const EchoList> lists) {
   const RadarWaveform& w = config.waveform;
-  const PatchList& patches = list.patches;
-  const double frame_s = w.chirps() * w.repetition_s(), share = double(list.slots) / w.slots;
-  const size_t middle = patches.size() * (patches.blocks / 2);
-  for (size_t i = 0; i < patches.size(); ++i) {
-    const double delay_s = patches.delay_s[middle + i];
-    const double doppler_hz = (w.carrier_hz - w.slope_hz_per_s * delay_s) * patches.rate[middle + i];
-    const double range = (w.slope_hz_per_s * delay_s + doppler_hz) * w.sampled_s();
-    const double power = patches.re[i] * patches.re[i] + patches.im[i] * patches.im[i];
-    const double within = range - ranges_ * std::floor(range / ranges_);
-    patches_[std::min(patches_.size() - 1, static_cast<size_t>(within))].push_back(
-        {patches.instance[i], static_cast<float>(within), static_cast<float>(doppler_hz * frame_s),
-         static_cast<float>(share * share * config.transmit_power_w * power)});
-    instances_ = std::max(instances_, patches.instance[i] + 1);
+  const double frame_s = w.chirps() * w.repetition_s();
+  std::vector<Patch> all;
+  first_patch_.assign(w.samples + 1, 0);
+  for (const EchoList& list : lists) {
+    const PatchList& patches = list.patches;
+    const double share = double(list.slots) / w.slots;
+    const size_t middle = patches.size() * (patches.blocks / 2);
+    all.reserve(all.size() + patches.size());
+    for (size_t i = 0; i < patches.size(); ++i) {
+      const double delay_s = patches.delay_s[middle + i];
+      const double doppler_hz = (w.carrier_hz - w.slope_hz_per_s * delay_s) * patches.rate[middle + i];
+      const double range = (w.slope_hz_per_s * delay_s + doppler_hz) * w.sampled_s();
+      const double power = patches.re[i] * patches.re[i] + patches.im[i] * patches.im[i];
+      all.push_back({patches.instance[i], static_cast<float>(range - ranges_ * std::floor(range / ranges_)),
+                     static_cast<float>(doppler_hz * frame_s),
+                     static_cast<float>(share * share * config.transmit_power_w * power)});
+      instances_ = std::max(instances_, patches.instance[i] + 1);
+    }
   }
+  // Order them by range bin, each bin in the order of the lists.
+  const auto bin_of = [&](const Patch& patch) {
+    return std::min(w.samples - 1, static_cast<uint32_t>(patch.range));
+  };
+  for (const Patch& patch : all) ++first_patch_[bin_of(patch) + 1];
+  std::partial_sum(first_patch_.begin(), first_patch_.end(), first_patch_.begin());
+  std::vector<uint32_t> next(first_patch_.begin(), first_patch_.end() - 1);
+  patches_.resize(all.size());
+  for (const Patch& patch : all) patches_[next[bin_of(patch)]++] = patch;
 }
 
 void Attribution::add_powers(uint32_t range_bin, double doppler, std::vector<double>& powers) const {
   constexpr int whole_reach = static_cast<int>(reach);
-  const int bins = static_cast<int>(patches_.size());
-  for (int off = -std::min(whole_reach + 1, bins / 2); off <= std::min(whole_reach, (bins - 1) / 2); ++off)
-    for (const Patch& patch : patches_[(static_cast<int>(range_bin) + off + bins) % bins]) {
+  const int bins = static_cast<int>(ranges_);
+  for (int off = -std::min(whole_reach + 1, bins / 2); off <= std::min(whole_reach, (bins - 1) / 2); ++off) {
+    const int bin = (static_cast<int>(range_bin) + off + bins) % bins;
+    for (uint32_t i = first_patch_[bin]; i < first_patch_[bin + 1]; ++i) {
+      const Patch& patch = patches_[i];
       const double range_off = around(double(patch.range) - range_bin, ranges_),
                    doppler_off = around(patch.doppler - doppler, velocities_);
       if (std::abs(range_off) > reach || std::abs(doppler_off) > reach) continue;
       powers[patch.instance] +=
           patch.power_w * maps_.range_window().power(range_off) * maps_.doppler_window().power(doppler_off);
     }
+  }
 }
 
 uint32_t Attribution::instance(uint32_t range_bin, uint32_t velocity_bin, double power_w) const {

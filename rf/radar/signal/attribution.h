@@ -24,8 +24,9 @@ class Attribution {
   /// Returns the instance that accounts for most of the power of a cell, among those whose echoes lie within
   /// two bins of the cell. The power of an instance is the larger of |sum of tones|^2 and the sum of the
   /// tones' powers, with those of its patches. Of equal instances the one with the lower id counts. Returns 0
-  /// if the power of the instance is not more than least_share of `power_w`. An echo with a delay table counts
-  /// in all Doppler bins between its slowest and its fastest rate, and shares its power among these bins.
+  /// if the power of the instance is not more than least_share of `power_w`. An echo with a delay table
+  /// counts in all Doppler bins between its slowest and its fastest rate, and shares its power among these
+  /// bins.
   uint32_t instance(uint32_t range_bin, uint32_t velocity_bin, double power_w) const;
 
  private:
@@ -43,11 +44,12 @@ class Attribution {
     uint32_t instance;
     float range, doppler, power_w;
   };
-  void add_patches(const RadarSignalConfig& config, const EchoList& list);
+  void add_patches(const RadarSignalConfig& config, std::span<const EchoList> lists);
   /// Adds the powers that patches have in a cell to powers_of_patches, by instance.
   void add_powers(uint32_t range_bin, double doppler, std::vector<double>& powers) const;
-  std::vector<std::vector<Patch>> patches_;  ///< [range bin]
-  uint32_t instances_ = 0;                   ///< largest instance of a patch + 1
+  std::vector<Patch> patches_;         ///< by range bin
+  std::vector<uint32_t> first_patch_;  ///< [range bins + 1]
+  uint32_t instances_ = 0;             ///< largest instance of a patch + 1
 };
 
 }  // namespace greatx::rf

@@ -21,6 +21,7 @@ namespace {
 constexpr int kernel_taps = PatchKernel::taps;
 /// Rows of a grid that one task adds patches to. The sums do not depend on it.
 constexpr uint32_t stripe_rows = 24;
+constexpr uint32_t transform_chunk = 16;  ///< rows or chirps that one task transforms
 
 using Eight [[gnu::vector_size(32), gnu::aligned(4), gnu::may_alias]] = float;
 
@@ -144,9 +145,9 @@ class BlockSum {
       const uint32_t begin = static_cast<uint32_t>(stripe) * stripe_rows;
       spread(begin, std::min(rows_, begin + stripe_rows));
     });
-    parallel_for(rows_, threads_, [&](size_t row) { transform_row(static_cast<uint32_t>(row)); });
-    parallel_for(block_.last - block_.first, threads_,
-                 [&](size_t chirp) { transform_chirp(static_cast<uint32_t>(chirp), turns, cube); });
+    in_chunks(rows_, [&](uint32_t begin, uint32_t end) { transform_rows(begin, end); });
+    in_chunks(block_.last - block_.first,
+              [&](uint32_t begin, uint32_t end) { transform_chirps(begin, end, turns, cube); });
   }
 
  private:
@@ -243,43 +244,56 @@ class BlockSum {
     return true;
   }
 
-  /// Replaces a row of Doppler frequencies by the chirps of the block.
-  void transform_row(uint32_t row) {
-    if (empty(row)) return;
+  template <typename Work>
+  void in_chunks(uint32_t count, const Work& work) const {
+    parallel_for((count + transform_chunk - 1) / transform_chunk, threads_, [&](size_t chunk) {
+      const uint32_t begin = static_cast<uint32_t>(chunk) * transform_chunk;
+      work(begin, std::min(count, begin + transform_chunk));
+    });
+  }
+
+  /// Replaces rows of Doppler frequencies by the chirps of the block.
+  void transform_rows(uint32_t begin, uint32_t end) {
     std::vector<Fft::Value> room(columns_), out(doppler_.kernel.count());
-    for (uint32_t group = 0; group < groups_; ++group) {
-      Fft::Value* const cells = row_of(group, row);
-      for (uint32_t k = columns_; k < stride_; ++k) cells[k - columns_] += cells[k];
-      doppler_.outputs(cells, room.data(), out.data());
-      std::copy(out.begin(), out.end(), cells);
+    for (uint32_t row = begin; row < end; ++row) {
+      if (empty(row)) continue;
+      for (uint32_t group = 0; group < groups_; ++group) {
+        Fft::Value* const cells = row_of(group, row);
+        for (uint32_t k = columns_; k < stride_; ++k) cells[k - columns_] += cells[k];
+        doppler_.outputs(cells, room.data(), out.data());
+        std::copy(out.begin(), out.end(), cells);
+      }
     }
   }
 
-  /// Transforms the beat frequencies of a chirp to its samples, and adds them.
-  void transform_chirp(uint32_t chirp, std::span<const float> turns, std::span<std::complex<float>> cube) {
+  /// Transforms the beat frequencies of chirps to their samples, and adds them.
+  void transform_chirps(uint32_t begin, uint32_t end, std::span<const float> turns,
+                        std::span<std::complex<float>> cube) {
     std::vector<Fft::Value> cells(rows_), room(rows_), out(w_.samples);
     std::vector<std::complex<float>> lines(size_t{Fft::lanes} * w_.samples);
     std::complex<float>* rows[Fft::lanes];
     for (uint32_t lane = 0; lane < Fft::lanes; ++lane) rows[lane] = lines.data() + lane * w_.samples;
-    for (uint32_t group = 0; group < groups_; ++group) {
-      const Fft::Value* from = row_of(group, 0) + chirp;
-      for (uint32_t row = 0; row < rows_; ++row) cells[row] = from[size_t{row} * stride_];
-      range_.outputs(cells.data(), room.data(), out.data());
-      Fft::scatter(out.data(), w_.samples, rows);
-      for (uint32_t lane = 0; lane < Fft::lanes; ++lane) {
-        const uint32_t antenna = group * Fft::lanes + lane;
-        if (antenna >= antennas_) break;
-        std::complex<float>* const to =
-            cube.data() + (size_t{antenna} * w_.chirps() + block_.first + chirp) * w_.samples;
-        if (turns.empty()) {
-          for (uint32_t n = 0; n < w_.samples; ++n) to[n] += rows[lane][n];
-          continue;
-        }
-        const uint32_t slot = chirp * w_.transmitters + antenna % w_.transmitters;
-        const float* const turn = turns.data() + size_t{slot} * w_.samples;
-        for (uint32_t n = 0; n < w_.samples; ++n) to[n] += times(rows[lane][n], phasor_of(turn[n]));
+    for (uint32_t chirp = begin; chirp < end; ++chirp)
+      for (uint32_t group = 0; group < groups_; ++group) {
+        const Fft::Value* from = row_of(group, 0) + chirp;
+        for (uint32_t row = 0; row < rows_; ++row) cells[row] = from[size_t{row} * stride_];
+        range_.outputs(cells.data(), room.data(), out.data());
+        Fft::scatter(out.data(), w_.samples, rows);
+        for (uint32_t lane = 0; lane < Fft::lanes && group * Fft::lanes + lane < antennas_; ++lane)
+          add_line(group * Fft::lanes + lane, chirp, rows[lane], turns, cube);
       }
+  }
+  void add_line(uint32_t antenna, uint32_t chirp, const std::complex<float>* line,
+                std::span<const float> turns, std::span<std::complex<float>> cube) const {
+    std::complex<float>* const to =
+        cube.data() + (size_t{antenna} * w_.chirps() + block_.first + chirp) * w_.samples;
+    if (turns.empty()) {
+      for (uint32_t n = 0; n < w_.samples; ++n) to[n] += line[n];
+      return;
     }
+    const uint32_t slot = chirp * w_.transmitters + antenna % w_.transmitters;
+    const float* const turn = turns.data() + size_t{slot} * w_.samples;
+    for (uint32_t n = 0; n < w_.samples; ++n) to[n] += times(line[n], phasor_of(turn[n]));
   }
 
   const RadarSignalConfig& config_;
