@@ -199,6 +199,30 @@ TEST(RadarClutter, ShadowsAreExact) {
   EXPECT_GT(beyond, 100u);
 }
 
+TEST(RadarClutter, NoiseHidesOnlyWhatStaysBelowIt) {
+  const TinyScene tiny = floor_scene(rough_material("grass"));
+  EchoScene scene(tiny);
+  EchoOptions options = still_options(30.0, -60.0, -5.0);
+  const PatchList all = scene.find(options, Pose{}).patches;
+  // A cell 40 m away has (lambda-free) sigma0 x area over R^4 of this size.
+  const double sine = 10.0 / 40.0;
+  const double area = options.waveform.range_bin_m() / std::sqrt(1.0 - sine * sine) * 40.0 * options.beam_rad;
+  options.hidden_floor_m2 = scene::backscatter(*scene::clutter_called("grass"), sine, radar_carrier_hz).vv *
+                            area / std::pow(40.0, 4);
+  const PatchList seen = scene.find(options, Pose{}).patches;
+  EXPECT_LT(seen.size(), all.size());
+  // Nearer than the tube across 40 m nothing is missing, and beyond it nothing is left.
+  const auto count = [](const PatchList& list, double from_m, double to_m) {
+    size_t number = 0;
+    for (size_t i = 0; i < list.size(); ++i)
+      number += patch_range(list, i) > from_m && patch_range(list, i) < to_m;
+    return number;
+  };
+  EXPECT_EQ(count(seen, 0.0, 35.0), count(all, 0.0, 35.0));
+  EXPECT_GT(count(all, 50.0, 70.0), 20u);
+  EXPECT_EQ(count(seen, 50.0, 70.0), 0u);
+}
+
 TEST(RadarClutter, FoliageSendsBackWithoutAWall) {
   TinyScene tiny;
   scene::Material leaves = rough_material("foliage");

@@ -153,22 +153,41 @@ Complex ClutterPatches::amplitude(const PosedFacet& facet, const dvec3& point, d
   return scale * (Complex(g) * co + Complex(g_cross) * cross);
 }
 
+ClutterPatches::Cell ClutterPatches::cell_at(const PosedFacet& facet, const dvec2& place,
+                                             const Ends& ends) const {
+  const dvec3 arm = point_of(facet, place) - ends.transmitter.position;
+  Cell cell;
+  cell.distance = glm::length(arm);
+  cell.sine = std::abs(glm::dot(arm, facet.normal)) / cell.distance;
+  const double slope = std::max(least_slope, std::sqrt(std::max(0.0, 1.0 - cell.sine * cell.sine)));
+  cell.area = options_.waveform.range_bin_m() / slope * cell.distance * ends.cell_rad;
+  return cell;
+}
+
 double ClutterPatches::side_of(const PosedFacet& facet, const Polygon& piece, const Ends& ends) const {
-  double side = side_m_;
-  if (options_.diffuse_patch_m == 0.0) {
-    const dvec3 arm = point_of(facet, piece.centroid()) - ends.transmitter.position;
-    const double distance = glm::length(arm), sine = std::abs(glm::dot(arm, facet.normal)) / distance;
-    const double along =
-        options_.waveform.range_bin_m() / std::max(least_slope, std::sqrt(1.0 - sine * sine));
-    const double wanted = std::sqrt(along * distance * ends.cell_rad / scatterers_in_a_cell);
-    if (wanted > side) side *= std::exp2(std::nearbyint(std::log2(wanted / side)));
+  if (options_.diffuse_patch_m > 0.0) return side_m_;
+  const double wanted = std::sqrt(cell_at(facet, piece.centroid(), ends).area / scatterers_in_a_cell);
+  return wanted > side_m_ ? side_m_ * std::exp2(std::nearbyint(std::log2(wanted / side_m_))) : side_m_;
+}
+
+bool ClutterPatches::hidden(const PosedFacet& facet, const Polygon& piece, const Ends& ends) const {
+  if (options_.hidden_floor_m2 == 0.0) return false;
+  for (uint32_t i = 0; i < piece.size(); ++i) {
+    const Cell cell = cell_at(facet, piece[i], ends);
+    const double back = glm::distance(point_of(facet, piece[i]), ends.receiver.position);
+    const bool from_front = facet.distance(ends.transmitter.position) > 0.0;
+    const ClutterTable::Roots root = table_.at(facet.material, from_front, cell.sine);
+    const double strongest = std::max({root.hh, root.vv, root.hv});
+    const double way = cell.distance * back;
+    if (strongest * strongest * cell.area > options_.hidden_floor_m2 * way * way) return false;
   }
-  return side;
+  return true;
 }
 
 void ClutterPatches::cover(uint32_t tube, uint32_t index, const Polygon& piece, const FacetWorld& world,
                            const RayGrid& grid, const Ends& ends, std::vector<Scatterer>& out) const {
   const PosedFacet& facet = world.facet(index);
+  if (hidden(facet, piece, ends)) return;
   const Outline outline(piece);
   const double side = side_of(facet, piece, ends);
   const uint64_t key = mixed(options_.seed ^ mixed(index ^ mixed(std::bit_cast<uint64_t>(side))));

@@ -76,6 +76,15 @@ class ClutterPatches {
 
  private:
   struct Ends;
+  /// A resolution cell around a place on a facet.
+  struct Cell {
+    double distance = 0.0, sine = 0.0;  ///< from the transmitter; sine of the grazing angle
+    double area = 0.0;                  ///< m^2 of the surface
+  };
+  Cell cell_at(const PosedFacet& facet, const dvec2& place, const Ends& ends) const;
+  /// Returns whether noise hides all resolution cells at the corners of a part
+  /// (EchoOptions::hidden_floor_m2).
+  bool hidden(const PosedFacet& facet, const Polygon& piece, const Ends& ends) const;
   double side_of(const PosedFacet& facet, const Polygon& piece, const Ends& ends) const;
   double cell_rad(const EchoMotion& motion) const;
   std::vector<Scatterer> scatterers(const ClutterParts& parts, const FacetWorld& world, const RayGrid& grid,
