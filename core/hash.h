@@ -42,6 +42,14 @@ constexpr uint32_t fnv1a32(std::string_view text) {
   return hash;
 }
 
+/// The finaliser of SplitMix64 (G. Steele, D. Lea, C. Flood, OOPSLA 2014), by which every bit of the input
+/// affects every bit of the output.
+constexpr uint64_t mix64(uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
+}
+
 std::string sha256_hex(std::span<const std::byte> bytes);
 
 }  // namespace greatx

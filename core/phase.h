@@ -37,7 +37,8 @@ inline double turns_of(double count, double spacing_hz, double delay_s) {
 }
 
 /// Returns the product without the checks for infinite values that operator* makes.
-inline std::complex<double> plain_product(std::complex<double> a, std::complex<double> b) {
+template <typename Part>
+std::complex<Part> plain_product(std::complex<Part> a, std::complex<Part> b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 

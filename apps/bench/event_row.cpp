@@ -8,32 +8,28 @@
 
 namespace greatx::apps {
 
-namespace {
-
-render::CameraDesc of_luminance(render::CameraDesc desc) {
+render::CameraDesc luminance_camera(render::CameraDesc desc) {
   desc.outputs = render::CameraOutputs::of_luminance(false);
   return desc;
 }
 
-render::EventDesc event_desc(const std::string& name, const render::CameraDesc& camera) {
+render::EventDesc event_camera(const std::string& name, const render::CameraDesc& camera, uint32_t substeps) {
   render::EventDesc desc;
   desc.name = name;
   desc.width = camera.width;
   desc.height = camera.height;
-  desc.substeps = EventRow::substeps;
+  desc.substeps = substeps;
   desc.capacity = 16 * camera.width * camera.height;
   return desc;
 }
-
-}  // namespace
 
 EventRow::EventRow(std::string name, scene::GpuScene& gpu_scene, render::SceneLighting& lighting,
                    render::CameraDesc desc)
     : name_(std::move(name)),
       gpu_(gpu_scene),
       lighting_(lighting),
-      camera_(lighting, of_luminance(std::move(desc))),
-      events_(gpu_scene, event_desc(name_, camera_.desc())),
+      camera_(lighting, luminance_camera(std::move(desc))),
+      events_(gpu_scene, event_camera(name_, camera_.desc(), substeps)),
       ring_(gpu_scene.device(), 2, 4u << 20, 16u << 20) {}
 
 void EventRow::take(gpu::TickSlot& slot, uint32_t index, const Instant& instant) {

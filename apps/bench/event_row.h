@@ -21,6 +21,11 @@ struct Instant {
   std::vector<Pose> bodies;
 };
 
+/// Returns the camera that makes the pictures of an event camera with the same view.
+render::CameraDesc luminance_camera(render::CameraDesc desc);
+/// Returns an event camera with the pixels of `camera` and room for sixteen events a pixel.
+render::EventDesc event_camera(const std::string& name, const render::CameraDesc& camera, uint32_t substeps);
+
 /// Measures an event camera with default settings and the view of `desc`. It renders luminance pictures at
 /// equally spaced sub-steps in one submission. The measured time runs from the recording of the commands to
 /// the sorted list of events.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/suite_picture.h"
 
+#include "apps/bench/event_row.h"
 #include "core/units.h"
 #include "renderer/camera/camera.h"
 #include "renderer/event/event_pass.h"
@@ -59,29 +60,14 @@ class SuitePicture : public SuitePass {
   Pose pose_;
 };
 
-render::CameraDesc luminance_camera(const SuiteWork& work) {
-  render::CameraDesc desc = suite_camera(work);
-  desc.outputs = render::CameraOutputs::of_luminance(false);
-  return desc;
-}
-
-render::EventDesc suite_event_camera(const SuiteWork& work) {
-  render::EventDesc desc;
-  desc.width = work.width;
-  desc.height = work.height;
-  desc.substeps = suite_event_pictures;
-  desc.capacity = 16 * work.width * work.height;
-  return desc;
-}
-
 class SuiteEvents : public SuitePass {
  public:
   SuiteEvents(scene::GpuScene& gpu_scene, const SuiteScene& scene, const SuiteWork& work)
       : gpu_(gpu_scene),
         scene_(scene),
         lighting_(gpu_scene, suite_light(false), suite_effects(false)),
-        camera_(lighting_, luminance_camera(work)),
-        events_(gpu_scene, suite_event_camera(work)) {}
+        camera_(lighting_, luminance_camera(suite_camera(work))),
+        events_(gpu_scene, event_camera("events", camera_.desc(), suite_event_pictures)) {}
 
   void record(gpu::TickSlot& slot, const std::vector<Pose>& bodies) override {
     const bool first = events_.first();

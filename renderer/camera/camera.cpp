@@ -152,9 +152,8 @@ void CameraPass::build_pipelines() {
 
   gpu::ComputeDesc shade;
   shade.shader = multisampled() ? "camera/shade_multisampled.comp" : "camera/shade.comp";
-  shade.bindings = scene::GpuScene::raster_bindings();
+  shade.bindings = SceneLighting::surface_bindings();
   for (const gpu::Binding& binding : SceneLighting::bindings()) shade.bindings.push_back(binding);
-  for (const gpu::Binding& binding : SurfaceTables::bindings()) shade.bindings.push_back(binding);
   shade.bindings.push_back({shared::lights_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   shade.bindings.push_back({shared::lens_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
   shade.bindings.push_back({shared::visibility_binding, multisampled()
@@ -346,10 +345,8 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view) {
   cmd.transition(visibility_, multisampled() ? gpu::ImageUse::sampled : gpu::ImageUse::storage);
   cmd.barrier(gpu::sync::compute, gpu::sync::compute);  // waits for readers of the picture before
   const PictureBuffers& picture = edges_ ? shaded_ : picture_;
-  std::vector<gpu::Descriptor> descriptors = scene_->raster_descriptors();
+  std::vector<gpu::Descriptor> descriptors = lighting_->surface_descriptors();
   for (const gpu::Descriptor& descriptor : lighting_->descriptors()) descriptors.push_back(descriptor);
-  for (const gpu::Descriptor& descriptor : lighting_->surfaces().descriptors())
-    descriptors.push_back(descriptor);
   descriptors.push_back(gpu::Descriptor::buffer(shared::lights_binding, upload_lamps(slot, view)));
   descriptors.push_back(gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_));
   descriptors.push_back(

@@ -10,8 +10,7 @@ CellPass::CellPass(const SceneLighting& lighting, const CameraDesc& desc)
     : lighting_(&lighting), width_(desc.width), height_(desc.height), scope_(desc.name + " cells") {
   gpu::ComputeDesc compute;
   compute.shader = "camera/cells.comp";
-  compute.bindings = scene::GpuScene::raster_bindings();
-  for (const gpu::Binding& binding : SurfaceTables::bindings()) compute.bindings.push_back(binding);
+  compute.bindings = SceneLighting::surface_bindings();
   for (const uint32_t slot : {shared::cells_seen_binding, shared::cells_luminance_binding,
                               shared::cells_to_binding, shared::cells_ids_binding})
     compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
@@ -27,9 +26,7 @@ void CellPass::record(gpu::TickSlot& slot, const gpu::Buffer& seen, const gpu::B
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(scope_);
   cmd.barrier(gpu::sync::compute, gpu::sync::compute);
-  std::vector<gpu::Descriptor> descriptors = lighting_->scene().raster_descriptors();
-  for (const gpu::Descriptor& descriptor : lighting_->surfaces().descriptors())
-    descriptors.push_back(descriptor);
+  std::vector<gpu::Descriptor> descriptors = lighting_->surface_descriptors();
   for (const auto& [binding, buffer] : {std::pair{shared::cells_seen_binding, &seen},
                                         {shared::cells_luminance_binding, &luminance},
                                         {shared::cells_to_binding, &cells},
@@ -38,8 +35,7 @@ void CellPass::record(gpu::TickSlot& slot, const gpu::Buffer& seen, const gpu::B
   cmd.bind(pipeline_);
   cmd.push(descriptors);
   cmd.constants(constants_);
-  cmd.dispatch((width_ + shared::cell_tile - 1) / shared::cell_tile,
-               (height_ + shared::cell_tile - 1) / shared::cell_tile);
+  cmd.dispatch(shared::tiles_along(width_), shared::tiles_along(height_));
 }
 
 }  // namespace greatx::render

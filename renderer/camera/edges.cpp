@@ -11,8 +11,7 @@ EdgePass::EdgePass(const SceneLighting& lighting, const CameraDesc& desc)
     : lighting_(&lighting), width_(desc.width), height_(desc.height), scope_(desc.name + " edges") {
   gpu::ComputeDesc edges;
   edges.shader = "camera/edges.comp";
-  edges.bindings = scene::GpuScene::raster_bindings();
-  for (const gpu::Binding& binding : SurfaceTables::bindings()) edges.bindings.push_back(binding);
+  edges.bindings = SceneLighting::surface_bindings();
   edges.bindings.push_back({shared::lens_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
   for (const uint32_t slot :
        {shared::edges_seen_binding, shared::edges_from_binding, shared::edges_to_binding,
@@ -32,9 +31,7 @@ void EdgePass::record(gpu::TickSlot& slot, const CameraView& view, const gpu::De
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(scope_);
   cmd.barrier(gpu::sync::compute, gpu::sync::compute);
-  std::vector<gpu::Descriptor> descriptors = lighting_->scene().raster_descriptors();
-  for (const gpu::Descriptor& descriptor : lighting_->surfaces().descriptors())
-    descriptors.push_back(descriptor);
+  std::vector<gpu::Descriptor> descriptors = lighting_->surface_descriptors();
   descriptors.push_back(lens);
   for (const auto& [binding, buffer] : {std::pair{shared::edges_seen_binding, &pictures.seen},
                                         {shared::edges_from_binding, &pictures.from.color},

@@ -10,10 +10,6 @@ namespace greatx::render {
 
 namespace {
 
-constexpr uint32_t tiles_along(uint32_t pixels) {
-  return (pixels + shared::cell_tile - 1) / shared::cell_tile;
-}
-
 /// A pixel without smoothed edges takes in a point: its outlines are that sharp.
 constexpr float sharp = 1e4f;
 
@@ -33,7 +29,7 @@ Reprojection::Reprojection(const scene::GpuScene& scene, const EventDesc& desc,
   };
   for (gpu::Buffer& cells : cells_) cells = buffer(pixels * shared::cell_quads * sizeof(glm::uvec4), "cells");
   for (gpu::Buffer& tiles : tiles_)
-    tiles = buffer(sizeof(glm::vec4) * tiles_along(width_) * tiles_along(height_), "tiles");
+    tiles = buffer(sizeof(glm::vec4) * shared::tiles_along(width_) * shared::tiles_along(height_), "tiles");
   const bool extra = desc.cutoff_hz > 0.0 || desc.refractory_s > 0.0;
   after_ = buffer(pixels * sizeof(glm::uvec2), "pixels after");
   extra_after_ = buffer(extra ? pixels * sizeof(glm::uvec2) : 0, "pixels' delays after");
@@ -70,7 +66,9 @@ gpu::Slice Reprojection::upload(gpu::TickSlot& slot, const PixelPaths& paths, co
   return slot.upload.put(std::span<const shared::ReprojectInterval>(&interval, 1));
 }
 
-void Reprojection::dispatch(gpu::Cmd& cmd) const { cmd.dispatch(tiles_along(width_), tiles_along(height_)); }
+void Reprojection::dispatch(gpu::Cmd& cmd) const {
+  cmd.dispatch(shared::tiles_along(width_), shared::tiles_along(height_));
+}
 
 void Reprojection::record(gpu::TickSlot& slot, std::vector<gpu::Descriptor> descriptors,
                           const shared::EventConstants& constants, const PixelPaths& paths,
@@ -96,7 +94,7 @@ void Reprojection::record(gpu::TickSlot& slot, std::vector<gpu::Descriptor> desc
     cmd.push(all);
     cmd.constants(constants);
   };
-  const uint32_t tiles = tiles_along(width_) * tiles_along(height_);
+  const uint32_t tiles = shared::tiles_along(width_) * shared::tiles_along(height_);
   run(tile_luminance_, false);
   cmd.dispatch_linear(tiles, shared::event_group_size);
   run(bound_, false);

@@ -160,6 +160,18 @@ void SceneLighting::record(gpu::TickSlot& slot, std::span<const Pose> body_poses
   if (effects_.moving_shadows) shadows_.record(slot, body_poses_, block_.slice());
 }
 
+std::vector<gpu::Binding> SceneLighting::surface_bindings() {
+  std::vector<gpu::Binding> all = scene::GpuScene::raster_bindings();
+  for (const gpu::Binding& binding : SurfaceTables::bindings()) all.push_back(binding);
+  return all;
+}
+
+std::vector<gpu::Descriptor> SceneLighting::surface_descriptors() const {
+  std::vector<gpu::Descriptor> all = scene_->raster_descriptors();
+  for (const gpu::Descriptor& descriptor : surfaces_.descriptors()) all.push_back(descriptor);
+  return all;
+}
+
 std::vector<gpu::Binding> SceneLighting::bindings() {
   return {{shared::lighting_binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
           {shared::shadow_tiles_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},

@@ -98,6 +98,9 @@ class SceneLighting {
   /// The illuminance of level ground from sun and sky, less the part that an effect leaves out.
   double ground_illuminance_lux() const { return ground_illuminance_lux_; }
   const SurfaceTables& surfaces() const { return surfaces_; }
+  /// The bindings and descriptors of the scene and its surfaces, which passes over pixels' triangles share.
+  static std::vector<gpu::Binding> surface_bindings();
+  std::vector<gpu::Descriptor> surface_descriptors() const;
   /// The bindings and descriptors that every camera's shading shares. The lamps are not among them, since
   /// each camera has its own.
   static std::vector<gpu::Binding> bindings();

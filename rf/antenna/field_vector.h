@@ -4,6 +4,7 @@
 
 #include "core/vec.h"
 #include "rf/antenna/antenna.h"
+#include "rf/antenna/element.h"
 
 namespace greatx::rf {
 
@@ -21,5 +22,16 @@ struct FieldVector {
     re = real;
   }
 };
+
+/// Returns the field of an element of one polarization towards a world direction.
+inline FieldVector field_towards(const TurnedElement& element, const dvec3& direction) {
+  Jones jones[1];
+  const Angles at = angles_of(direction);
+  element.respond(direction, jones);
+  FieldVector field;
+  field.add(jones[0].theta, at.theta_hat());
+  field.add(jones[0].phi, at.phi_hat());
+  return field;
+}
 
 }  // namespace greatx::rf

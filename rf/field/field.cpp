@@ -12,6 +12,7 @@
 #include "rf/antenna/field_vector.h"
 #include "rf/atmosphere/foliage.h"
 #include "rf/field/diffraction.h"
+#include "rf/surface/incidence.h"
 
 namespace greatx::rf {
 namespace {
@@ -79,20 +80,6 @@ Runs runs_of(const GeometricPath& path, const FacetWorld& world) {
   return runs;
 }
 
-/// Returns any unit vector perpendicular to k.
-dvec3 any_perpendicular(const dvec3& k) {
-  const dvec3 axis = std::abs(k.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
-  return glm::normalize(glm::cross(k, axis));
-}
-
-/// Returns s = k x n / |k x n|. Within 1e-8 of the normal the plane of incidence is only rounding noise,
-/// while r_TE = -r_TM and t_TE = t_TM to 1e-16: any s gives the same field.
-dvec3 across(const dvec3& k, const dvec3& normal) {
-  const dvec3 product = glm::cross(k, normal);
-  const double sine = glm::length(product);
-  return sine > 1e-8 ? product / sine : any_perpendicular(k);
-}
-
 /// Holds the field of a path on its way: the images of the unit fields along theta and phi at the
 /// transmitter.
 class Travelling {
@@ -112,7 +99,7 @@ class Travelling {
     const double towards = glm::dot(in, facet.normal), cosine = std::min(1.0, std::abs(towards));
     const ReflectionCoefficients fresnel = model_.surfaces->reflect(facet.material, towards < 0.0, cosine);
     const double kept = specular_share(facet.material, cosine);
-    const dvec3 s = across(in, facet.normal);
+    const dvec3 s = s_axis(in, facet.normal);
     map(s, glm::cross(in, s), s, glm::cross(out, s),
         {kept * fresnel.r_te, Complex(0.0), Complex(0.0), kept * fresnel.r_tm});
     if (weight == 1.0) return;
@@ -122,7 +109,7 @@ class Travelling {
   void transmit(const PosedFacet& facet, const dvec3& direction) {
     const double towards = glm::dot(direction, facet.normal), cosine = std::min(1.0, std::abs(towards));
     const SheetTransmission sheet = model_.surfaces->transmit(facet.material, towards < 0.0, cosine);
-    const dvec3 s = across(direction, facet.normal), p = glm::cross(direction, s);
+    const dvec3 s = s_axis(direction, facet.normal), p = glm::cross(direction, s);
     map(s, p, s, p, {sheet.te, Complex(0.0), Complex(0.0), sheet.tm});
   }
 
@@ -138,7 +125,7 @@ class Travelling {
     const ScatteringMatrix m =
         scattering_matrix(surface.cross_polarization, model_.effects.seed, patch.element, patch.patch);
     const Complex te = amplitude * fresnel.r_te, tm = amplitude * fresnel.r_tm;
-    const dvec3 s_in = across(in, normal), s_out = across(out, normal);
+    const dvec3 s_in = s_axis(in, normal), s_out = s_axis(out, normal);
     map(s_in, glm::cross(in, s_in), s_out, glm::cross(out, s_out),
         {m.ss * te, m.sp * tm, m.ps * te, m.pp * tm});
   }

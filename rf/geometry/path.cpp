@@ -5,20 +5,9 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/hash.h"
 
 namespace greatx::rf {
-
-namespace {
-
-/// Applies the finaliser of SplitMix64 (G. Steele, D. Lea, C. Flood, OOPSLA 2014), by which every bit of the
-/// input affects every bit of the output.
-uint64_t mixed(uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
-}
-
-}  // namespace
 
 const char* name_of(InteractionType type) {
   switch (type) {
@@ -49,11 +38,11 @@ bool interactions_less(std::span<const Interaction> a, std::span<const Interacti
 }
 
 uint64_t path_id(std::span<const Interaction> interactions) {
-  uint64_t id = mixed(0x67726561747858ull + interactions.size());
+  uint64_t id = mix64(0x67726561747858ull + interactions.size());
   for (const Interaction& interaction : interactions) {
-    id = mixed(id + 0x9e3779b97f4a7c15ull +
+    id = mix64(id + 0x9e3779b97f4a7c15ull +
                (uint64_t{interaction.element} << 8 | static_cast<uint64_t>(interaction.type)));
-    id = mixed(id + 0x9e3779b97f4a7c15ull + interaction.patch);
+    id = mix64(id + 0x9e3779b97f4a7c15ull + interaction.patch);
   }
   return id;
 }

@@ -5,11 +5,7 @@
 //
 // Finds for each tile of pixels how far its surfaces move over the pictures, and so the number of instants,
 // and the least and the largest signal anywhere on their way.
-#include "event/pixels.glsl"
-#include "event/look.glsl"
-#include "lib/linear.glsl"
-
-layout(local_size_x = event_group_size) in;
+#include "event/tile.glsl"
 
 struct Box {
   vec2 least, most;
@@ -28,10 +24,9 @@ void add_way(inout Box box, uint picture, Instant at, uvec2 pixel) {
 
 void main() {
   begin_looks();
-  uint across = tiles_along(model.width), down = tiles_along(model.height);
-  uint tile = linear_invocation;
-  if (tile >= across * down) return;
-  uvec2 first = cell_tile * uvec2(tile % across, tile / across);
+  uint tile, across;
+  uvec2 first;
+  if (!has_tile(tile, first, across)) return;
   Box box = Box(vec2(1e30), vec2(-1e30), 0.0);
   const uint apart = 2u;  // every second pixel of every second row stands for its neighbours
   const uint along = cell_tile / apart;

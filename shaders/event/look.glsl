@@ -90,9 +90,6 @@ struct Instant {
   float t;
 };
 
-/// Returns the number of tiles along a side of that many pixels.
-uint tiles_along(uint pixels) { return (pixels + cell_tile - 1u) / cell_tile; }
-
 Cell cell_at(uint picture, uint pixel) {
   CellList list = CellList(looks.cells[picture]);
   uvec4 a = quad_of(list.v[cell_quads * pixel]), b = quad_of(list.v[cell_quads * pixel + 1u]);

@@ -4,18 +4,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Finds the least and the largest luminance of each tile of both pictures.
-#include "event/pixels.glsl"
-#include "event/look.glsl"
-#include "lib/linear.glsl"
-
-layout(local_size_x = event_group_size) in;
+#include "event/tile.glsl"
 
 void main() {
   begin_looks();
-  uint across = tiles_along(model.width), down = tiles_along(model.height);
-  uint tile = linear_invocation;
-  if (tile >= across * down) return;
-  uvec2 first = cell_tile * uvec2(tile % across, tile / across);
+  uint tile, across;
+  uvec2 first;
+  if (!has_tile(tile, first, across)) return;
   float least = 1e30, largest = 0.0;
   for (uint i = 0u; i < cell_tile * cell_tile; ++i) {
     uvec2 at = min(first + uvec2(i % cell_tile, i / cell_tile), uvec2(model.width, model.height) - 1u);

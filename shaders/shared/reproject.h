@@ -23,6 +23,8 @@ const uint cells_spec_outlines = 0u;  // specialization constant: outlines are k
 
 /// A picture's tiles are squares of that many pixels.
 const uint cell_tile = 8u;
+/// Returns the number of tiles along a side of that many pixels.
+GREATX_FUNCTION uint tiles_along(uint pixels) { return (pixels + cell_tile - 1u) / cell_tile; }
 
 /// Holds what one pixel of a picture saw. It is loaded and stored as four numbers of 64 bits.
 ///   words 0 to 2  plane of the surface that its centre sees

@@ -35,9 +35,7 @@ std::vector<Echo> random_echoes(const RadarSignalConfig& config, int count, doub
   RandomStream random(seed, 1);
   std::vector<Echo> echoes;
   for (int i = 0; i < count; ++i) {
-    Echo echo = point_echo(config, random.uniform(1.0, 150.0), random.uniform(-fastest, fastest),
-                           random.uniform(-1.5, 1.5), random.uniform(-0.5, 0.5));
-    echo.amplitude = std::polar(random.uniform(0.1, 1.0), random.uniform(-pi, pi));
+    Echo echo = testing::random_echo(config, fastest, random);
     echo.arrival = Direction{random.uniform(-1.5, 1.5), 0.1, 0.0}.unit();
     echo.delay.coefficients[2] = random.uniform(-10.0, 10.0) / speed_of_light;  // 10 m/s^2
     echo.delay.coefficients[3] = random.uniform(-50.0, 50.0) / speed_of_light;

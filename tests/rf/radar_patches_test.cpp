@@ -24,9 +24,7 @@ std::vector<Echo> steady_echoes(const RadarSignalConfig& config, int count, doub
   RandomStream random(seed, 7);
   std::vector<Echo> echoes;
   for (int i = 0; i < count; ++i) {
-    Echo echo = point_echo(config, random.uniform(1.0, 150.0), random.uniform(-fastest, fastest),
-                           random.uniform(-1.5, 1.5), random.uniform(-0.5, 0.5));
-    echo.amplitude = std::polar(random.uniform(0.1, 1.0), random.uniform(-pi, pi));
+    Echo echo = testing::random_echo(config, fastest, random);
     echo.instance = 1 + i % 3;
     echoes.push_back(echo);
   }

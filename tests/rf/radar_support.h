@@ -8,6 +8,7 @@
 #include <complex>
 #include <vector>
 
+#include "core/random.h"
 #include "rf/radar/signal/radar_processor.h"
 #include "tests/rf/beat_direct.h"
 
@@ -52,6 +53,14 @@ inline Echo point_echo(const RadarSignalConfig& config, double range_m, double v
   echo.delay.mid_s = config.waveform.frame_middle_s();
   echo.delay.coefficients = {2 * range_m / speed_of_light, 2 * velocity_m_s / speed_of_light, 0.0, 0.0};
   echo.instance = 1;
+  return echo;
+}
+
+/// Returns an echo at a random place, of a random amplitude and a constant rate of at most `fastest` m/s.
+inline Echo random_echo(const RadarSignalConfig& config, double fastest, RandomStream& random) {
+  Echo echo = point_echo(config, random.uniform(1.0, 150.0), random.uniform(-fastest, fastest),
+                         random.uniform(-1.5, 1.5), random.uniform(-0.5, 0.5));
+  echo.amplitude = std::polar(random.uniform(0.1, 1.0), random.uniform(-pi, pi));
   return echo;
 }
 

@@ -8,11 +8,14 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "rf/atmosphere/path_attenuation.h"
 #include "rf/radar/echoes/echo_tracks.h"
 #include "rf/radar/echoes/tube_beam.h"
 #include "rf/radar/signal/lanes.h"
+#include "rf/surface/incidence.h"
 
 namespace greatx::rf {
 namespace {
@@ -23,22 +26,15 @@ constexpr uint32_t most_blocks = 8;
 constexpr double scatterers_in_a_cell = 4.0;
 constexpr double least_slope = 0.2;  ///< cosine of the steepest grazing angle that still counts for a cell
 
-/// Returns a well mixed number (S. Vigna, SplitMix64, 2015).
-uint64_t mixed(uint64_t value) {
-  value += 0x9e3779b97f4a7c15ull;
-  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9ull;
-  value = (value ^ (value >> 27)) * 0x94d049bb133111ebull;
-  return value ^ (value >> 31);
-}
+uint64_t mixed(uint64_t value) { return mix64(value + 0x9e3779b97f4a7c15ull); }
 
 double share_of(uint64_t bits) { return (double(bits & 0xffffffffu) + 0.5) * 0x1.0p-32; }
 
-/// Returns a circular Gaussian number of mean power 1 (Box-Muller).
+/// Returns a circular Gaussian number of mean power 1.
 std::complex<float> gaussian(uint64_t bits) {
-  const float radius = std::sqrt(-natural_log(static_cast<float>(share_of(bits))));
-  float cosine, sine;
-  cos_sin_of_turns(static_cast<float>(share_of(bits >> 32)), cosine, sine);
-  return {radius * cosine, radius * sine};
+  float re, im;
+  complex_normal(static_cast<float>(share_of(bits)), static_cast<float>(share_of(bits >> 32)), re, im);
+  return {re, im};
 }
 
 /// Holds the sides of a polygon, for testing many points.
@@ -73,13 +69,6 @@ struct Outline {
     return {least, most};
   }
 };
-
-dvec3 horizontal(const dvec3& direction, const dvec3& normal) {
-  const dvec3 product = glm::cross(direction, normal);
-  const double sine = glm::length(product);
-  if (sine > 1e-8) return product / sine;
-  return glm::normalize(glm::cross(direction, std::abs(direction.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
-}
 
 }  // namespace
 
@@ -125,7 +114,7 @@ Complex ClutterPatches::amplitude(const PosedFacet& facet, const dvec3& point, d
   const dvec3 in = arm / before;
   const double towards = glm::dot(in, facet.normal);
   const dvec3 normal = towards < 0.0 ? facet.normal : -facet.normal;
-  const dvec3 h_in = horizontal(in, normal), v_in = glm::cross(in, h_in);
+  const dvec3 h_in = s_axis(in, normal), v_in = glm::cross(in, h_in);
   const FieldVector sent = field.towards(in);
   double after = before, sine = std::abs(towards);
   dvec3 home = in, h_out = h_in, v_out = v_in;
@@ -135,13 +124,8 @@ Complex ClutterPatches::amplitude(const PosedFacet& facet, const dvec3& point, d
     after = glm::length(back);
     home = back / after;
     sine = 0.5 * (sine + std::abs(glm::dot(home, normal)));
-    h_out = horizontal(home, normal), v_out = glm::cross(home, h_out);
-    Jones jones[1];
-    const Angles at = angles_of(home);
-    ends.element->respond(home, jones);
-    heard = {};
-    heard.add(jones[0].theta, at.theta_hat());
-    heard.add(jones[0].phi, at.phi_hat());
+    h_out = s_axis(home, normal), v_out = glm::cross(home, h_out);
+    heard = field_towards(*ends.element, home);
   }
   const ClutterTable::Roots root = table_.at(facet.material, towards < 0.0, sine);
   const Complex sent_h = sent.along(h_in), sent_v = sent.along(v_in), heard_h = heard.along(h_out),
@@ -232,9 +216,9 @@ namespace {
 /// The lengths of the ways over scatterers at a few times.
 class Ways {
  public:
-  Ways(const std::vector<Scatterer>& all, const FacetWorld& world, const EchoMotion& motion,
+  Ways(const std::vector<Scatterer>& all, const FacetWorld& world, size_t bodies, const EchoMotion& motion,
        std::vector<double> times)
-      : all_(all), world_(world), table_(motion, asked(all, world), std::move(times)) {}
+      : all_(all), world_(world), table_(motion, asked(bodies), std::move(times)) {}
 
   double length(size_t i, size_t time) const {
     const uint32_t body = world_.facet(all_[i].facet).body;
@@ -243,15 +227,12 @@ class Ways {
   }
 
  private:
-  std::span<const bool> asked(const std::vector<Scatterer>& all, const FacetWorld& world) {
-    uint32_t bodies = 1;
-    for (uint32_t facet = 0; facet < world.facet_count(); ++facet)
-      bodies = std::max(bodies, world.facet(facet).body + 1);
+  std::span<const bool> asked(size_t bodies) {
     asked_ = std::make_unique<bool[]>(bodies);
-    for (size_t i = 0; i < all.size(); ++i)
-      if (const uint32_t body = world.facet(all[i].facet).body; body != 0) {
-        if (carried_.empty()) carried_.resize(all.size());
-        carried_[i] = world.motion(body).pose.inverse().apply(all[i].point);
+    for (size_t i = 0; i < all_.size(); ++i)
+      if (const uint32_t body = world_.facet(all_[i].facet).body; body != 0) {
+        if (carried_.empty()) carried_.resize(all_.size());
+        carried_[i] = world_.motion(body).pose.inverse().apply(all_[i].point);
         asked_[body] = true;
       }
     return {asked_.get(), bodies};
@@ -291,7 +272,8 @@ FoundPatches ClutterPatches::timed(std::vector<Scatterer> all, const FacetWorld&
   std::vector<uint32_t> blocks(all.size());
   {
     const double step_s = 0.5 * frame_s;
-    const Ways ways(all, world, motion, about(motion.slot_start_s.front() + step_s, step_s));
+    const Ways ways(all, world, scene_.bodies.size(), motion,
+                    about(motion.slot_start_s.front() + step_s, step_s));
     parallel_for(chunks(all.size()), options_.threads, [&](size_t chunk) {
       for (size_t i = chunk * scatterer_chunk; i < std::min(all.size(), (chunk + 1) * scatterer_chunk); ++i) {
         const Slopes at = slopes(ways, i, 0, step_s);
@@ -321,12 +303,10 @@ FoundPatches ClutterPatches::timed(std::vector<Scatterer> all, const FacetWorld&
     for (const double time :
          about(patch_block(w, motion.first_slot, slots, list.blocks, block).middle_s, step_s))
       times.push_back(time);
-  const Ways ways(all, world, motion, std::move(times));
+  const Ways ways(all, world, scene_.bodies.size(), motion, std::move(times));
   parallel_for(chunks(count), options_.threads, [&](size_t chunk) {
     for (size_t i = chunk * scatterer_chunk; i < std::min(count, (chunk + 1) * scatterer_chunk); ++i) {
       const Scatterer& one = all[i];
-      list.re[i] = static_cast<float>(one.amplitude.real());
-      list.im[i] = static_cast<float>(one.amplitude.imag());
       list.departure[i] = vec3(glm::normalize(one.point - ends.transmitter.position));
       if (!monostatic_) list.arrival[i] = vec3(glm::normalize(one.point - ends.receiver.position));
       list.instance[i] = scene_.facets[one.facet].instance + 1;
@@ -335,6 +315,9 @@ FoundPatches ClutterPatches::timed(std::vector<Scatterer> all, const FacetWorld&
         list.delay_s[block * count + i] = at.delay_s;
         list.rate[block * count + i] = at.rate;
       }
+      const double air = rf::amplitude(options_.air_db_per_km, speed_of_light * list.delay_s[i]);
+      list.re[i] = static_cast<float>(air * one.amplitude.real());
+      list.im[i] = static_cast<float>(air * one.amplitude.imag());
     }
   });
   return found;

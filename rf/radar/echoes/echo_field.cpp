@@ -7,19 +7,12 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "rf/surface/incidence.h"
 
 namespace greatx::rf {
 namespace {
 
 constexpr Complex j{0.0, 1.0};
-
-/// Returns s = k x n / |k x n|. At normal incidence any vector across k serves, since r_TE = -r_TM there.
-dvec3 across(const dvec3& k, const dvec3& normal) {
-  const dvec3 product = glm::cross(k, normal);
-  const double sine = glm::length(product);
-  if (sine > 1e-8) return product / sine;
-  return glm::normalize(glm::cross(k, std::abs(k.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
-}
 
 FieldVector crossed(const dvec3& a, const FieldVector& b) {
   return {glm::cross(a, b.re), glm::cross(a, b.im)};
@@ -42,7 +35,7 @@ Bounce bounce(const RadioSurfaces& surfaces, const PosedFacet& facet, const Fiel
   b.cosine = std::min(1.0, std::abs(towards));
   b.out = in - 2.0 * towards * facet.normal;
   const ReflectionCoefficients fresnel = surfaces.reflect(facet.material, towards < 0.0, b.cosine);
-  const dvec3 s = across(in, b.normal);
+  const dvec3 s = s_axis(in, b.normal);
   b.reflected.add(fresnel.r_te * field.along(s), s);
   b.reflected.add(fresnel.r_tm * field.along(glm::cross(in, s)), glm::cross(b.out, s));
   return b;
@@ -63,16 +56,6 @@ EchoField::EchoField(const FacetWorld& world, const RadioSurfaces& surfaces, con
       receiver_at_(receiver_at),
       wavenumber_(2.0 * pi / surfaces.wavelength_m()) {}
 
-FieldVector EchoField::radiated(const dvec3& departure) const {
-  Jones jones[1];
-  const Angles at = angles_of(departure);
-  transmitter_.respond(departure, jones);
-  FieldVector field;
-  field.add(jones[0].theta, at.theta_hat());
-  field.add(jones[0].phi, at.phi_hat());
-  return field;
-}
-
 Complex EchoField::received(const FieldVector& field, const dvec3& arrival) const {
   Jones jones[1];
   const Angles at = angles_of(arrival);
@@ -88,7 +71,7 @@ double EchoField::coherent_share(uint32_t material, double cos_in, double cos_ou
 
 FieldVector EchoField::incident(const EchoPoint& point, dvec3& direction) const {
   direction = point.departure;
-  FieldVector field = radiated(direction);
+  FieldVector field = field_towards(transmitter_, direction);
   for (size_t i = 0; i + 1 < point.chain.size(); ++i) {
     const PosedFacet& facet = world_.facet(point.chain[i]);
     Bounce at = bounce(surfaces_, facet, field, direction);
@@ -137,7 +120,7 @@ Complex EchoField::direct(const dvec3& transmitter_at) const {
   const double distance = glm::length(arm);
   GREATX_CHECK(distance > 0.0, "transmitter and receiver in one place");
   return surfaces_.wavelength_m() / (4.0 * pi * distance) *
-         received(radiated(arm / distance), -arm / distance);
+         received(field_towards(transmitter_, arm / distance), -arm / distance);
 }
 
 }  // namespace greatx::rf

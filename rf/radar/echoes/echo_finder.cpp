@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "rf/atmosphere/path_attenuation.h"
 #include "rf/radar/echoes/echo_merge.h"
 #include "rf/radar/echoes/echo_tracks.h"
 #include "rf/radar/echoes/tube_echoes.h"
@@ -130,18 +131,6 @@ void keep_strongest(std::vector<MergedEcho>& merged, uint32_t most, EchoStatisti
   merged.swap(kept);
 }
 
-/// Returns the factor by which the air weakens a field over `length_m`.
-double air_factor(const EchoOptions& options, double length_m) {
-  return options.air_db_per_km == 0.0 ? 1.0 : std::pow(10.0, -0.05e-3 * options.air_db_per_km * length_m);
-}
-
-void weaken(const EchoOptions& options, PatchList& list) {
-  for (size_t i = 0; i < list.size(); ++i) {
-    const auto factor = static_cast<float>(air_factor(options, speed_of_light * list.delay_s[i]));
-    list.re[i] *= factor, list.im[i] *= factor;
-  }
-}
-
 /// Adds scatterers that turn too fast for a patch as echoes of one bounce.
 void add_fast(std::span<const Scatterer> fast, const dvec3& source, const dvec3& receiver, RawEchoes& raw) {
   for (const Scatterer& one : fast) {
@@ -156,7 +145,7 @@ void add_fast(std::span<const Scatterer> fast, const dvec3& source, const dvec3&
 Echo echo_of(const MergedEcho& merged, const RawEcho& raw, const RawEchoes& all, const scene::Scene& scene,
              const EchoOptions& options) {
   Echo echo;
-  echo.amplitude = merged.amplitude * air_factor(options, raw.length_m);
+  echo.amplitude = merged.amplitude * amplitude(options.air_db_per_km, raw.length_m);
   echo.departure = raw.departure;
   echo.arrival = raw.arrival;
   echo.point = raw.point;
@@ -357,7 +346,6 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   for (const MergedEcho& echo : merged)
     list.echoes.push_back(echo_of(echo, raw.echoes[echo.strongest], raw, scene, options_));
   add_tracks(movers, raw, merged, motion, cells.wavelength_m, options_.threads, list);
-  if (options_.air_db_per_km != 0.0) weaken(options_, patches.list);
   list.patches = std::move(patches.list);
   if (statistics != nullptr) *statistics = counted;
   return list;

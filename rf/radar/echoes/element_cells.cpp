@@ -9,16 +9,6 @@
 namespace greatx::rf {
 namespace {
 
-FieldVector field_of(const TurnedElement& element, const dvec3& direction) {
-  Jones jones[1];
-  const Angles at = angles_of(direction);
-  element.respond(direction, jones);
-  FieldVector field;
-  field.add(jones[0].theta, at.theta_hat());
-  field.add(jones[0].phi, at.phi_hat());
-  return field;
-}
-
 FieldVector slope(const FieldVector& ahead, const FieldVector& behind, double step) {
   return {(ahead.re - behind.re) / (2.0 * step), (ahead.im - behind.im) / (2.0 * step)};
 }
@@ -40,7 +30,7 @@ ElementCells::ElementCells(const EchoOptions& options, const ElementPattern& pat
     for (const dvec3& corner : grid.corners(tube))
       step = std::max(step, 0.5 * glm::distance(corner, beam.axis));
     const auto at = [&](double x, double y) {
-      return field_of(element, glm::normalize(beam.axis + x * beam.e1 + y * beam.e2));
+      return field_towards(element, glm::normalize(beam.axis + x * beam.e1 + y * beam.e2));
     };
     cells_.push_back({beam.axis, beam.e1, beam.e2, at(0.0, 0.0), slope(at(step, 0.0), at(-step, 0.0), step),
                       slope(at(0.0, step), at(0.0, -step), step)});

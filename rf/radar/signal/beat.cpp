@@ -229,7 +229,7 @@ class SlotSum {
     for (size_t i = 0; i < count; ++i) {
       const auto row = row_of(first + i, cube);
       for (uint32_t n = 0; n < w_.samples; ++n)
-        row[n] += turns ? turned(rows[i][n], (*turns)[n]) : rows[i][n];
+        row[n] += turns ? turned_sample(rows[i][n], (*turns)[n]) : rows[i][n];
     }
   }
 
@@ -237,12 +237,6 @@ class SlotSum {
     return cube.subspan(
         ((receiver * w_.transmitters + transmitter_) * w_.chirps() + slot_ / w_.transmitters) * w_.samples,
         w_.samples);
-  }
-
-  static std::complex<float> turned(std::complex<float> sample, float turns) {
-    float cosine, sine;
-    cos_sin_of_turns(turns, cosine, sine);
-    return {sample.real() * cosine - sample.imag() * sine, sample.real() * sine + sample.imag() * cosine};
   }
 
   /// Adds an echo that bends too much for the kernels, sample by sample.
@@ -258,7 +252,7 @@ class SlotSum {
           delay_at(list_, echo.delay, w_.interval_s, w_.slot_middle_s(slot_) + u).delay_s - lead;
       const double phase = w_.carrier_hz * tau + w_.slope_hz_per_s * tau * (u - 0.5 * tau);
       const std::complex<float> sample(amplitude * unit_phasor(fraction_of_turn(phase)));
-      row[n] += walk_ ? turned(sample, turns[node_index(e)][n]) : sample;
+      row[n] += walk_ ? turned_sample(sample, turns[node_index(e)][n]) : sample;
     }
   }
 

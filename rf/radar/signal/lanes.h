@@ -8,7 +8,11 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
+#include <complex>
 #include <cstdint>
+
+#include "core/phase.h"
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define GREATX_LANES [[gnu::target_clones("avx2", "default")]]
@@ -88,6 +92,23 @@ inline float natural_log(float value) {
   p = p * x - 2.4999993993e-1f;
   p = p * x + 3.3333331174e-1f;
   return (x * xx * p - 2.12194440e-4f * e - 0.5f * xx) + x + 0.693359375f * e;
+}
+
+/// Computes a complex normal number of variance 1 from a uniform one in (0, 1] and an angle in turns
+/// (Box-Muller).
+inline void complex_normal(float uniform, float turns, float& re, float& im) {
+  const float radius = std::sqrt(-natural_log(uniform));
+  float cosine, sine;
+  cos_sin_of_turns(turns, cosine, sine);
+  re = radius * cosine;
+  im = radius * sine;
+}
+
+/// Returns a sample whose phase grows by `turns`.
+inline std::complex<float> turned_sample(std::complex<float> sample, float turns) {
+  float cosine, sine;
+  cos_sin_of_turns(turns, cosine, sine);
+  return plain_product(sample, std::complex<float>(cosine, sine));
 }
 
 }  // namespace greatx::rf

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numeric>
 
 #include "core/error.h"
@@ -56,16 +58,6 @@ struct Leads {
   }
 };
 
-std::complex<float> phasor_of(double turns) {
-  float cosine, sine;
-  cos_sin_of_turns(static_cast<float>(fraction_of_turn(turns)), cosine, sine);
-  return {cosine, sine};
-}
-
-std::complex<float> times(std::complex<float> a, std::complex<float> b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-
 /// The transforms along one axis of a block.
 struct PatchAxis {
   PatchKernel kernel;
@@ -104,11 +96,18 @@ uint32_t patch_blocks(const RadarWaveform& w, uint32_t slots, double rate, doubl
   return blocks >= most ? most : std::max(1u, static_cast<uint32_t>(std::ceil(blocks)));
 }
 
+/// Holds the axes that were asked for, by their numbers of outputs. A radar without patches has none.
 struct PatchSynthesizer::Shared {
   RadarSignalConfig config;
-  PatchAxis range, doppler;  ///< the latter for all chirps of a frame
-  explicit Shared(const RadarSignalConfig& of)
-      : config(of), range(of.waveform.samples), doppler(of.waveform.chirps()) {}
+  explicit Shared(const RadarSignalConfig& of) : config(of) {}
+  const PatchAxis& axis(uint32_t count) {
+    const std::lock_guard lock(mutex_);
+    return axes_.try_emplace(count, count).first->second;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<uint32_t, PatchAxis> axes_;
 };
 
 namespace {
@@ -196,11 +195,11 @@ class BlockSum {
     const auto phasor = [&](uint32_t at) { return std::complex<float>(room.re[at], room.im[at]); };
     const std::complex<float> conjugate(amplitude_scale_ * patches_.re[i],
                                         -amplitude_scale_ * patches_.im[i]),
-        base = times(conjugate, phasor(0));
+        base = plain_product(conjugate, phasor(0));
     for (uint32_t t = 0; t < transmitters; ++t) {
-      const std::complex<float> sent = times(base, phasor(1 + t));
+      const std::complex<float> sent = plain_product(base, phasor(1 + t));
       for (uint32_t r = 0; r < receivers; ++r) {
-        const std::complex<float> value = times(sent, phasor(1 + transmitters + r));
+        const std::complex<float> value = plain_product(sent, phasor(1 + transmitters + r));
         const uint32_t antenna = r * transmitters + t;
         room.values[8 * (antenna / 4) + antenna % 4] = value.real();
         room.values[8 * (antenna / 4) + antenna % 4 + 4] = value.imag();
@@ -293,7 +292,7 @@ class BlockSum {
     }
     const uint32_t slot = chirp * w_.transmitters + antenna % w_.transmitters;
     const float* const turn = turns.data() + size_t{slot} * w_.samples;
-    for (uint32_t n = 0; n < w_.samples; ++n) to[n] += times(line[n], phasor_of(turn[n]));
+    for (uint32_t n = 0; n < w_.samples; ++n) to[n] += turned_sample(line[n], turn[n]);
   }
 
   const RadarSignalConfig& config_;
@@ -325,7 +324,7 @@ std::vector<float> walk_turns(const PhaseWalk& walk, const RadarWaveform& w, con
 }  // namespace
 
 PatchSynthesizer::PatchSynthesizer(const RadarSignalConfig& config)
-    : shared_(std::make_unique<const Shared>(config)) {}
+    : shared_(std::make_unique<Shared>(config)) {}
 PatchSynthesizer::~PatchSynthesizer() = default;
 PatchSynthesizer::PatchSynthesizer(PatchSynthesizer&&) noexcept = default;
 
@@ -342,11 +341,8 @@ void PatchSynthesizer::add(const PatchList& patches, uint32_t first_slot, uint32
   const Leads leads(config.arrays, attitude);
   for (uint32_t index = 0; index < patches.blocks; ++index) {
     const PatchBlock block = patch_block(w, first_slot, slots, patches.blocks, index);
-    const uint32_t chirps = block.last - block.first;
-    std::unique_ptr<PatchAxis> other;
-    if (chirps != shared_->doppler.kernel.count()) other = std::make_unique<PatchAxis>(chirps);
-    BlockSum sum(config, shared_->range, other ? *other : shared_->doppler, patches, block, index, leads,
-                 threads);
+    BlockSum sum(config, shared_->axis(w.samples), shared_->axis(block.last - block.first), patches, block,
+                 index, leads, threads);
     std::vector<uint32_t> members(patches.size());
     std::iota(members.begin(), members.end(), 0u);
     if (walk == nullptr) {

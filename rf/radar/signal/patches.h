@@ -75,7 +75,7 @@ class PatchSynthesizer {
 
  private:
   struct Shared;
-  std::unique_ptr<const Shared> shared_;
+  std::unique_ptr<Shared> shared_;
 };
 
 }  // namespace greatx::rf

@@ -48,11 +48,8 @@ GREATX_LANES void box_muller(const uint32_t* radius_bits, const uint32_t* angle_
   for (uint32_t i = 0; i < draws; ++i) {
     const float uniform =
         (static_cast<float>(static_cast<int32_t>(radius_bits[i] >> 8)) + 0.5f) * 0x1p-24f;  // (0, 1)
-    const float radius = std::sqrt(-natural_log(uniform));
-    float cosine, sine;
-    cos_sin_of_turns(static_cast<float>(static_cast<int32_t>(angle_bits[i] >> 8)) * 0x1p-24f, cosine, sine);
-    re[i] = radius * cosine;
-    im[i] = radius * sine;
+    complex_normal(uniform, static_cast<float>(static_cast<int32_t>(angle_bits[i] >> 8)) * 0x1p-24f, re[i],
+                   im[i]);
   }
 }
 

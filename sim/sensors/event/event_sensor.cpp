@@ -225,10 +225,7 @@ std::vector<shared::EventMotion> EventSensor::motions(const TickContext& context
   const dvec3 velocity =
       carrier.velocity + glm::cross(carrier.angular_velocity, camera.position - carrier.pose.position);
   const dquat to_camera = glm::conjugate(camera.orientation);
-  const auto optical = [&](const dvec3& v) {
-    const dvec3 s = to_camera * v;
-    return vec3(dvec3(-s.y, -s.z, s.x));
-  };
+  const auto optical = [&](const dvec3& v) { return vec3(to_optical(to_camera * v)); };
   std::vector<shared::EventMotion> motions(world_.scene.bodies.size(),
                                            {optical(-velocity), optical(-carrier.angular_velocity)});
   for (uint32_t node = 0; node < world_.body_of_node.size(); ++node) {

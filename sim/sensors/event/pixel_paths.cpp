@@ -15,10 +15,6 @@ constexpr double most_error_px = 0.02;
 /// Holds a PixelPath in fp64, as twelve numbers: r0, rx, ry, o.
 using PathNumbers = std::array<double, 12>;
 
-/// Converts from the axes x forward, y left, z up to x right, y down, z forward.
-dvec3 to_optical(const dvec3& v) { return {-v.y, -v.z, v.x}; }
-dvec3 from_optical(const dvec3& v) { return {v.z, -v.x, -v.y}; }
-
 /// Returns the path for a pose of the camera at the instant in the frame of the camera at the picture.
 PathNumbers path_of(const PinholeConfig& camera, const Pose& picture_from_instant) {
   const auto pixels = [&](const dvec3& sensor) {

@@ -13,6 +13,10 @@
 
 namespace greatx::sim {
 
+/// Convert between the axes x forward, y left, z up and x right, y down, z forward.
+inline dvec3 to_optical(const dvec3& v) { return {-v.y, -v.z, v.x}; }
+inline dvec3 from_optical(const dvec3& v) { return {v.z, -v.x, -v.y}; }
+
 /// Holds the poses of the camera and of all bodies at an instant, in local coordinates.
 struct EventMoment {
   Pose camera;
