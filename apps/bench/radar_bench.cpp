@@ -85,16 +85,13 @@ class RadarRow {
   uint64_t echoes_ = 0, detections_ = 0;
 };
 
-/// Multiplies the number of tubes by `factor`, on targets as well. The only output is the range-Doppler map,
+/// Multiplies the number of tubes by `factor`. The only output is the range-Doppler map,
 /// without noise.
 void refine(sim::RadarConfig& config, double factor) {
   const auto times = [&](uint32_t count) {
     return static_cast<uint32_t>(std::max(1.0, std::round(factor * count)));
   };
   config.echoes.tubes = times(config.echoes.tubes);
-  config.echoes.target_budget = times(config.echoes.target_budget);
-  config.echoes.mirror_budget = times(config.echoes.mirror_budget);
-  config.echoes.target_tube_m /= std::sqrt(factor);
   config.echoes.max_echoes = times(config.echoes.max_echoes);
   config.updates = 1;
   config.signal.receiver = {};

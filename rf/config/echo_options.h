@@ -31,20 +31,12 @@ enum class EchoTracing : uint8_t {
 
 struct EchoOptions {
   FieldOfView field_of_view;
-  uint32_t tubes = 6000;  ///< number of tubes over the field of view, before subdivision
+  uint32_t tubes = 6000;  ///< number of tubes over the field of view
   /// Number of surfaces that a tube meets, 1 to most_bounces. With 3 or more, a monostatic radar also sees
   /// targets over mirrors, out and back over the same mirror. The target itself may then have max_bounces
   /// bounces: the mirror does not count.
   uint32_t max_bounces = 3;
-  /// Width to which tubes are subdivided on moving bodies and on the instances in `targets`, at the distance
-  /// of the body, metres.
-  double target_tube_m = 0.03;
-  /// Number of tubes that subdivision may add. If this is not enough, the width grows;
-  /// EchoStatistics::target_tube_m holds the resulting width.
-  uint32_t target_budget = 4096;
-  /// Number of tubes that subdivision may add where a monostatic radar sees targets over mirrors, on top of
-  /// target_budget. With 0, only the tubes that are there without subdivision see the images of targets.
-  uint32_t mirror_budget = 2048;
+  /// A monostatic radar sees moving bodies, and the instances in `targets`, over mirrors as well.
   bool moving_targets = true;
   std::vector<uint32_t> targets;  ///< indices into Scene::instances
 
@@ -59,6 +51,10 @@ struct EchoOptions {
   /// (hidden_section_m2()), for a body 1 m away from both ends. It grows with the square of the distance to
   /// each end. 0: nothing is hidden.
   double hidden_floor_m2 = 0.0;
+
+  /// Ratio of received to transmitted power below which the receiver's noise hides an echo (hidden_ratio()).
+  /// Echoes below it are left out after merging, and counted. 0: nothing is hidden.
+  double hidden_ratio = 0.0;
 
   /// Attenuation by the air over the whole way of an echo, dB/km.
   double air_db_per_km = 0.0;

@@ -22,7 +22,7 @@ struct RadarConfig {
   std::string illuminator;
   SourceLocation illuminator_where;
   rf::EchoOptions echoes;            ///< the options that a scenario has
-  std::vector<std::string> targets;  ///< instances that get fine tubes though they do not move
+  std::vector<std::string> targets;  ///< instances looked for over mirrors though they do not move
   /// How often the scene is traced over a frame, at the beginnings of equal runs of chirps. Once is enough
   /// for bodies that hardly turn during a frame; rotors need more.
   uint32_t updates = 1;

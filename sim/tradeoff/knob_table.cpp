@@ -360,12 +360,6 @@ void add_radar(Table& table) {
   add("tubes",
       around(echoes.tubes, table.quick() ? finer : std::vector<double>{0.25, 0.5, 1, 2, 4, 16}, true),
       echoes.tubes, "ray tubes over the field of view");
-  add("target_tube_m", descending(around(echoes.target_tube_m, finer, false)), echoes.target_tube_m,
-      "width of the finer tubes on moving bodies", "m");
-  add("target_budget", {0, 1024, 4096, 16384, 65536}, echoes.target_budget,
-      "finer tubes on moving bodies at most");
-  add("mirror_budget", {0, 512, 2048, 8192}, echoes.mirror_budget,
-      "finer tubes where moving bodies are seen over mirrors at most");
   add("max_bounces", {1, 2, 3, 4, 5}, echoes.max_bounces, "surfaces that a tube meets at most");
   add("updates", {1, 2, 4, 8}, radar.updates, "times that the scene is traced over a frame");
   add("merge_share", {0.5, 0.25, 0.125, 0.0625, 0}, echoes.merge_share,

@@ -48,7 +48,7 @@ nodes:
         receive: {pattern: tr38901, columns: 2}
         receiver: {noise_figure_db: 12}
         outputs: [detections]
-        echoes: {tubes: 1000, max_bounces: 1, target_tube_m: 0.1, target_budget: 1500}
+        echoes: {tubes: 1000, max_bounces: 1}
       - {name: antenna, type: antenna}
   - name: car
     trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-2, -8, 0]}, )"

@@ -41,7 +41,7 @@ constexpr const char* radar =
     "      - name: radar\n        type: radar\n        rate_hz: 10\n"
     "        waveform: {bandwidth_hz: 300e6, sample_rate_hz: 3e6, samples: 32, chirps: 16}\n"
     "        transmit: {pattern: isotropic}\n        receive: {pattern: isotropic, columns: 2}\n"
-    "        echoes: {tubes: 60, target_budget: 60, antenna_radius_m: 0, max_echoes: 300}\n        receiver: "
+    "        echoes: {tubes: 60, antenna_radius_m: 0, max_echoes: 300}\n        receiver: "
     "{noise_figure_db: 12}\n";
 
 class SensorBench : public ::testing::Test {

@@ -99,7 +99,7 @@ std::string scenario(const Rates& rates) {
          "        transmit: {pattern: isotropic}\n        receive: {pattern: isotropic, columns: 2}\n"
          "        field_of_view: {azimuth_deg: [-4, 4], elevation_deg: [-4, 4]}\n"
          "        receiver: {noise_figure_db: 12}\n        outputs: [detections]\n"
-         "        echoes: {tubes: 1500, max_bounces: 3, target_tube_m: 0.02, target_budget: 2500" +
+         "        echoes: {tubes: 1500, max_bounces: 3" +
          rates.echoes +
          "}\n"
          "      - {name: tx, type: antenna, mount: {position_m: [0, 0.05, 0.02]}}\n"

@@ -58,8 +58,7 @@ TEST(RadarScenario, EveryFieldIsRead) {
                  sample_rate_hz: 10e6, samples: 128, chirps: 32},
       transmit: {pattern: tr38901, columns: 2, column_spacing_wl: 2}, receive: {columns: 3, slant_deg: 45},
       power_dbm: 10, field_of_view: {azimuth_deg: [-20, 40], elevation_deg: [-5, 10]},
-      echoes: {tubes: 500, max_bounces: 2, target_tube_m: 0.2, target_budget: 10, )"
-                                       R"(mirror_budget: 20, targets: [wall], updates: 4,
+      echoes: {tubes: 500, max_bounces: 2, targets: [wall], updates: 4,
                diffuse_patch_m: 0.5, antenna_radius_m: 0.1, merge_share: 0.25, max_echoes: 77},
       receiver: {noise_figure_db: 12, phase_noise: {level_dbc_hz: -95, pole_hz: 2e6}, )"
                                        R"(adc: {bits: 10, full_scale_dbm: -20}},
@@ -78,7 +77,6 @@ TEST(RadarScenario, EveryFieldIsRead) {
   EXPECT_NEAR(radar.echoes.field_of_view.elevation_min, radians(-5.0), 1e-15);
   EXPECT_EQ(radar.echoes.tubes, 500u);
   EXPECT_EQ(radar.echoes.max_bounces, 2u);
-  EXPECT_EQ(radar.echoes.mirror_budget, 20u);
   EXPECT_EQ(radar.echoes.merge_share, 0.25);
   EXPECT_EQ(radar.echoes.max_echoes, 77u);
   EXPECT_EQ(radar.targets, std::vector<std::string>{"wall"});

@@ -63,7 +63,7 @@ std::string scenario(const std::filesystem::path& model) {
       "sample_rate_hz: 2e6, chirp_s: 20e-6, adc_start_s: 2e-6}}\n"
       "        transmit: {{pattern: isotropic}}\n        receive: {{pattern: isotropic}}\n"
       "        field_of_view: {{azimuth_deg: [-14, 14], elevation_deg: [-3, 3]}}\n"
-      "        echoes: {{tubes: 120, target_tube_m: 0.1, target_budget: 200, max_bounces: 1, updates: {}}}\n"
+      "        echoes: {{tubes: 120, max_bounces: 1, updates: {}}}\n"
       "        outputs: [cube]\n"
       "      - {{name: tx, type: antenna, mount: {{position_m: [0, 0.05, 0]}}}}\n"
       "      - {{name: rx, type: antenna, mount: {{position_m: [0, -0.05, 0]}}}}\n"

@@ -169,13 +169,13 @@ bool ClutterPatches::hidden(const PosedFacet& facet, const Polygon& piece, const
 }
 
 void ClutterPatches::cover(uint32_t tube, uint32_t index, const Polygon& piece, const FacetWorld& world,
-                           const RayGrid& grid, const Ends& ends, std::vector<Scatterer>& out) const {
+                           const Ends& ends, std::vector<Scatterer>& out) const {
   const PosedFacet& facet = world.facet(index);
   if (hidden(facet, piece, ends)) return;
   const Outline outline(piece);
   const double side = side_of(facet, piece, ends);
   const uint64_t key = mixed(options_.seed ^ mixed(index ^ mixed(std::bit_cast<uint64_t>(side))));
-  const CellField field = cells_.turned(grid.cell(tube), ends.turn);
+  const CellField field = cells_.turned(tube, ends.turn);
   const size_t expected = out.size() + static_cast<size_t>(piece.area() / (side * side)) + 1;
   if (expected > out.capacity()) out.reserve(expected + expected / 2);
   const auto last_row = static_cast<int64_t>(std::floor(outline.high.y / side));
@@ -195,12 +195,12 @@ void ClutterPatches::cover(uint32_t tube, uint32_t index, const Polygon& piece, 
 }
 
 std::vector<Scatterer> ClutterPatches::scatterers(const ClutterParts& parts, const FacetWorld& world,
-                                                  const RayGrid& grid, const Ends& ends) const {
+                                                  const Ends& ends) const {
   std::vector<std::vector<Scatterer>> found((parts.parts.size() + part_chunk - 1) / part_chunk);
   parallel_for(found.size(), options_.threads, [&](size_t chunk) {
     for (size_t i = chunk * part_chunk; i < std::min(parts.parts.size(), (chunk + 1) * part_chunk); ++i) {
       const ClutterParts::Part& part = parts.parts[i];
-      cover(part.tube, part.facet, parts.piece(part), world, grid, ends, found[chunk]);
+      cover(part.tube, part.facet, parts.piece(part), world, ends, found[chunk]);
     }
   });
   size_t count = 0;
@@ -333,14 +333,13 @@ double ClutterPatches::cell_rad(const EchoMotion& motion) const {
   return std::min(options_.beam_rad, 0.5 * wavelength_m_ / std::max(moved, 1e-12));
 }
 
-FoundPatches ClutterPatches::find(const ClutterParts& parts, const FacetWorld& world, const RayGrid& grid,
-                                  const Pose& transmitter, const Pose& receiver,
-                                  const EchoMotion& motion) const {
+FoundPatches ClutterPatches::find(const ClutterParts& parts, const FacetWorld& world, const Pose& transmitter,
+                                  const Pose& receiver, const EchoMotion& motion) const {
   Ends ends{transmitter, receiver, glm::mat3_cast(transmitter.orientation), 0.0, std::nullopt};
   ends.cell_rad = cell_rad(motion);
   if (!monostatic_)
     ends.element.emplace(receiver_pattern_, std::span(&receiver_slant_, 1), receiver.orientation);
-  return timed(scatterers(parts, world, grid, ends), world, ends, motion);
+  return timed(scatterers(parts, world, ends), world, ends, motion);
 }
 
 }  // namespace greatx::rf

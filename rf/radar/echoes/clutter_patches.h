@@ -28,7 +28,6 @@
 #include "rf/radar/echoes/echo_motion.h"
 #include "rf/radar/echoes/element_cells.h"
 #include "rf/radar/echoes/polygon.h"
-#include "rf/radar/echoes/ray_grid.h"
 #include "rf/radar/signal/patches.h"
 #include "rf/surface/clutter_table.h"
 
@@ -71,8 +70,8 @@ class ClutterPatches {
 
   bool rough(uint32_t material) const { return table_.rough(material); }
   /// Returns the patches of `parts`. The bytes do not depend on the number of threads.
-  FoundPatches find(const ClutterParts& parts, const FacetWorld& world, const RayGrid& grid,
-                    const Pose& transmitter, const Pose& receiver, const EchoMotion& motion) const;
+  FoundPatches find(const ClutterParts& parts, const FacetWorld& world, const Pose& transmitter,
+                    const Pose& receiver, const EchoMotion& motion) const;
 
  private:
   struct Ends;
@@ -87,10 +86,10 @@ class ClutterPatches {
   bool hidden(const PosedFacet& facet, const Polygon& piece, const Ends& ends) const;
   double side_of(const PosedFacet& facet, const Polygon& piece, const Ends& ends) const;
   double cell_rad(const EchoMotion& motion) const;
-  std::vector<Scatterer> scatterers(const ClutterParts& parts, const FacetWorld& world, const RayGrid& grid,
+  std::vector<Scatterer> scatterers(const ClutterParts& parts, const FacetWorld& world,
                                     const Ends& ends) const;
-  void cover(uint32_t tube, uint32_t facet, const Polygon& piece, const FacetWorld& world,
-             const RayGrid& grid, const Ends& ends, std::vector<Scatterer>& out) const;
+  void cover(uint32_t tube, uint32_t facet, const Polygon& piece, const FacetWorld& world, const Ends& ends,
+             std::vector<Scatterer>& out) const;
   Complex amplitude(const PosedFacet& facet, const dvec3& point, double side, const CellField& field,
                     const Ends& ends, uint64_t draw) const;
   FoundPatches timed(std::vector<Scatterer> all, const FacetWorld& world, const Ends& ends,

@@ -12,6 +12,7 @@
 #include "rf/atmosphere/path_attenuation.h"
 #include "rf/radar/echoes/echo_merge.h"
 #include "rf/radar/echoes/echo_tracks.h"
+#include "rf/radar/echoes/facet_echoes.h"
 #include "rf/radar/echoes/tube_echoes.h"
 
 namespace greatx::rf {
@@ -25,8 +26,6 @@ void check(const EchoOptions& o) {
   if (o.max_bounces < 1 || o.max_bounces > most_bounces)
     throw_user_error("radar bounces: expected 1 to {}, found {}", most_bounces, o.max_bounces);
   if (o.tubes < 1) throw_user_error("radar tubes: expected 1 at least, found {}", o.tubes);
-  if (!(o.target_tube_m > 0.0))
-    throw_user_error("radar tube on targets: expected more than 0 m, found {}", o.target_tube_m);
   if (!(o.air_db_per_km >= 0.0))
     throw_user_error("radar air: expected 0 dB/km or more, found {}", o.air_db_per_km);
   if (!(o.antenna_radius_m >= 0.0))
@@ -201,12 +200,12 @@ EchoFinder::EchoFinder(scene::GpuScene& scene, const RadioSurfaces& surfaces, co
       options_((check(options), options)),
       world_(scene.scene()),
       trees_(scene.scene()),
+      tracer_(scene.scene(), trees_),
       traced_(options.max_bounces + (monostatic_ && options.max_bounces >= mirror_bounces ? 1 : 0)) {
   const bool on_cpu = scene.device().info().type == "cpu";
   const bool on_host =
       options.tracing == EchoTracing::host || (options.tracing == EchoTracing::automatic && on_cpu);
-  const bool over_mirrors = traced_ > options.max_bounces && options.mirror_budget > 0;
-  if (on_host || over_mirrors) tracer_.emplace(scene.scene(), trees_);
+  const bool over_mirrors = traced_ > options.max_bounces;
   if (!on_host) pass_.emplace(scene, traced_, monostatic_, transmitter.own_body != 0);
   if (over_mirrors) mirrors_.emplace(scene.scene(), world_, surfaces_);
   if (options_.diffuse)
@@ -216,28 +215,16 @@ EchoFinder::EchoFinder(scene::GpuScene& scene, const RadioSurfaces& surfaces, co
 std::vector<TargetBox> EchoFinder::targets(std::span<const Pose> body_poses) const {
   const scene::Scene& scene = scene_->scene();
   std::vector<TargetBox> boxes;
-  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-    const scene::Instance& instance = scene.instances[i];
-    const bool named =
-        std::find(options_.targets.begin(), options_.targets.end(), i) != options_.targets.end();
-    const bool moving = options_.moving_targets && instance.body != 0 &&
-                        scene.owner_of(instance.body) != transmitter_.own_body;
-    if (!named && !moving) continue;
-    scene::Bounds bounds = instance.bounds;
-    // The box includes the parts that the body carries.
-    if (instance.body != 0) bounds.add(scene.reach_of(instance.body));
-    boxes.push_back({bounds, instance.body == 0 ? Pose{} : body_poses[instance.body], i, instance.body});
-  }
+  for (const uint32_t i : options_.targets)
+    if (scene.instances[i].body == 0) boxes.push_back({scene.instances[i].bounds, Pose{}, i, 0});
+  std::vector<uint8_t> named(scene.bodies.size(), 0);
+  for (const uint32_t i : options_.targets) named[scene.owner_of(scene.instances[i].body)] = 1;
+  // The box of a body includes the parts that it carries.
+  for (uint32_t body = 1; body < scene.bodies.size(); ++body)
+    if (scene.owner_of(body) == body && body != transmitter_.own_body &&
+        (options_.moving_targets || named[body] != 0))
+      boxes.push_back({scene.reach_of(body), body_poses[body], 0, body});
   return boxes;
-}
-
-std::shared_ptr<const RayGrid> EchoFinder::grid_for(const Pose& transmitter,
-                                                    std::span<const Pose> body_poses) const {
-  const std::vector<TargetBox> boxes = targets(body_poses);
-  std::vector<TargetImage> images;
-  if (mirrors_)
-    images = mirrors_->find(boxes, world_, trees_, *tracer_, transmitter.position, transmitter_.own_body);
-  return std::make_shared<const RayGrid>(options_, transmitter, boxes, images);
 }
 
 EchoFinder::Pending EchoFinder::record(gpu::TickSlot& slot, const Pose& transmitter, const Pose& receiver,
@@ -250,7 +237,7 @@ EchoFinder::Pending EchoFinder::record(gpu::TickSlot& slot, const Pose& transmit
   pending.body_poses.assign(body_poses.begin(), body_poses.end());
   if (!pass_) return pending;
   pose_world(body_poses);
-  pending.grid = grid_for(transmitter, body_poses);
+  pending.grid = std::make_shared<const RayGrid>(options_, transmitter);
   std::vector<vec3> directions(pending.grid->size());
   for (uint32_t tube = 0; tube < directions.size(); ++tube) directions[tube] = vec3(pending.grid->axis(tube));
   pending.rays = pass_->record(slot, rays_of(pending), directions);
@@ -283,6 +270,29 @@ void EchoFinder::check_antenna(const dvec3& at, const RayGrid& grid, std::span<c
   }
 }
 
+RawEchoes EchoFinder::raw_echoes(const Pending& pending, const RayGrid& grid, const RayHits& hits,
+                                 const EchoField& field, EchoStatistics& statistics) const {
+  const dvec3& source = pending.transmitter.position;
+  const FacetScene scene{world_, trees_, tracer_};
+  const FacetEchoes small(scene, grid, field, options_, source, monostatic_, transmitter_.own_body,
+                          receiver_.own_body);
+  std::vector<MirroredFacet> images;
+  if (mirrors_)
+    images =
+        mirrors_->find(targets(pending.body_poses), world_, trees_, tracer_, source, transmitter_.own_body);
+  const BeamedFacets beamed = small.choose(images);
+  std::array<RawEchoes, 2> parts{TubeEchoes(grid, hits, world_, trees_, field, scene_->scene(), source,
+                                            monostatic_, options_, clutter_ ? &*clutter_ : nullptr, beamed)
+                                     .find(),
+                                 small.find(beamed)};
+  statistics.tubes = grid.size();
+  statistics.facets = static_cast<uint32_t>(beamed.facets.size());
+  statistics.images = static_cast<uint32_t>(beamed.images.size());
+  RawEchoes all;
+  all.join(parts);
+  return all;
+}
+
 EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, EchoStatistics* statistics) {
   const scene::Scene& scene = scene_->scene();
   pose_world(pending.body_poses);
@@ -291,26 +301,25 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   const EchoField field(world_, surfaces_, options_, transmitter, receiver, pending.receiver.position);
   const auto reflects = [&](uint32_t facet) { return field.reflects(facet); };
   const std::shared_ptr<const RayGrid> grid =
-      pending.grid ? pending.grid : grid_for(pending.transmitter, pending.body_poses);
+      pending.grid ? pending.grid : std::make_shared<const RayGrid>(options_, pending.transmitter);
   const dvec3& source = pending.transmitter.position;
   EchoTracer::Answer traced;
   const auto last = [&](uint32_t first, uint32_t second) {
     return traced_ > options_.max_bounces && mirrors(world_, first, second) ? traced_ : options_.max_bounces;
   };
   if (!pass_)
-    traced = tracer_->trace(world_, rays_of(pending), *grid, traced_, monostatic_, reflects, last,
-                            options_.threads);
+    traced = tracer_.trace(world_, rays_of(pending), *grid, traced_, monostatic_, reflects, last,
+                           options_.threads);
   const std::span<const uint32_t> words = pass_ ? pass_->collect(pending.rays) : traced.words;
   const bool direct = pass_ ? pass_->direct(pending.rays) : traced.direct;
   check_antenna(source, *grid, words);
   RayHits hits(words, grid->size());
   if (monostatic_) hits.find_seen(*grid, world_, source, options_.max_bounces, options_.threads);
-  RawEchoes raw = TubeEchoes(*grid, hits, world_, trees_, field, scene, source, monostatic_, options_,
-                             clutter_ ? &*clutter_ : nullptr)
-                      .find();
+  EchoStatistics counted;
+  RawEchoes raw = raw_echoes(pending, *grid, hits, field, counted);
   FoundPatches patches;
   if (clutter_) {
-    patches = clutter_->find(raw.rough, world_, *grid, pending.transmitter, pending.receiver, motion);
+    patches = clutter_->find(raw.rough, world_, pending.transmitter, pending.receiver, motion);
     add_fast(patches.fast, source, pending.receiver.position, raw);
   }
   const dvec3 arm = pending.receiver.position - source;
@@ -319,12 +328,6 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
     raw.echoes.push_back({field.direct(source), arm / length, -arm / length, source, length, 0, 0});
   }
 
-  EchoStatistics counted;
-  counted.tubes = grid->size();
-  counted.target_tubes = grid->target_tubes();
-  counted.target_tube_m = grid->target_tube_m();
-  counted.mirror_tubes = grid->mirror_tubes();
-  counted.mirror_tube_m = grid->mirror_tube_m();
   counted.contributions = raw.echoes.size();
   counted.below_floor = raw.below_floor;
   counted.patches = patches.list.size();
@@ -338,6 +341,8 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   cells.direction = options_.merge_share * options_.beam_rad;
   cells.compare_arrival = !monostatic_;
   std::vector<MergedEcho> merged = merge(raw, movers.rates(), movers.instances(), cells);
+  counted.below_floor += std::erase_if(
+      merged, [&](const MergedEcho& echo) { return std::norm(echo.amplitude) < options_.hidden_ratio; });
   keep_strongest(merged, options_.max_echoes, counted);
 
   EchoList list;

@@ -20,12 +20,15 @@
 #include "rf/config/echo_options.h"
 #include "rf/facets/facet_world.h"
 #include "rf/radar/echoes/clutter_patches.h"
+#include "rf/radar/echoes/echo_field.h"
 #include "rf/radar/echoes/echo_motion.h"
 #include "rf/radar/echoes/echo_pass.h"
+#include "rf/radar/echoes/echo_sender.h"
 #include "rf/radar/echoes/echo_tracer.h"
 #include "rf/radar/echoes/facet_trees.h"
 #include "rf/radar/echoes/mirrors.h"
 #include "rf/radar/echoes/ray_grid.h"
+#include "rf/radar/echoes/ray_hits.h"
 #include "rf/radar/signal/echo.h"
 #include "rf/surface/surfaces.h"
 #include "scene/device/gpu_scene.h"
@@ -61,8 +64,9 @@ class EchoFinder {
 
  private:
   std::vector<TargetBox> targets(std::span<const Pose> body_poses) const;
-  /// Returns the tubes for the given poses. world_ must already be in these poses.
-  std::shared_ptr<const RayGrid> grid_for(const Pose& transmitter, std::span<const Pose> body_poses) const;
+  /// Returns the echoes of tubes and of small facets. world_ must already be in its poses.
+  RawEchoes raw_echoes(const Pending& pending, const RayGrid& grid, const RayHits& hits,
+                       const EchoField& field, EchoStatistics& statistics) const;
   EchoRays rays_of(const Pending& pending) const {
     return {pending.transmitter.position, pending.receiver.position, transmitter_.own_body,
             receiver_.own_body};
@@ -77,9 +81,9 @@ class EchoFinder {
   EchoOptions options_;
   FacetWorld world_;
   FacetTrees trees_;
-  uint32_t traced_;                   ///< number of surfaces that a ray may meet
-  std::optional<EchoPass> pass_;      ///< empty if the host traces
-  std::optional<EchoTracer> tracer_;  ///< present if the host traces or looks for mirrors
+  EchoTracer tracer_;
+  uint32_t traced_;               ///< number of surfaces that a ray may meet
+  std::optional<EchoPass> pass_;  ///< empty if the host traces
   std::optional<MirrorFinder> mirrors_;
   std::optional<ClutterPatches> clutter_;  ///< present if rough surfaces are asked for
 };

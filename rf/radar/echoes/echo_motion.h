@@ -30,12 +30,11 @@ struct EchoMotion {
 
 /// Holds counts of a search, for summaries.
 struct EchoStatistics {
-  uint32_t tubes = 0, target_tubes = 0;
-  double target_tube_m = 0.0;   ///< width of tubes on targets that the budget allowed
-  uint32_t mirror_tubes = 0;    ///< tubes that were added on targets seen over mirrors
-  double mirror_tube_m = 0.0;   ///< width of tubes on targets seen over mirrors
+  uint32_t tubes = 0;
+  uint32_t facets = 0;          ///< facets with beams of their own
+  uint32_t images = 0;          ///< facets with beams over mirrors, counted once for each mirror
   uint64_t contributions = 0;   ///< number of contributions before merging
-  uint64_t below_floor = 0;     ///< number of edges and corners below EchoOptions::border_floor_m2
+  uint64_t below_floor = 0;     ///< number of edges, corners and echoes that are left out as too weak
   uint64_t patches = 0;         ///< scatterers of rough surfaces
   uint32_t patch_blocks = 0;    ///< blocks of constant rate that they need
   uint64_t left_out = 0;        ///< number of echoes beyond EchoOptions::max_echoes

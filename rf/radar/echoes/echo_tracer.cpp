@@ -54,9 +54,13 @@ struct EchoTracer::Build {
   std::vector<uint32_t> order;
 };
 
-EchoTracer::Piece EchoTracer::piece_of(const scene::Facet& facet, uint32_t index,
+EchoTracer::Piece EchoTracer::piece_of(const scene::Facet& facet, FacetPiece index,
                                        std::span<const dvec3> corners) {
-  Piece piece{facet.normal, facet.offset, index, static_cast<uint32_t>(sides_.size()),
+  Piece piece{facet.normal,
+              facet.offset,
+              index.facet,
+              index.piece,
+              static_cast<uint32_t>(sides_.size()),
               static_cast<uint32_t>(corners.size())};
   for (size_t i = 0; i < corners.size(); ++i) {
     const dvec3 along = corners[(i + 1) % corners.size()] - corners[i];
@@ -82,7 +86,7 @@ EchoTracer::EchoTracer(const scene::Scene& scene, const FacetTrees& trees) {
         bounds.min -= room, bounds.max += room;
         tree.bounds.add(bounds);
         work.order.push_back(static_cast<uint32_t>(work.pieces.size()));
-        work.pieces.push_back(piece_of(scene.facets[facet], facet, corners));
+        work.pieces.push_back(piece_of(scene.facets[facet], {facet, index}, corners));
         work.bounds.push_back(bounds);
       }
     }
@@ -283,11 +287,110 @@ bool EchoTracer::sees(std::span<const Standing> trees, const dvec3& from, const 
   return query.facet == ~0u;
 }
 
-EchoTracer::View EchoTracer::view(const FacetWorld& world, uint32_t hidden_owner) const {
+EchoTracer::View EchoTracer::view(const FacetWorld& world, uint32_t hidden_owner, uint32_t another) const {
   View view;
-  view.trees_ = standing(world, {hidden_owner, 0});
+  view.trees_ = standing(world, {hidden_owner, another});
   return view;
 }
+
+bool EchoTracer::clear(const View& view, const dvec3& from, const dvec3& to, uint32_t leaving) const {
+  return sees(view.trees_, from, to, leaving);
+}
+
+GREATX_LANES void EchoTracer::gather(const Node* nodes, const Piece* pieces, uint32_t root, const Cone& cone,
+                                     std::vector<FacetPiece>& found) {
+  std::array<uint32_t, 256> stack;
+  uint32_t depth = 0;
+  float origin[3], inverse[3];
+  uint32_t far[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const double d = cone.direction[axis];
+    origin[axis] = static_cast<float>(cone.origin[axis]);
+    inverse[axis] = static_cast<float>(1.0 / (std::abs(d) < 1e-20 ? 1e-20 : d));
+    far[axis] = inverse[axis] > 0.0f ? 1u : 0u;
+  }
+  const Lane from = Lane{} + static_cast<float>(cone.from) * 0.999998f,
+             to = Lane{} + static_cast<float>(cone.to) * 1.000002f;
+  const float slope = static_cast<float>(cone.slope) * 1.000002f,
+              room = static_cast<float>(1e-6 * (1.0 + largest(cone.origin)));
+  struct Side {
+    float normal[3], offset;
+  };
+  std::array<Side, most_sides> sides;
+  for (size_t i = 0; i < cone.sides.size(); ++i) {
+    const dvec3& n = cone.sides[i].normal;
+    for (int axis = 0; axis < 3; ++axis) sides[i].normal[axis] = static_cast<float>(n[axis]);
+    const double above = glm::dot(n, cone.origin) + cone.sides[i].offset;
+    const dvec3 sizes = glm::abs(n);
+    sides[i].offset = static_cast<float>(above + 4.0 * room * (sizes.x + sizes.y + sizes.z));
+  }
+  stack[depth++] = root;
+  while (depth > 0) {
+    const Node& node = nodes[stack[--depth]];
+    Lane in = from, out = to;
+    // The first pass takes the radius at the end of the cone, the second that where the cone leaves a box.
+    for (int pass = 0; pass < 2; ++pass) {
+      const Lane radius = out * slope + room;
+      in = from, out = to;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Lane* ends = reinterpret_cast<const Lane*>(node.box[axis]);
+        const Lane wider = far[axis] ? radius : -radius;
+        const Lane low = (ends[1u - far[axis]] - origin[axis] - wider) * inverse[axis];
+        const Lane high = (ends[far[axis]] - origin[axis] + wider) * inverse[axis];
+        in = in > low ? in : low;
+        out = out < high ? out : high;
+      }
+      out = out > 0.0f ? out : Lane{};
+      if (mask_of(in <= out) == 0) break;
+    }
+    uint32_t met = mask_of(in <= out);
+    for (size_t i = 0; i < cone.sides.size() && met != 0; ++i) {
+      Lane most = Lane{} + sides[i].offset;  // of the corner of each box farthest inside
+      for (int axis = 0; axis < 3; ++axis) {
+        const float n = sides[i].normal[axis];
+        most += n * (reinterpret_cast<const Lane*>(node.box[axis])[n > 0.0f ? 1 : 0] - origin[axis]);
+      }
+      met &= mask_of(most >= 0.0f);
+    }
+    for (; met != 0; met &= met - 1) {
+      const uint32_t k = static_cast<uint32_t>(std::countr_zero(met));
+      if (node.count[k] == 0) stack[depth++] = node.child[k];
+      for (uint32_t i = 0; i < node.count[k]; ++i) {
+        const Piece& piece = pieces[node.child[k] + i];
+        found.push_back({piece.facet, piece.index});
+      }
+    }
+  }
+}
+
+void EchoTracer::gather(const View& view, const Cone& cone, std::vector<FacetPiece>& pieces) const {
+  const double squared = glm::dot(cone.direction, cone.direction);
+  GREATX_CHECK(cone.sides.size() <= most_sides, "{} half-spaces", cone.sides.size());
+  std::array<KeptSide, most_sides> sides;
+  for (const Standing& one : view.trees_) {
+    Cone own = cone;
+    // No point of the body is farther away than `most`.
+    const scene::Bounds& box = one.tree->bounds;
+    if (one.tree->body != 0) {
+      own.origin = one.back.apply(cone.origin), own.direction = one.back.rotate(cone.direction);
+    }
+    const dvec3 arm = box.center() - own.origin;
+    const double around = 0.5 * glm::length(box.size()), most = glm::length(arm) + around;
+    own.to = std::min(cone.to, most + 1e-3);  // the axis is at least 1 m long a unit
+    const double radius = own.to * cone.slope;
+    if (one.tree->body != 0) {
+      const dvec3 across = glm::cross(arm, own.direction);
+      if (glm::dot(across, across) > (around + radius) * (around + radius) * squared) continue;
+      const Pose pose = one.back.inverse();
+      for (size_t i = 0; i < cone.sides.size(); ++i) sides[i] = in_body(cone.sides[i], pose);
+      own.sides = std::span(sides).first(cone.sides.size());
+    }
+    gather(nodes_.data(), pieces_.data(), one.tree->root, own, pieces);
+  }
+  std::sort(pieces.begin(), pieces.end());
+}
+
+dvec3 EchoTracer::lifted(const dvec3& at, const dvec3& normal) { return at + lift * largest(at) * normal; }
 
 EchoTracer::Met EchoTracer::first(const View& view, const dvec3& origin, const dvec3& direction,
                                   uint32_t leaving) const {
@@ -326,7 +429,7 @@ EchoTracer::Answer EchoTracer::trace(const FacetWorld& world, const EchoRays& ra
         const double towards = glm::dot(facet.normal, query.direction);
         const dvec3 normal = towards < 0.0 ? facet.normal : -facet.normal;
         const dvec3 at = query.origin + query.nearest * query.direction;
-        query.origin = at + lift * largest(at) * normal;
+        query.origin = lifted(at, normal);
         query.leaving = query.facet;
         bool seen = monostatic && bounce == 0;
         if (!monostatic && glm::dot(rays.receiver - query.origin, normal) > 0.0)

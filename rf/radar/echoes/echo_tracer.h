@@ -40,8 +40,8 @@ class EchoTracer {
 
   /// Holds the bodies at their present poses, for tracing single rays.
   class View;
-  /// Returns a view without the bodies of `hidden_owner`; 0 hides none.
-  View view(const FacetWorld& world, uint32_t hidden_owner) const;
+  /// Returns a view without the bodies of `hidden_owner` and of `another`; 0 hides none.
+  View view(const FacetWorld& world, uint32_t hidden_owner, uint32_t another = 0) const;
   struct Met {
     uint32_t facet = ~0u;
     double distance = 1e30;
@@ -49,6 +49,21 @@ class EchoTracer {
   /// Returns the first facet that a ray meets. `direction` is a unit vector. The ray passes through the facet
   /// `leaving`; ~0: none.
   Met first(const View& view, const dvec3& origin, const dvec3& direction, uint32_t leaving) const;
+  /// Describes the points origin + t direction with `from` <= t <= `to`, and all points within t `slope` of
+  /// them, metres. Only points inside all half-spaces count; at most `most_sides` of them.
+  struct Cone {
+    dvec3 origin, direction;
+    double from = 0.0, to = 1e30, slope = 0.0;
+    std::span<const KeptSide> sides = {};
+  };
+  static constexpr uint32_t most_sides = 6;
+  /// Appends the pieces of facets that a cone may meet, and perhaps some more, in the order of FacetPiece.
+  void gather(const View& view, const Cone& cone, std::vector<FacetPiece>& pieces) const;
+  /// Returns whether nothing but the facet `leaving` is between two points.
+  bool clear(const View& view, const dvec3& from, const dvec3& to, uint32_t leaving) const;
+  /// Returns a point slightly above a surface, from which a ray that leaves it does not meet what lies in its
+  /// plane. `normal` points to the side of the ray.
+  static dvec3 lifted(const dvec3& at, const dvec3& normal);
 
  private:
   static constexpr uint32_t wide = 8, leaf_size = 4, bins = 16;
@@ -61,7 +76,8 @@ class EchoTracer {
   struct Piece {
     dvec3 normal{0.0};
     double offset = 0.0;
-    uint32_t facet = 0, first_side = 0, side_count = 0;
+    uint32_t facet = 0, index = 0;  ///< of the piece in FacetTrees
+    uint32_t first_side = 0, side_count = 0;
     /// Distance by which a ray may pass outside a side, metres, so that no ray slips between two pieces.
     double room = 0.0;
   };
@@ -92,10 +108,12 @@ class EchoTracer {
   };
   using Hidden = std::array<uint32_t, 2>;  ///< owners of the bodies that rays pass through; 0: none
 
-  Piece piece_of(const scene::Facet& facet, uint32_t index, std::span<const dvec3> corners);
+  Piece piece_of(const scene::Facet& facet, FacetPiece index, std::span<const dvec3> corners);
   uint32_t build(Build& work, uint32_t first, uint32_t count);
   static void meet(const Node* nodes, const Piece* pieces, const Side* sides, uint32_t root, Query& query);
   static void test(const Piece* pieces, uint32_t index, const Side* sides, Query& query);
+  static void gather(const Node* nodes, const Piece* pieces, uint32_t root, const Cone& cone,
+                     std::vector<FacetPiece>& found);
   /// Returns all trees except those of hidden bodies.
   std::vector<Standing> standing(const FacetWorld& world, const Hidden& hidden) const;
   /// Tests the ray against all bodies. `query` is in local coordinates. `guess` is a piece of the static body

@@ -20,7 +20,7 @@ FieldVector turned_field(const FieldVector& field, const dmat3& turn) {
 }  // namespace
 
 ElementCells::ElementCells(const EchoOptions& options, const ElementPattern& pattern, double slant) {
-  const RayGrid grid(options, Pose{}, {}, {});
+  const RayGrid grid(options, Pose{});
   const TurnedElement element(pattern, std::span(&slant, 1), dquat(1.0, 0.0, 0.0, 0.0));
   cells_.reserve(grid.size());
   for (uint32_t tube = 0; tube < grid.size(); ++tube) {

@@ -87,13 +87,6 @@ class Joiner {
   std::map<Edge, uint32_t> owner_;  ///< owner of each directed edge
 };
 
-/// Holds a KeptSide in a body's frame, and the reach of a box of half size 1 along its normal. Members stay
-/// uninitialized.
-struct HalfSpace {
-  dvec3 normal, reach;
-  double offset;
-};
-
 }  // namespace
 
 FacetTrees::FacetTrees(const scene::Scene& scene) : trees_(scene.facets.size()) {
@@ -151,26 +144,9 @@ void FacetTrees::find(const FacetWorld& world, uint32_t facet, std::span<const K
     for (uint32_t i = first_piece_[facet]; i < first_piece_[facet + 1]; ++i) pieces.push_back(i);
     return;
   }
-  std::array<HalfSpace, 8> local;
-  GREATX_CHECK(spaces.size() <= local.size(), "{} half-spaces", spaces.size());
-  for (size_t i = 0; i < spaces.size(); ++i) {
-    local[i].normal = spaces[i].normal, local[i].offset = spaces[i].offset;
-    if (posed.body != 0) {
-      const Pose& pose = world.motion(posed.body).pose;
-      local[i].offset += glm::dot(spaces[i].normal, pose.position);
-      local[i].normal = glm::conjugate(pose.orientation) * spaces[i].normal;
-    }
-    local[i].reach = glm::abs(local[i].normal);
-  }
+  const BodySpaces local(spaces, world, posed.body);
   const uint32_t first = first_piece_[facet];
-  const auto outside = [&](const scene::Bounds& box) {
-    const dvec3 center = box.center(), half = 0.5 * (box.max - box.min);
-    for (size_t i = 0; i < spaces.size(); ++i)
-      if (glm::dot(local[i].normal, center) + local[i].offset + glm::dot(local[i].reach, half) < 0.0)
-        return true;
-    return false;
-  };
-  trees_[facet].gather(outside, pieces);
+  trees_[facet].gather([&](const scene::Bounds& box) { return local.outside(box); }, pieces);
   for (uint32_t& piece : pieces) piece += first;
 }
 

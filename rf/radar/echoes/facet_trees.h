@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <ranges>
 #include <span>
@@ -15,14 +16,15 @@
 
 #include "core/vec.h"
 #include "rf/facets/facet_world.h"
+#include "rf/radar/echoes/half_spaces.h"
 #include "scene/description/box_tree.h"
 
 namespace greatx::rf {
 
-/// The half-space normal . x + offset >= 0.
-struct KeptSide {
-  dvec3 normal{0.0};
-  double offset = 0.0;
+/// Names a convex piece of a facet.
+struct FacetPiece {
+  uint32_t facet = 0, piece = 0;  ///< the piece as FacetTrees::corners takes it
+  auto operator<=>(const FacetPiece&) const = default;
 };
 
 class FacetTrees {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace greatx::rf {
 namespace {
@@ -40,12 +41,28 @@ MirrorFinder::MirrorFinder(const scene::Scene& scene, const FacetWorld& world, c
   std::sort(mirrors_.begin(), mirrors_.end(), [](const Mirror& a, const Mirror& b) {
     return a.extent_m != b.extent_m ? a.extent_m > b.extent_m : a.facet < b.facet;
   });
+  first_facet_.assign(scene.bodies.size() + 1, 0);
+  for (const scene::Facet& facet : scene.facets) ++first_facet_[facet.body + 1];
+  std::partial_sum(first_facet_.begin(), first_facet_.end(), first_facet_.begin());
 }
 
-std::vector<TargetImage> MirrorFinder::find(std::span<const TargetBox> targets, const FacetWorld& world,
-                                            const FacetTrees& trees, const EchoTracer& tracer,
-                                            const dvec3& radar, uint32_t own_body) const {
-  std::vector<TargetImage> images;
+void MirrorFinder::add_facets(const TargetBox& target, uint32_t mirror, const FacetWorld& world,
+                              std::vector<MirroredFacet>& found) const {
+  const auto add = [&](uint32_t body) {
+    for (uint32_t facet = first_facet_[body]; facet < first_facet_[body + 1]; ++facet)
+      if ((body != 0 || scene_.facets[facet].instance == target.instance) && mirrors(world, mirror, facet))
+        found.push_back({mirror, facet});
+  };
+  if (target.body == 0) return add(0);
+  const uint32_t owner = scene_.owner_of(target.body);
+  for (uint32_t body = 1; body + 1 < first_facet_.size(); ++body)
+    if (scene_.owner_of(body) == owner) add(body);
+}
+
+std::vector<MirroredFacet> MirrorFinder::find(std::span<const TargetBox> targets, const FacetWorld& world,
+                                              const FacetTrees& trees, const EchoTracer& tracer,
+                                              const dvec3& radar, uint32_t own_body) const {
+  std::vector<MirroredFacet> images;
   if (targets.empty()) return images;
   const EchoTracer::View view = tracer.view(world, own_body);
   for (const TargetBox& box : targets) {
@@ -85,15 +102,11 @@ std::vector<TargetImage> MirrorFinder::find(std::span<const TargetBox> targets, 
         return next.distance >= glm::length(on) || is_target(next.facet);
       };
       if (!std::any_of(target.points.begin(), target.points.end(), shows)) continue;
-      images.push_back({box, posed.normal, posed.offset,
-                        [&world, &trees, facet = mirror.facet, radar](const dvec3& direction) {
-                          const PosedFacet& plane = world.facet(facet);
-                          const double reach = -plane.distance(radar) / glm::dot(plane.normal, direction);
-                          return reach > 0.0 && reach < 1e12 &&
-                                 trees.contains(world, facet, radar + reach * direction);
-                        }});
+      add_facets(box, mirror.facet, world, images);
     }
   }
+  std::sort(images.begin(), images.end());
+  images.erase(std::unique(images.begin(), images.end()), images.end());
   return images;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Finds the targets that a radar sees over mirrors: which facets act as mirrors for which targets, and where
-// the images of the targets are. Tubes are made as fine at the images as on the targets themselves.
+// Finds the targets that a radar sees over mirrors: which facets act as mirrors for which targets.
 #pragma once
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,7 +13,6 @@
 #include "rf/facets/facet_world.h"
 #include "rf/radar/echoes/echo_tracer.h"
 #include "rf/radar/echoes/facet_trees.h"
-#include "rf/radar/echoes/ray_grid.h"
 #include "rf/surface/surfaces.h"
 #include "scene/description/scene.h"
 
@@ -31,26 +30,42 @@ inline bool mirrors(const FacetWorld& world, uint32_t mirror, uint32_t facet) {
   return ratio * extent(facet) < extent(mirror);
 }
 
+/// Describes a possible target: a box at a pose.
+struct TargetBox {
+  scene::Bounds bounds;  ///< in the frame of `pose`
+  Pose pose;             ///< in local coordinates
+  uint32_t instance = 0, body = 0;
+};
+
+/// Describes a facet of a target that is seen over a mirror, or parts of it.
+struct MirroredFacet {
+  uint32_t mirror = 0, facet = 0;
+  auto operator<=>(const MirroredFacet&) const = default;
+};
+
 /// Holds the facets of a scene that reflect, sorted once by their extents.
 class MirrorFinder {
  public:
   MirrorFinder(const scene::Scene& scene, const FacetWorld& world, const RadioSurfaces& surfaces);
 
-  /// Returns the images of `targets` of which a radar at `radar` sees at least a part. Each image is seen
-  /// over one mirror that is at least half as wide as the target. At least one of nine points of the target's
-  /// box is visible over the mirror. The images are in the order of the targets, then in that of the mirrors'
-  /// widths. The facets of `own_body` are ignored; 0: none.
-  std::vector<TargetImage> find(std::span<const TargetBox> targets, const FacetWorld& world,
-                                const FacetTrees& trees, const EchoTracer& tracer, const dvec3& radar,
-                                uint32_t own_body) const;
+  /// Returns the facets of `targets` and the mirrors over which a radar at `radar` may see them, ascending.
+  /// The mirror is at least half as wide as the target. At least one of nine points of the target's box is
+  /// visible over it. The facets of `own_body` are ignored; 0: none.
+  std::vector<MirroredFacet> find(std::span<const TargetBox> targets, const FacetWorld& world,
+                                  const FacetTrees& trees, const EchoTracer& tracer, const dvec3& radar,
+                                  uint32_t own_body) const;
 
  private:
   struct Mirror {
     uint32_t facet = 0;
     double extent_m = 0.0;
   };
+  void add_facets(const TargetBox& target, uint32_t mirror, const FacetWorld& world,
+                  std::vector<MirroredFacet>& found) const;
+
   const scene::Scene& scene_;
-  std::vector<Mirror> mirrors_;  ///< sorted by extent, the widest first
+  std::vector<Mirror> mirrors_;        ///< sorted by extent, the widest first
+  std::vector<uint32_t> first_facet_;  ///< [bodies + 1]; the facets of a body are a range
 };
 
 }  // namespace greatx::rf

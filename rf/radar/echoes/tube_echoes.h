@@ -8,34 +8,13 @@
 #include <span>
 #include <vector>
 
-#include "rf/radar/echoes/clutter_patches.h"
-#include "rf/radar/echoes/echo_field.h"
+#include "rf/radar/echoes/echo_sender.h"
+#include "rf/radar/echoes/facet_echoes.h"
 #include "rf/radar/echoes/ray_grid.h"
 #include "rf/radar/echoes/ray_hits.h"
-#include "rf/radar/echoes/tube_integral.h"
 #include "rf/radar/echoes/visible_cells.h"
 
 namespace greatx::rf {
-
-/// Holds the contribution of one place, before merging.
-struct RawEcho {
-  Complex amplitude;
-  dvec3 departure{0.0}, arrival{0.0};  ///< as in Echo
-  dvec3 point{0.0};
-  double length_m = 0.0;     ///< unfolded length from the transmitter to the receiver
-  uint32_t first_facet = 0;  ///< start of the echo's chain in RawEchoes::chains
-  uint32_t bounces = 0;
-};
-
-struct RawEchoes {
-  std::vector<RawEcho> echoes;
-  std::vector<uint32_t> chains;
-  uint64_t below_floor = 0;
-  ClutterParts rough;  ///< what the tubes see first of surfaces that scatter
-  std::span<const uint32_t> chain(const RawEcho& echo) const {
-    return std::span(chains).subspan(echo.first_facet, echo.bounces);
-  }
-};
 
 /// Computes the raw echoes of all tubes.
 ///
@@ -58,17 +37,17 @@ struct RawEchoes {
 /// fine mesh), uncovered parts count as the facet of the middle ray.
 class TubeEchoes {
  public:
-  /// `clutter` is null if rough surfaces are not asked for.
+  /// `beamed` holds the facets that FacetEchoes follows: tubes that fall on them first give their clutter
+  /// alone. `clutter` is null if rough surfaces are not asked for.
   TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorld& world, const FacetTrees& trees,
              const EchoField& field, const scene::Scene& scene, const dvec3& source, bool monostatic,
-             const EchoOptions& options, const ClutterPatches* clutter);
+             const EchoOptions& options, const ClutterPatches* clutter, const BeamedFacets& beamed);
 
   /// Returns the raw echoes of all tubes in the order of the tubes. Uses options.threads threads.
   RawEchoes find() const;
 
  private:
   struct Job;
-  struct Place;
   static constexpr uint32_t chunk = 128;
   /// Tells which form the integral of a whole tube takes at a bounce, so that neighbours know which sides
   /// cancel. `no`: the tube is not whole there. `silent`: it is whole and sends nothing. `border`: the border
@@ -81,14 +60,6 @@ class TubeEchoes {
   void divide(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start,
               std::vector<VisibleCell>& cells) const;
   void bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const;
-  void send_back(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const;
-  /// Selects the mirror on the way to the receiver: the first surface of the tube, or the surface that its
-  /// ray meets next.
-  enum class Over : uint8_t { first, other };
-  /// Adds the echoes of the currents on surface `last` of the chain that reach the receiver over `mirror`. If
-  /// the opposite path is not searched for, it is added with this one.
-  void send_over(Job& job, uint32_t last, const Polygon& part, uint32_t mirror, Over way_home,
-                 bool whole) const;
   /// Keeps a part on a rough surface.
   void keep_rough(Job& job, const Polygon& part, uint32_t facet) const;
   /// Returns whether the ray of a tube met, from `bounce` on, a facet from which the receiver is seen.
@@ -99,11 +70,6 @@ class TubeEchoes {
   bool same_chain(const Job& job, uint32_t tube, uint32_t length) const;
   uint32_t omitted_sides(const Job& job, uint32_t bounce, const PosedFacet& facet, const Polygon& piece,
                          bool whole) const;
-  IntegralLimits limits_of(const PosedFacet& facet, const Polygon& piece, const dvec3& source,
-                           const dvec3& receiver) const;
-  /// Returns the place `at` of the present piece, which `look` completes if no contribution was there before.
-  template <typename Look>
-  static const Place& place_of(Job& job, const dvec2& at, const Look& look);
 
   const RayGrid& grid_;
   const RayHits& hits_;
@@ -112,22 +78,16 @@ class TubeEchoes {
   const EchoField& field_;
   const scene::Scene& scene_;
   dvec3 source_;
-  bool monostatic_;
   const EchoOptions& options_;
   const ClutterPatches* clutter_;
-  uint32_t bounces_;  ///< number of surfaces that were traced
-  bool home_;         ///< tubes that came over mirrors send back over them
-  IntegralLimits limits_;
-  /// Floor of a border contribution 1 m from both ends, below which noise hides it, m^2.
-  double hidden_floor_;
+  const BeamedFacets& beamed_;
+  EchoSender sender_;
+  uint32_t bounces_;          ///< number of surfaces that were traced
   std::vector<Whole> whole_;  ///< [tubes * bounces]
 };
 
 /// Returns the corners of a tube in the coordinates of `beam`, and its quadrilateral.
 std::array<dvec2, 4> tube_corners(const std::array<dvec3, 4>& corners, const TubeBeam& beam);
 Polygon tube_part(const std::array<dvec3, 4>& corners, const TubeBeam& beam);
-/// Returns a part of a beam on a facet, in the plane coordinates of the facet. Returns an empty polygon if a
-/// corner of the part does not fall on the plane.
-Polygon on_facet(const PosedFacet& facet, const TubeBeam& beam, const Polygon& part);
 
 }  // namespace greatx::rf

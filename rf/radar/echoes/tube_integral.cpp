@@ -252,6 +252,23 @@ uint64_t integrate(const PhasePlane& plane, const Polygon& piece, uint32_t omitt
   return integrate_piece(plane, piece, omitted, limits, 40, out);
 }
 
+double most_of(const PhasePlane& plane, const Polygon& piece) {
+  const dvec2 centroid = piece.centroid();
+  const double area = piece.area(), reach = reach_of(piece, centroid);
+  const double bend = plane.curvature_bound(centroid, reach) * reach;
+  const dvec2 gradient = plane.gradient(centroid);
+  const double least = glm::length(gradient) - bend;
+  if (!(least > 0.0)) return area;
+  double sum = 0.0;
+  for (uint32_t i = 0; i < piece.size(); ++i) {
+    const dvec2 side = piece.next(i) - piece[i];
+    const double length = glm::length(side);
+    const double slope = std::abs(glm::dot(gradient, side)) - bend * length;  // times the length
+    sum += slope > 2.0 ? 2.0 * length / slope : length;
+  }
+  return std::min(area, sum / least);
+}
+
 Complex linear_phase_integral(const Polygon& piece, const dvec2& centroid, const dvec2& gradient) {
   const double reach = reach_of(piece, centroid), squared = glm::dot(gradient, gradient);
   if (squared * reach * reach < 4e-4) {  // to second order; the third order is below 2e-6 of the area

@@ -66,6 +66,10 @@ IntegralForm integral_form(const PhasePlane& plane, const Polygon& piece, const 
 uint64_t integrate(const PhasePlane& plane, const Polygon& piece, uint32_t omitted,
                    std::vector<Contribution>& out, const IntegralLimits& limits = {});
 
+/// Returns a bound on |I|: the area, or the sum over the sides that the divergence theorem leaves, whichever
+/// is smaller. It holds to first order in curvature/gradient^2.
+double most_of(const PhasePlane& plane, const Polygon& piece);
+
 /// Returns Gordon's integral of e^{j gradient . (x - centroid)} over a polygon.
 Complex linear_phase_integral(const Polygon& piece, const dvec2& centroid, const dvec2& gradient);
 

@@ -35,28 +35,6 @@ void cut(SpaceCorners& corners, const dvec3& normal, double offset) {
   corners = kept;
 }
 
-struct Box {
-  dvec2 low{1e300}, high{-1e300};
-  void add(const dvec2& p) { low = glm::min(low, p), high = glm::max(high, p); }
-  bool meets(const Box& o) const {
-    return low.x <= o.high.x && o.low.x <= high.x && low.y <= o.high.y && o.low.y <= high.y;
-  }
-};
-
-/// Returns the planes around a box of the (u, v) plane, and the plane of the facet from which the beam
-/// starts.
-std::array<KeptSide, 5> around(const TubeBeam& beam, const BeamStart& start, const Box& box) {
-  const auto side = [&](const dvec3& normal) { return KeptSide{normal, -glm::dot(normal, beam.source)}; };
-  std::array<KeptSide, 5> spaces{side(beam.e1 - box.low.x * beam.axis),
-                                 side(box.high.x * beam.axis - beam.e1),
-                                 side(beam.e2 - box.low.y * beam.axis),
-                                 side(box.high.y * beam.axis - beam.e2),
-                                 {}};
-  if (start.facet != nullptr)
-    spaces[4] = {start.side * start.facet->normal, -start.side * start.facet->offset};
-  return spaces;
-}
-
 /// Holds the half-spaces outside which the beam sees nothing: those of around(), and what is in front of the
 /// source.
 class SeenSpace {
@@ -80,40 +58,6 @@ class SeenSpace {
   std::array<KeptSide, 6> sides_;
   std::array<double, 6> lengths_;
 };
-
-/// Returns a piece of a facet as the beam sees it, or an empty polygon if the beam does not see it.
-Polygon seen(std::span<const dvec3> piece, const TubeBeam& beam, const BeamStart& start, const Box& within) {
-  std::array<dvec2, FacetTrees::most_corners + 2> points;
-  std::array<double, FacetTrees::most_corners> depths;
-  uint32_t beyond = 15;  // sides of the box beyond which all corners lie
-  double nearest = 1e300, lowest = 1e300;
-  for (uint32_t i = 0; i < piece.size(); ++i) {
-    const dvec3 arm = piece[i] - beam.source;
-    const double x = glm::dot(arm, beam.e1), y = glm::dot(arm, beam.e2), z = glm::dot(arm, beam.axis);
-    beyond &= (x < within.low.x * z ? 1u : 0u) | (x > within.high.x * z ? 2u : 0u) |
-              (y < within.low.y * z ? 4u : 0u) | (y > within.high.y * z ? 8u : 0u);
-    nearest = std::min(nearest, z);
-    points[i] = {x, y};
-    depths[i] = z;
-    if (start.facet != nullptr) lowest = std::min(lowest, start.side * start.facet->distance(piece[i]));
-  }
-  if (beyond != 0) return {};
-  if (nearest >= nearest_m && lowest >= 0.0) {
-    for (uint32_t i = 0; i < piece.size(); ++i) points[i] /= depths[i];
-    return Polygon(std::span(points.data(), piece.size()));
-  }
-  SpaceCorners corners;
-  corners.count = static_cast<uint32_t>(piece.size());
-  std::copy(piece.begin(), piece.end(), corners.points.begin());
-  cut(corners, beam.axis, -glm::dot(beam.axis, beam.source) - nearest_m);
-  if (start.facet != nullptr)
-    cut(corners, start.side * start.facet->normal, -start.side * start.facet->offset);
-  if (corners.count < 3) return {};
-  Box box;
-  for (uint32_t i = 0; i < corners.count; ++i) box.add(points[i] = beam.uv(corners.points[i]));
-  if (!box.meets(within)) return {};
-  return Polygon(std::span(points.data(), corners.count));
-}
 
 /// Holds the half-planes whose intersection is a polygon.
 struct Cover {
@@ -142,6 +86,17 @@ struct Cover {
   }
 };
 
+/// Returns whether all corners of a piece lie in the plane of `facet` or on the side away from the beam's
+/// source, so that the piece hides nothing of this facet.
+bool behind_plane(const FacetWorld& world, const TubeBeam& beam, std::span<const dvec3> corners,
+                  uint32_t facet) {
+  if (facet == VisibleCell::nothing) return false;
+  const PosedFacet& posed = world.facet(facet);
+  const double side = posed.distance(beam.source) > 0.0 ? 1.0 : -1.0;
+  return std::none_of(corners.begin(), corners.end(),
+                      [&](const dvec3& corner) { return side * posed.distance(corner) > posed.tolerance_m; });
+}
+
 /// Reduces a polygon to its overlap with a cover. `rest` receives the remainder as convex pieces.
 void divide(Polygon& part, const Cover& cover, uint32_t cuts, double smallest, std::vector<Polygon>& rest) {
   rest.clear();
@@ -156,23 +111,104 @@ void divide(Polygon& part, const Cover& cover, uint32_t cuts, double smallest, s
 
 }  // namespace
 
+BeamSpaces::BeamSpaces(const TubeBeam& beam, const BeamStart& start, const PartBox& box) {
+  const auto side = [&](const dvec3& normal) { add({normal, -glm::dot(normal, beam.source)}); };
+  side(beam.e1 - box.low.x * beam.axis), side(box.high.x * beam.axis - beam.e1);
+  side(beam.e2 - box.low.y * beam.axis), side(box.high.y * beam.axis - beam.e2);
+  if (start.facet != nullptr) add({start.side * start.facet->normal, -start.side * start.facet->offset});
+}
+
+Polygon seen(std::span<const dvec3> piece, const TubeBeam& beam, const BeamStart& start,
+             const PartBox& within) {
+  std::array<dvec2, FacetTrees::most_corners + 2> points;
+  std::array<double, FacetTrees::most_corners> depths;
+  uint32_t beyond = 15;  // sides of the box beyond which all corners lie
+  double nearest = 1e300, lowest = 1e300;
+  for (uint32_t i = 0; i < piece.size(); ++i) {
+    const dvec3 arm = piece[i] - beam.source;
+    const double x = glm::dot(arm, beam.e1), y = glm::dot(arm, beam.e2), z = glm::dot(arm, beam.axis);
+    beyond &= (x < within.low.x * z ? 1u : 0u) | (x > within.high.x * z ? 2u : 0u) |
+              (y < within.low.y * z ? 4u : 0u) | (y > within.high.y * z ? 8u : 0u);
+    nearest = std::min(nearest, z);
+    points[i] = {x, y};
+    depths[i] = z;
+    if (start.facet != nullptr) lowest = std::min(lowest, start.side * start.facet->distance(piece[i]));
+  }
+  if (beyond != 0) return {};
+  if (nearest >= nearest_m && lowest >= 0.0) {
+    for (uint32_t i = 0; i < piece.size(); ++i) points[i] /= depths[i];
+    return Polygon(std::span(points.data(), piece.size()));
+  }
+  SpaceCorners corners;
+  corners.count = static_cast<uint32_t>(piece.size());
+  std::copy(piece.begin(), piece.end(), corners.points.begin());
+  cut(corners, beam.axis, -glm::dot(beam.axis, beam.source) - nearest_m);
+  if (start.facet != nullptr)
+    cut(corners, start.side * start.facet->normal, -start.side * start.facet->offset);
+  if (corners.count < 3) return {};
+  PartBox box;
+  for (uint32_t i = 0; i < corners.count; ++i) box.add(points[i] = beam.uv(corners.points[i]));
+  if (!box.meets(within)) return {};
+  return Polygon(std::span(points.data(), corners.count));
+}
+
+Polygon overlap(const Polygon& part, const Polygon& outline) {
+  const Cover cover(outline);
+  const std::optional<uint32_t> cuts = cover.cutting(part);
+  if (!cuts) return Polygon(std::span<const dvec2>{});
+  Polygon kept = part;
+  for (uint32_t side = 0; side < cover.count && !kept.empty(); ++side)
+    if (((*cuts >> side) & 1u) != 0) kept = kept.clipped({cover.normals[side], cover.offsets[side]});
+  return kept;
+}
+
+bool covers(const FacetWorld& world, const FacetTrees& trees, const TubeBeam& beam, const BeamStart& start,
+            const Polygon& part, uint32_t facet, VisibleScratch& scratch) {
+  const PartBox box(part);
+  trees.find(world, facet, BeamSpaces(beam, start, box).used(), scratch.indices);
+  std::array<dvec3, FacetTrees::most_corners> room;
+  for (const uint32_t piece : scratch.indices) {
+    const Polygon outline = seen(trees.corners(world, facet, piece, room), beam, start, box);
+    if (!outline.empty() && Cover(outline).cutting(part) == 0u) return true;
+  }
+  return false;
+}
+
 void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBeam& beam,
                   const BeamStart& start, const Polygon& whole, std::span<const uint32_t> facets,
                   double smallest, VisibleScratch& scratch, std::vector<VisibleCell>& cells) {
+  const BeamSpaces spaces(beam, start, PartBox(whole));
+  scratch.pieces.clear();
+  for (const uint32_t facet : facets) {
+    trees.find(world, facet, spaces.used(), scratch.indices);
+    for (const uint32_t piece : scratch.indices) scratch.pieces.push_back({facet, piece});
+  }
+  find_visible(world, trees, beam, start, whole, VisibleCell::nothing, scratch.pieces, smallest, scratch,
+               cells);
+}
+
+void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBeam& beam,
+                  const BeamStart& start, const Polygon& whole, uint32_t at_first,
+                  std::span<const FacetPiece> pieces, double smallest, VisibleScratch& scratch,
+                  std::vector<VisibleCell>& cells) {
   cells.clear();
   const auto add_cell = [&](const Polygon& part, uint32_t facet) {
     VisibleCell& cell = cells.emplace_back();
     cell.part = part, cell.facet = facet;
+    scratch.boxes.emplace_back(part);
   };
-  add_cell(whole, VisibleCell::nothing);
-  Box within;
-  for (uint32_t i = 0; i < whole.size(); ++i) within.add(whole[i]);
-  const std::array<KeptSide, 5> spaces = around(beam, start, within);
-  const std::span<const KeptSide> used(spaces.data(), start.facet == nullptr ? 4u : 5u);
-  const SeenSpace space(beam, used);
+  scratch.boxes.clear();
+  add_cell(whole, at_first);
+  const PartBox within(whole);
+  const BeamSpaces spaces(beam, start, within);
+  const SeenSpace space(beam, spaces.used());
   std::array<dvec3, FacetTrees::most_corners> room;
-  for (const uint32_t facet : facets) {
-    if (facet == start.index) continue;
+  for (const auto& [facet, piece] : pieces) {
+    if (facet == start.index || facet == at_first || space.without(trees.ball(world, facet, piece))) continue;
+    const std::span<const dvec3> corners = trees.corners(world, facet, piece, room);
+    if (cells.size() == 1 && behind_plane(world, beam, corners, cells[0].facet)) continue;
+    const Polygon outline = seen(corners, beam, start, within);
+    if (outline.empty()) continue;
     const PosedFacet& posed = world.facet(facet);
     const auto nearer = [&](const dvec2& at, uint32_t than) {
       const dvec3 direction = beam.along(at);
@@ -182,24 +218,22 @@ void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBe
         return false;
       return than == VisibleCell::nothing || reach < beam.reach(world.facet(than), direction) * (1.0 - 1e-9);
     };
-    trees.find(world, facet, used, scratch.pieces);
-    for (const uint32_t piece : scratch.pieces) {
-      if (space.without(trees.ball(world, facet, piece))) continue;
-      const Polygon outline = seen(trees.corners(world, facet, piece, room), beam, start, within);
-      if (outline.empty()) continue;
-      const Cover cover(outline);
-      const size_t before = cells.size();
-      for (size_t i = 0; i < before; ++i) {
-        const uint32_t behind = cells[i].facet;
-        if (behind == facet) continue;
-        const std::optional<uint32_t> cuts = cover.cutting(cells[i].part);
-        if (!cuts) continue;
-        Polygon overlap = cells[i].part;
-        divide(overlap, cover, *cuts, smallest, scratch.rest);
-        if (!(overlap.area() > smallest) || !nearer(overlap.centroid(), behind)) continue;
-        cells[i].part = overlap, cells[i].facet = facet;
-        for (const Polygon& rest : scratch.rest) add_cell(rest, behind);
-      }
+    const Cover cover(outline);
+    const PartBox around(outline);
+    const size_t before = cells.size();
+    for (size_t i = 0; i < before; ++i) {
+      const uint32_t behind = cells[i].facet;
+      if (behind == facet || !around.meets(scratch.boxes[i]) ||
+          (before > 1 && behind_plane(world, beam, corners, behind)))
+        continue;
+      const std::optional<uint32_t> cuts = cover.cutting(cells[i].part);
+      if (!cuts) continue;
+      Polygon overlap = cells[i].part;
+      divide(overlap, cover, *cuts, smallest, scratch.rest);
+      if (!(overlap.area() > smallest) || !nearer(overlap.centroid(), behind)) continue;
+      cells[i].part = overlap, cells[i].facet = facet;
+      scratch.boxes[i] = PartBox(overlap);
+      for (const Polygon& rest : scratch.rest) add_cell(rest, behind);
     }
   }
 }

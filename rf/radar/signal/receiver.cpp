@@ -80,15 +80,19 @@ double noise_power_w(double sample_rate_hz, double noise_figure_db) {
   return boltzmann_j_k * standard_temperature_k * sample_rate_hz * from_decibels(noise_figure_db);
 }
 
-double hidden_section_m2(const RadarSignalConfig& config, double transmit_gain, double receive_gain) {
+double hidden_ratio(const RadarSignalConfig& config) {
   if (!config.receiver.noise_figure_db) return 0.0;
   constexpr double share = 0.01;
   const RadarWaveform& w = config.waveform;
   const double added = double(w.samples) * w.slots * double(config.arrays.receive_m.size());
-  const double power = share * noise_power_w(w.sample_rate_hz, *config.receiver.noise_figure_db) / added;
-  const double lambda = w.wavelength_m(), four_pi = 4.0 * pi;
-  return power * four_pi * four_pi * four_pi /
-         (config.transmit_power_w * transmit_gain * receive_gain * lambda * lambda);
+  return share * noise_power_w(w.sample_rate_hz, *config.receiver.noise_figure_db) /
+         (added * config.transmit_power_w);
+}
+
+double hidden_section_m2(const RadarSignalConfig& config, double transmit_gain, double receive_gain) {
+  const double lambda = config.waveform.wavelength_m(), four_pi = 4.0 * pi;
+  return hidden_ratio(config) * four_pi * four_pi * four_pi /
+         (transmit_gain * receive_gain * lambda * lambda);
 }
 
 void add_noise(const RadarSeeds& seeds, double power_w, uint32_t threads,

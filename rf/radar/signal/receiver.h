@@ -33,6 +33,10 @@ void complex_normals(const RadarSeeds& seeds, RadarDraw purpose, uint32_t part, 
 /// Returns k T_0 f_s F, W: the noise power of a complex sample, as a power at the port of the receiver.
 double noise_power_w(double sample_rate_hz, double noise_figure_db);
 
+/// Returns the ratio of received to transmitted power below which noise hides an echo: its power is a
+/// hundredth of the mean power of the noise when all samples and antennas of a frame are added up in phase.
+/// Returns 0 without noise.
+double hidden_ratio(const RadarSignalConfig& config);
 /// Returns the radar cross-section, m^2, below which noise hides an echo, for a body 1 m away from both ends
 /// and elements with the given gains. All samples and antennas of a frame are added up in phase; the echo of
 /// this body is then a hundredth of the mean power of the noise. The cross-section grows with the square of

@@ -51,18 +51,14 @@ void parse_field_of_view(const Field& field, rf::FieldOfView& view) {
   parse("elevation_deg", 90.0, view.elevation_min, view.elevation_max);
 }
 
-const Keys echo_keys{"tubes",     "max_bounces", "target_tube_m",   "target_budget",    "mirror_budget",
-                     "targets",   "updates",     "diffuse_patch_m", "antenna_radius_m", "merge_share",
-                     "max_echoes"};
+const Keys echo_keys{"tubes",           "max_bounces",      "targets",     "updates",
+                     "diffuse_patch_m", "antenna_radius_m", "merge_share", "max_echoes"};
 
 void parse_echoes(const Field& field, RadarConfig& radar) {
   const FieldMap map(field, echo_keys);
   rf::EchoOptions& echoes = radar.echoes;
   if (const auto f = map.find("tubes")) echoes.tubes = f->integer32(1, most_tubes);
   if (const auto f = map.find("max_bounces")) echoes.max_bounces = f->integer32(1, rf::most_bounces);
-  if (const auto f = map.find("target_tube_m")) echoes.target_tube_m = f->positive();
-  if (const auto f = map.find("target_budget")) echoes.target_budget = f->integer32(0, most_tubes);
-  if (const auto f = map.find("mirror_budget")) echoes.mirror_budget = f->integer32(0, most_tubes);
   if (const auto f = map.find("diffuse_patch_m")) echoes.diffuse_patch_m = f->positive();
   if (const auto f = map.find("antenna_radius_m")) echoes.antenna_radius_m = f->non_negative();
   if (const auto f = map.find("merge_share")) echoes.merge_share = f->between(0.0, 1.0);

@@ -118,6 +118,7 @@ rf::EchoOptions RadarSensor::echo_options(const Experiment& experiment) const {
   options.waveform = config_.signal.waveform;
   options.bandwidth_hz = config_.signal.waveform.bandwidth_hz();
   options.beam_rad = beam_of(config_.signal);
+  options.hidden_ratio = rf::hidden_ratio(config_.signal);
   if (config_.signal.receiver.noise_figure_db)
     options.hidden_floor_m2 = rf::hidden_section_m2(config_.signal, largest_gain(gain_of(transmit_end())),
                                                     largest_gain(gain_of(receive_end())));
@@ -197,6 +198,7 @@ RadarSensor::Echoes RadarSensor::find_echoes(const gpu::TickSlot& slot) {
     echoes.lists.push_back(finder_.collect(update.rays, update.motion, &statistics));
     echoes.attitudes.push_back(update.attitude);
     tubes_ += statistics.tubes;
+    beams_ += statistics.facets + statistics.images;
     echoes_ += echoes.lists.back().echoes.size();
     echoes_left_out_ += statistics.left_out;
     patches_ += statistics.patches;
@@ -223,6 +225,7 @@ Evidence RadarSensor::evidence() const {
 void RadarSensor::count(std::map<std::string, uint64_t>& counters) const {
   counters[name_ + " frames"] = frames_done_;
   counters[name_ + " ray tubes"] = tubes_;
+  counters[name_ + " beams on small facets"] = beams_;
   counters[name_ + " echoes"] = echoes_;
   if (patches_ > 0) counters[name_ + " patches"] = patches_;
   counters[name_ + " detections"] = detections_;

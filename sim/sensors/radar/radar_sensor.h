@@ -80,7 +80,7 @@ class RadarSensor : public Sensor {
   SensorSpec spec_;
   std::array<Frame, slots_in_flight> frames_;
   rf::RadarFrame frame_;
-  uint64_t frames_done_ = 0, tubes_ = 0, echoes_ = 0, echoes_left_out_ = 0, patches_ = 0;
+  uint64_t frames_done_ = 0, tubes_ = 0, beams_ = 0, echoes_ = 0, echoes_left_out_ = 0, patches_ = 0;
   uint64_t detections_ = 0, saturated_ = 0, late_echoes_ = 0;
 };
 

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Finds the echoes of facets that are too small for the tubes of the grid. A ray of the grid may pass beside
+// such a facet. Each facet whose echo may stand above the noise therefore has a beam of its own, which is as
+// wide as the facet is seen from the transmitter. The beam is divided exactly at each bounce:
+// EchoTracer gathers all facets that it may meet, and find_visible clips them to it. No reflector is missed for its size.
+//
+// The facets with beams are divided from the others by the first surface of an echo: TubeEchoes leaves out
+// tubes that fall on them first.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rf/radar/echoes/echo_sender.h"
+#include "rf/radar/echoes/echo_tracer.h"
+#include "rf/radar/echoes/mirrors.h"
+#include "rf/radar/echoes/ray_grid.h"
+#include "rf/radar/echoes/visible_cells.h"
+
+namespace greatx::rf {
+
+/// Holds the facets that have beams of their own.
+struct BeamedFacets {
+  std::vector<uint8_t> marks;         ///< [facets] 1: it has a beam from the transmitter
+  std::vector<uint8_t> mirrors;       ///< [facets] 1: a beam goes over it first
+  std::vector<uint32_t> facets;       ///< facets with beams from the transmitter, ascending
+  std::vector<MirroredFacet> images;  ///< facets with beams over mirrors, ascending
+
+  /// Returns whether the echoes that begin with the first surfaces of a chain are those of a beam.
+  bool hold(std::span<const uint32_t> chain) const {
+    if (chain.size() == 1) return marks[chain[0]] != 0;
+    return chain.size() == 2 && mirrors[chain[0]] != 0 &&
+           std::binary_search(images.begin(), images.end(), MirroredFacet{chain[0], chain[1]});
+  }
+};
+
+/// Holds what a search for the echoes of facets works on. All references outlive it.
+struct FacetScene {
+  const FacetWorld& world;
+  const FacetTrees& trees;
+  const EchoTracer& tracer;
+};
+
+class FacetEchoes {
+ public:
+  /// `transmitter` and `receiver` are the ends; their bodies are not seen.
+  FacetEchoes(const FacetScene& scene, const RayGrid& grid, const EchoField& field,
+              const EchoOptions& options, const dvec3& source, bool monostatic, uint32_t own_body,
+              uint32_t receiver_body);
+
+  /// Returns the facets of which the grid may miss a part: those narrower than a few tubes, entirely in the
+  /// field of view, whose echo may stand above the floor. `images` are those that are seen over mirrors.
+  BeamedFacets choose(std::span<const MirroredFacet> images) const;
+  /// Returns the raw echoes of the chosen facets, in their order. Uses options.threads threads.
+  RawEchoes find(const BeamedFacets& chosen) const;
+
+ private:
+  struct Job;
+  static constexpr uint32_t chunk = 64;
+  bool chosen(uint32_t facet, const PosedFacet* mirror) const;
+  /// Returns the outline of a piece in the coordinates of `beam`, and the largest distance of its corners along
+  /// the axis. Returns an empty polygon if the piece is seen edge on.
+  Polygon outline_of(uint32_t facet, uint32_t piece, const TubeBeam& beam, double& farthest) const;
+  void solve(uint32_t facet, Job& job) const;
+  void solve_over(const MirroredFacet& image, Job& job) const;
+  /// Puts the pieces that a part of a beam may meet nearer than `to` into job.pieces.
+  void gather(Job& job, const TubeBeam& beam, const BeamStart& start, const Polygon& part, double to) const;
+  void follow(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start) const;
+  /// Gathers what a part of a beam that leaves a surface may meet. Returns a facet that covers all of the
+  /// part, so that nothing behind it is seen, or VisibleCell::nothing.
+  uint32_t gather_next(Job& job, const TubeBeam& beam, const BeamStart& start, const Polygon& part) const;
+  /// Sends back from the last surfaces that a beam may meet. Only facets that send more than the floor are
+  /// looked at. An edge that another facet's shadow makes does not count for this.
+  void finish(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start) const;
+  /// Returns whether `part` of the beam on `facet`, or what the surface before sends over it, may stand above
+  /// the floor.
+  bool may_send(const Job& job, uint32_t bounce, const Polygon& part, uint32_t facet) const;
+  void bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet) const;
+  /// Sends back from surface `bounce`, if the receiver sees it.
+  void send(Job& job, uint32_t bounce, const Polygon& part) const;
+  /// Returns whether the receiver sees a point of the surface, directly or over `mirror`.
+  bool seen_from(const PosedFacet& posed, uint32_t facet, const dvec3& at) const;
+  bool seen_over(const PosedFacet& posed, uint32_t facet, const dvec3& at, uint32_t mirror) const;
+
+  const FacetScene& scene_;
+  const RayGrid& grid_;
+  const EchoField& field_;
+  const EchoOptions& options_;
+  dvec3 source_;
+  bool monostatic_;
+  uint32_t own_body_;
+  EchoSender sender_;
+  EchoTracer::View beams_, receiver_;
+};
+
+}  // namespace greatx::rf
