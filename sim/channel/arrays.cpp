@@ -43,6 +43,24 @@ nlohmann::json describe_ends(const std::vector<rf::AntennaArray>& arrays, std::s
   return json;
 }
 
+/// Describes the targets with their models; instances as on disk, index + 1.
+nlohmann::json describe_targets(const Experiment& experiment, const ChannelConfig& config) {
+  nlohmann::json targets = nlohmann::json::array();
+  for (const TargetConfig& target : config.targets) {
+    nlohmann::json json{{"node", experiment.scenario.nodes[target.node].name},
+                        {"instance", target_instance(experiment, target) + 1}};
+    if (const auto* kind = std::get_if<rf::Tr38901Kind>(&target.model))
+      json["tr38901"] = rf::tr38901_kinds[static_cast<size_t>(*kind)];
+    else {
+      const rf::RcsTable& table = *std::get<std::shared_ptr<const rf::RcsTable>>(target.model);
+      json["table"] = table.name();
+      json["sha256"] = table.sha256();
+    }
+    targets.push_back(std::move(json));
+  }
+  return targets;
+}
+
 /// Returns an array with one row for each of `rows`. `leading` holds the dimensions before those of a row.
 template <typename View>
 Array filled(const Column<View>& column, std::vector<int64_t> leading, std::span<const View> rows) {
@@ -51,6 +69,18 @@ Array filled(const Column<View>& column, std::vector<int64_t> leading, std::span
   const size_t step = column.row_bytes();
   for (size_t i = 0; i < rows.size(); ++i) column.fill(rows[i], array.bytes.data() + i * step);
   return array;
+}
+
+/// Adds the echoes among `paths` to a block of a link that was solved element by element, whose own paths they
+/// are not. Targets are seen from the arrays' origins.
+void add_echoes_to(const PortBlock& block, std::span<const rf::Path> paths, const rf::FacetWorld& world,
+                   const LinkEnds& ends, std::span<std::complex<float>> out) {
+  std::vector<rf::Path> echoes;
+  for (const rf::Path& path : paths)
+    if (path.echo) echoes.push_back(path);
+  std::vector<std::complex<float>> sum(out.size());
+  block.sum(echoes, world, ends.transmitter, ends.receiver, sum, 1);
+  for (size_t i = 0; i < out.size(); ++i) out[i] += sum[i];
 }
 
 }  // namespace
@@ -117,6 +147,7 @@ std::string ChannelSensor::metadata() const {
   metadata["time_samples"] = config_.time_samples;
   metadata["time_spacing_s"] = config_.time_spacing_s;
   metadata["max_depth"] = config_.limits.max_depth;
+  if (targets_) metadata["targets"] = describe_targets(experiment_, config_);
   metadata["non_finite"] = {"vertex"};
   for (const LinkColumn& column : link_columns_)
     if (column.dtype == DType::f64) metadata["non_finite"].push_back(column.name);
@@ -170,11 +201,13 @@ Array ChannelSensor::block_of(const PortBlock& block, const Results& results, ui
     std::vector<std::complex<float>> apart(transmitters == 1 ? 0 : rx_ports * row);
     const std::span<std::complex<float>> h =
         transmitters == 1 ? out.subspan(r * rx_ports * row, rx_ports * row) : std::span(apart);
-    if (const ElementPaths* elements = elements_of(r, t, slot))
+    const std::vector<rf::Path>& paths = results[t].links[r].paths;
+    const LinkEnds ends = ends_of(results, r, t);
+    if (const ElementPaths* elements = elements_of(r, t, slot)) {
       elements->assemble(block.per_pair(), block.sum, h);
-    else {
-      const LinkEnds ends = ends_of(results, r, t);
-      block.sum(results[t].links[r].paths, *results[t].world, ends.transmitter, ends.receiver, h, threads);
+      if (targets_) add_echoes_to(block, paths, *results[t].world, ends, h);
+    } else {
+      block.sum(paths, *results[t].world, ends.transmitter, ends.receiver, h, threads);
     }
     for (size_t port = 0; !apart.empty() && port < rx_ports; ++port)
       std::copy_n(

@@ -14,6 +14,7 @@
 #include "rf/channel/frequency_response.h"
 #include "sim/channel/blocks.h"
 #include "sim/channel/channel_paths.h"
+#include "sim/channel/channel_targets.h"
 #include "sim/channel/columns.h"
 #include "sim/channel/element_paths.h"
 #include "sim/channel/link_ends.h"
@@ -70,6 +71,7 @@ class ChannelSensor : public Sensor {
   bool doppler_;
   std::shared_ptr<RadioWorld> radio_;
   std::vector<std::unique_ptr<ChannelPaths>> paths_;  ///< [tx]
+  std::unique_ptr<ChannelTargets> targets_;           ///< null: no echoes of targets
   std::vector<rf::AntennaArray> transmitter_arrays_, receiver_arrays_;
   std::vector<NearLink> near_links_;
   bool told_near_ = false;

@@ -29,6 +29,7 @@
 #include "sim/scenario/radar.h"
 #include "sim/scenario/rational.h"
 #include "sim/scenario/rotation.h"
+#include "sim/scenario/targets.h"
 
 namespace greatx::sim {
 
@@ -197,6 +198,8 @@ struct ChannelConfig {
   /// Power into each transmit port; none: there are no received powers, fields and voltages.
   std::optional<double> power_dbm;
   double resistance_ohm = 50.0;  ///< resistance of each receive port
+  std::vector<TargetConfig> targets;  ///< each node once
+  TargetLegs legs;                    ///< of echoes over targets
   /// Returns the number of walls that a path may pass.
   uint32_t walls() const { return std::min(limits.max_transmissions, limits.max_depth); }
   SourceLocation where;
