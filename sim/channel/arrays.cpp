@@ -135,6 +135,7 @@ void ChannelSensor::describe() {
     spec_.arrays.push_back({column.name, column.dtype, std::move(shape), column.unit, column.description});
     spec_.outputs.push_back({"paths/" + column.name, FileFormat::npy_ragged, {column.name}});
   }
+  if (sensing_) sensing_->describe(spec_);
   spec_.metadata_json = metadata();
 }
 
@@ -151,6 +152,7 @@ std::string ChannelSensor::metadata() const {
   metadata["non_finite"] = {"vertex"};
   for (const LinkColumn& column : link_columns_)
     if (column.dtype == DType::f64) metadata["non_finite"].push_back(column.name);
+  if (sensing_) sensing_->describe(metadata);
   metadata["axes"] = {"batch", "rx", "rx_ant", "tx", "tx_ant", "time", "subcarrier"};
   if (config_.taps)
     metadata["taps"] = {{"bandwidth_hz", config_.taps->bandwidth_hz}, {"first", config_.taps->first}};
@@ -272,7 +274,37 @@ std::vector<Array> ChannelSensor::arrays_of(const Results& results, uint32_t slo
   for (const LinkColumn& column : link_columns_) arrays.push_back(filled<LinkView>(column, {rx, tx}, links));
   for (const PathColumn& column : path_columns_)
     arrays.push_back(filled<PathView>(column, {static_cast<int64_t>(paths.size())}, paths));
+  if (sensing_) add_sensed(results, slot, arrays);
   return arrays;
+}
+
+void ChannelSensor::add_sensed(const Results& results, uint32_t slot, std::vector<Array>& arrays) const {
+  const size_t transmitters = results.size(), receivers = results[0].links.size();
+  const auto rx_ports = static_cast<size_t>(columns_.rx_ports), tx_ports = static_cast<size_t>(columns_.tx_ports);
+  Array own;
+  if (!config_.outputs.cfr) own = block_of(cfr_block(grid_, dispersion_ ? &*dispersion_ : nullptr), results, slot);
+  const std::span<const std::complex<float>> all =
+      std::as_const(config_.outputs.cfr ? arrays[0] : own).as<std::complex<float>>();
+  const size_t row = tx_ports * grid_.size_per_pair();
+  std::vector<std::vector<std::complex<float>>> gathered;  // with several transmitters a link is not contiguous
+  std::vector<SensedLink> links;
+  for (size_t r = 0; r < receivers; ++r)
+    for (size_t t = 0; t < transmitters; ++t) {
+      std::vector<std::complex<float>>& h = gathered.emplace_back();
+      for (size_t port = 0; port < rx_ports; ++port) {
+        const auto from = all.subspan(((r * rx_ports + port) * transmitters + t) * row, row);
+        h.insert(h.end(), from.begin(), from.end());
+      }
+    }
+  for (size_t index = 0; index < receivers * transmitters; ++index) {
+    const size_t r = index / transmitters, t = index % transmitters;
+    LinkEnds ends = ends_of(results, r, t);
+    links.push_back({gathered[index], results[t].links[r].paths, std::move(ends.transmitter),
+                     std::move(ends.receiver), results[t].transmitter, results[t].links[r].receiver});
+  }
+  const std::span<const TargetState> targets = targets_ ? std::span(targets_->states()) : std::span<const TargetState>();
+  for (Array& array : sensing_->arrays_of(links, targets, moments_[slot].sequence, moments_[slot].tick))
+    arrays.push_back(std::move(array));
 }
 
 }  // namespace greatx::sim

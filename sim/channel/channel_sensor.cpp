@@ -53,6 +53,9 @@ ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& cross
     dispersion_.emplace(experiment.scene(), radio_->model().field_model(), radio_->model().effects.weather,
                         grid_);
   if (all_effects_built && experiment.plan.every_element.on) find_near_links();
+  if (all_effects_built && experiment.plan.sensing.on && config_.sensing)
+    sensing_ = std::make_unique<ChannelSensing>(experiment, config_, grid_, transmitter_arrays_, receiver_arrays_,
+                                                targets_ ? config_.targets.size() : 0);
   describe();
 }
 
@@ -93,6 +96,7 @@ void ChannelSensor::start(const TickContext& context) {
 }
 
 void ChannelSensor::record(gpu::TickSlot& slot, const TickContext& context) {
+  moments_[slot.index] = {context.sequence, context.tick};
   for (const auto& paths : paths_) paths->record(slot, context);
   if (targets_) targets_->record(slot, context);
   for (NearLink& link : near_links_) {
@@ -159,6 +163,7 @@ void ChannelSensor::check_sights(const Results& results) {
 Evidence ChannelSensor::evidence() const {
   Evidence evidence;
   evidence.delays_against_distances = &sights_;
+  evidence.sensed = sensing_ && sensing_->detects() && targets_;
   return evidence;
 }
 
@@ -173,6 +178,11 @@ void ChannelSensor::count(std::map<std::string, uint64_t>& counters) const {
     targets_->count(of_targets);
     for (const auto& [name, value] : of_targets) counters[config_.name + "." + name] = value;
   }
+  if (sensing_) {
+    std::map<std::string, uint64_t> of_sensing;
+    sensing_->count(of_sensing);
+    for (const auto& [name, value] : of_sensing) counters[config_.name + "." + name] = value;
+  }
   if (near_links_.empty()) return;
   std::map<std::string, uint64_t> of_elements;
   for (const NearLink& link : near_links_)
@@ -180,6 +190,10 @@ void ChannelSensor::count(std::map<std::string, uint64_t>& counters) const {
   counters[config_.name + ".every_element_links"] = near_ticks_;
   for (const char* name : {"paths", "candidate_overflow", "path_overflow"})
     counters[fmt::format("{}.every_element_{}", config_.name, name)] = of_elements[name];
+}
+
+void ChannelSensor::warn(std::vector<std::string>& warnings) const {
+  if (sensing_) sensing_->warn(warnings);
 }
 
 void ChannelSensor::note(std::vector<std::pair<std::string, std::string>>& notes) const {

@@ -32,6 +32,8 @@ struct RadioAsks {
   uint32_t max_depth = 0, walls = 0, time_samples = 1;
   bool every_tick = false, beams = false, rays = false;
   size_t targets = 0;               ///< of all channels
+  size_t sensing = 0;               ///< channels that sense
+  bool sensing_noise = false, sensing_adc = false, leakage = false;
   uint32_t segments = 1;            ///< the most segments of a path, echoes of targets included
   std::vector<double> carriers_hz;  ///< [channels]
   double longest_record_s = 0.0, highest_hz = 0.0, lowest_hz = std::numeric_limits<double>::infinity();
@@ -52,6 +54,12 @@ RadioAsks radio_asks_of(const Scenario& scenario) {
     ++asks.channels;
     asks.max_depth = std::max(asks.max_depth, channel.limits.max_depth);
     asks.targets += channel.targets.size();
+    if (channel.sensing) {
+      ++asks.sensing;
+      asks.sensing_noise |= channel.sensing->noise_figure_db.has_value();
+      asks.sensing_adc |= channel.sensing->adc.has_value();
+      asks.leakage |= channel.sensing->leakage_db.has_value();
+    }
     asks.segments = std::max(asks.segments, channel.limits.max_depth + 1);
     if (!channel.targets.empty()) asks.segments = std::max(asks.segments, 2 * (channel.legs.max_depth + 1));
     asks.walls = std::max(asks.walls, channel.walls());
@@ -361,6 +369,22 @@ void plan_targets(EffectPlan& plan, const Radio& radio) {
   if (targets == 0) plan.target_echoes.on = false;
 }
 
+void plan_sensing(EffectPlan& plan, const Radio& radio) {
+  const RadioAsks& asks = radio.asks;
+  const bool senses = asks.sensing > 0;
+  radio.planner.decide(
+      plan.sensing, senses,
+      radio.why(senses ? fmt::format("{} channel{}", asks.sensing, asks.sensing == 1 ? "" : "s")
+                       : "no channel senses"));
+  const auto decide = [&](Effect& effect, bool needed, const char* yes, const char* no) {
+    radio.planner.decide(effect, needed, radio.why(!senses ? "no channel senses" : needed ? yes : no));
+    if (!needed) effect.on = false;
+  };
+  decide(plan.sensing_noise, asks.sensing_noise, "a receiver has a noise figure", "no receiver has one");
+  decide(plan.sensing_quantisation, asks.sensing_adc, "a converter has steps", "no converter is described");
+  decide(plan.sensing_leakage, asks.leakage, "a channel has a level of leakage", "no channel has one");
+}
+
 /// Throws UserError if a channel cannot find what its effects ask for.
 void check_candidates(const EffectPlan& plan, const Scenario& scenario) {
   for (const ChannelConfig& channel : scenario.channels)
@@ -398,6 +422,7 @@ void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenar
   plan_finite_reflectors(plan, radio, scenario, scene, longest_m);
   plan_doppler(plan, radio);
   plan_targets(plan, radio);
+  plan_sensing(plan, radio);
   plan_arrays(plan, planner, scenario);
 }
 

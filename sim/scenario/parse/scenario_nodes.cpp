@@ -238,7 +238,8 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
                              "power_dbm",
                              "resistance_ohm",
                              "targets",
-                             "legs"});
+                             "legs",
+                             "sensing"});
   ChannelConfig channel;
   channel.where = field.where();
   channel.name = folder_name(map.require("name", "a name"));
@@ -273,6 +274,7 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
     channel.search = std::array{ChannelConfig::Search::automatic, ChannelConfig::Search::once,
                                 ChannelConfig::Search::every_tick}[f->choice({"auto", "once", "every_tick"})];
   parse_targets(map, nodes, tables, channel);
+  parse_sensing(map, channel);
   return channel;
 }
 
