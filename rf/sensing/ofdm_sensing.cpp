@@ -20,6 +20,8 @@ namespace {
 /// An instance must account for this share of the power of a cell (as rf/radar/signal/attribution.h).
 constexpr double least_share = 0.1;
 constexpr double reach_bins = 2.0;
+/// A bin with less of its noise than this holds nothing that moves.
+constexpr double least_noise_left = 0.1;
 
 /// Returns a radar whose beat signal over samples and chirps is conj(H) over subcarriers and symbols. Its
 /// ramps are symbols: N samples at the rate B, with the slope B times the spacing.
@@ -79,6 +81,25 @@ dvec3 middle_of(const std::vector<dvec3>& places) {
   return std::accumulate(places.begin(), places.end(), dvec3(0.0)) / double(places.size());
 }
 
+/// Returns the shares of white noise that remain in the bins when the weighted mean c = sum w n/sum w is removed.
+/// A bin is Y - c R, with the window's response R to a tone at rest; Y and c are correlated as the bins are.
+std::vector<double> noise_left_of(const Window& window, uint32_t bins, bool removed) {
+  std::vector<double> left(bins, 1.0);
+  if (!removed) return left;
+  const std::vector<float>& w = window.values();
+  double squares = 0.0;
+  for (const float value : w) squares += double(value) * value;
+  for (uint32_t bin = 0; bin < bins; ++bin) {
+    const double turns = doppler_turns(bin, bins);
+    const std::complex<double> rest = window.response(-turns);
+    std::complex<double> both = 0.0;
+    for (uint32_t n = 0; n < bins; ++n)
+      both += double(w[n]) * w[n] * unit_phasor(-turns * (double(n) - 0.5 * bins) / bins);
+    left[bin] = std::max(0.0, 1.0 - 2.0 * std::real(both / squares * std::conj(rest)) + std::norm(rest));
+  }
+  return left;
+}
+
 }  // namespace
 
 OfdmSensing::OfdmSensing(const std::string& name, const SensingConfig& config, const SensingWaveform& waveform,
@@ -87,6 +108,7 @@ OfdmSensing::OfdmSensing(const std::string& name, const SensingConfig& config, c
   check(name, config, waveform, arrays);
   const RadarSignalConfig signal = signal_of(config, waveform);
   maps_ = std::make_unique<RadarMaps>(signal);
+  noise_left_ = noise_left_of(maps_->doppler_window(), waveform.symbols, config.remove_static);
   if (!config.detections) return;
   cfar_ = std::make_unique<Cfar>(config.cfar, maps_->range_window(), maps_->doppler_window(),
                                  static_cast<uint32_t>(arrays.pairs()));
@@ -188,6 +210,23 @@ void OfdmSensing::remove_mean(uint32_t threads, std::span<std::complex<float>> c
   });
 }
 
+/// Returns the map with equal noise in all bins, for CFAR. What the removal of the mean has emptied is filled
+/// with the mean of the nearest bins on both sides, so that it does not count as a lack of noise there.
+std::vector<float> OfdmSensing::whitened(std::span<const float> map) const {
+  std::vector<float> result(map.begin(), map.end());
+  const uint32_t bins = waveform_.symbols;
+  const auto kept_from = [&](uint32_t bin, uint32_t step) {
+    while (noise_left_[bin] < least_noise_left) bin = (bin + step) % bins;
+    return bin;
+  };
+  for (size_t first = 0; first < map.size(); first += bins)
+    for (uint32_t bin = 0; bin < bins; ++bin) {
+      const auto white = [&](uint32_t at) { return map[first + at] / static_cast<float>(noise_left_[at]); };
+      result[first + bin] = 0.5f * (white(kept_from(bin, 1)) + white(kept_from(bin, bins - 1)));
+    }
+  return result;
+}
+
 SensingFrame OfdmSensing::process(const SensingInput& input, uint32_t threads) const {
   const size_t plane = size_t{waveform_.symbols} * waveform_.subcarriers;
   GREATX_CHECK(input.h.size() == arrays_.pairs() * plane, "{} values of H, {} needed", input.h.size(),
@@ -204,12 +243,13 @@ SensingFrame OfdmSensing::process(const SensingInput& input, uint32_t threads) c
   const std::vector<std::complex<float>> spectrum = maps_->spectrum(cube, threads);
   frame.range_doppler = maps_->range_doppler(spectrum, threads);
   if (config_.detections) {
-    std::vector<CfarPeak> peaks = cfar_->peaks(frame.range_doppler, threads);
-    maker_->drop_sidelobes(peaks, frame.range_doppler);
+    const std::vector<float> white = whitened(frame.range_doppler);
+    std::vector<CfarPeak> peaks = cfar_->peaks(white, threads);
+    std::erase_if(peaks, [&](const CfarPeak& p) { return noise_left_[p.velocity] < least_noise_left; });
+    maker_->drop_sidelobes(peaks, white);
     frame.detections.resize(peaks.size());
-    parallel_for(peaks.size(), threads, [&](size_t i) {
-      frame.detections[i] = detection(peaks[i], frame.range_doppler, spectrum, input);
-    });
+    parallel_for(peaks.size(), threads,
+                 [&](size_t i) { frame.detections[i] = detection(peaks[i], white, spectrum, input); });
   }
   if (!config_.range_doppler) frame.range_doppler.clear();
   return frame;

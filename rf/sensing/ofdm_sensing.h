@@ -114,6 +114,7 @@ class OfdmSensing {
   void add_leakage(const RadarSeeds& seeds, std::span<std::complex<float>> cube) const;
   uint64_t convert(const RadarSeeds& seeds, uint32_t threads, std::span<std::complex<float>> cube) const;
   void remove_mean(uint32_t threads, std::span<std::complex<float>> cube) const;
+  std::vector<float> whitened(std::span<const float> map) const;
   SensingDetection detection(const CfarPeak& peak, std::span<const float> map,
                              std::span<const std::complex<float>> spectrum, const SensingInput& input) const;
   Direction direction_of(const CfarPeak& peak, std::span<const std::complex<float>> spectrum) const;
@@ -126,6 +127,8 @@ class OfdmSensing {
   std::unique_ptr<Cfar> cfar_;
   std::unique_ptr<DetectionMaker> maker_;
   std::unique_ptr<DirectionFinder> finder_;
+  /// [velocities] share of the noise that the removal of the mean leaves in a bin; all 1 without it.
+  std::vector<double> noise_left_;
 };
 
 }  // namespace greatx::rf

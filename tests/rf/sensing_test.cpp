@@ -133,6 +133,29 @@ TEST(OfdmSensing, TheStaticMeanTakesWhatStandsStill) {
   EXPECT_THAT(instances(false), ::testing::Contains(std::pair(60l, 0u)));
 }
 
+/// The notch at rest is no lack of noise: there are no more false alarms beside it than elsewhere.
+TEST(OfdmSensing, FalseAlarmsAreAsRareBesideTheNotch) {
+  const SensingArrays many{{dvec3(0.0)}, std::vector<dvec3>(16, dvec3(0.0)), 1, 1, false};
+  for (const RadarWindow window : {RadarWindow::hann, RadarWindow::rectangular, RadarWindow::taylor}) {
+    SensingConfig config = noisy();
+    config.doppler_window = window;
+    config.cfar.false_alarm = 1e-4;
+    const OfdmSensing sensing("csi", config, waveform, many);
+    const std::vector<std::complex<float>> silence(16 * size_t{waveform.subcarriers} * waveform.symbols);
+    size_t near = 0, all = 0;
+    constexpr int bursts = 12;
+    for (uint32_t burst = 0; burst < bursts; ++burst)
+      for (const SensingDetection& d : sensing.process({silence, {}, {7, 21, burst}, {}, dvec3(0.0)}).detections) {
+        ++all;
+        near += std::abs(doppler_turns(d.velocity_bin, waveform.symbols)) <= 6;
+      }
+    // 24576 cells each; a cell of three that exceed the threshold side by side is one detection.
+    EXPECT_LT(all, 24576 * bursts * 1e-4 * 1.3);
+    EXPECT_GT(all, 24576 * bursts * 1e-4 * 0.2);
+    EXPECT_LT(double(near), std::max(8.0, 2.0 * double(all) * 13.0 / 64.0));
+  }
+}
+
 TEST(OfdmSensing, LeakageIsAToneAtItsDelay) {
   const SensingArrays one;
   SensingConfig config = noisy();
