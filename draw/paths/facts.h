@@ -56,8 +56,8 @@ double gain_db(double gain);
 std::string chain_of(const rf::Path& path);
 char letter_of(rf::InteractionType type);
 
-/// Returns the kind of a path: the first of target, scattering, diffraction, transmission and reflection that occurs
-/// in its interactions, or none for the line of sight.
+/// Returns the kind of a path: the first of target, scattering, diffraction, transmission and reflection that
+/// occurs in its interactions, or none for the line of sight.
 rf::InteractionType kind_of(const rf::Path& path);
 inline constexpr std::array<rf::InteractionType, 6> path_kinds = {
     rf::InteractionType::none,        rf::InteractionType::reflection, rf::InteractionType::transmission,

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws what a channel senses: power over range and velocity, its detections, and where its targets truly are.
+// Draws what a channel senses: power over range and velocity, its detections, and where its targets truly
+// are.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +17,8 @@ constexpr size_t most_targets = 10'000;
 double dbm_of(float watt) { return watt > 0.0f ? 10.0 * std::log10(double{watt}) + 30.0 : -400.0; }
 
 /// Shows the map of receiver 0 and transmitter 0. Detections are circles, red if they belong to a target.
-/// Crosses with names are the truth, wrapped into the spans of the waveform; a target without an echo is grey.
+/// Crosses with names are the truth, wrapped into the spans of the waveform; a target without an echo is
+/// grey.
 class SensingPanel : public FramePanel {
  public:
   explicit SensingPanel(const PanelSource& source) : source_(source) {
@@ -64,7 +66,8 @@ class SensingPanel : public FramePanel {
       canvas.line(at.x + 4, at.y, at.x + 12, at.y, 1.6, cross);
       canvas.line(at.x, at.y - 12, at.x, at.y - 4, 1.6, cross);
       canvas.line(at.x, at.y + 4, at.x, at.y + 12, 1.6, cross);
-      canvas.text(static_cast<int>(at.x) + 12, static_cast<int>(at.y) - 18, mark.name, theme::text_scale, cross);
+      canvas.text(static_cast<int>(at.x) + 12, static_cast<int>(at.y) - 18, mark.name, theme::text_scale,
+                  cross);
     }
     canvas.unclip();
     draw_color_bar(canvas, legend, scale_, viridis, "dBm");
@@ -75,14 +78,17 @@ class SensingPanel : public FramePanel {
     const std::optional<RasterCell> cell = cell_at(picture, velocities_, shown, x, y);
     if (!cell) return {};
     const int range = shown - 1 - cell->row;
-    std::string text = fmt::format("{:.2f} m, {:.2f} m/s: {:.1f} dBm", range * range_bin_m_,
-                                   velocity_min_ + cell->column * velocity_bin_, level(row, range, cell->column));
+    std::string text =
+        fmt::format("{:.2f} m, {:.2f} m/s: {:.1f} dBm", range * range_bin_m_,
+                    velocity_min_ + cell->column * velocity_bin_, level(row, range, cell->column));
     for (const Mark& mark : marks_[row]) {
       const dvec2 at = place(picture, mark.range_m, mark.velocity);
       if (std::hypot(x + 0.5 - at.x, y + 0.5 - at.y) > 7.0) continue;
       text += fmt::format("\n{}: {:.2f} m, {:.2f} m/s{}", mark.truth ? mark.name : "detection", mark.range_m,
                           mark.velocity,
-                          mark.truth ? "" : mark.strong ? ", " + names.instance(mark.instance) : ", of no target");
+                          mark.truth    ? ""
+                          : mark.strong ? ", " + names.instance(mark.instance)
+                                        : ", of no target");
     }
     return text;
   }
@@ -119,8 +125,11 @@ class SensingPanel : public FramePanel {
     std::vector<Mark>& marks = marks_.emplace_back();
     if (source_.has("target_range") && !names_.empty()) {
       const auto count = static_cast<int64_t>(names_.size());
-      const auto truth = [&](const char* name) { return source_.load(row, name, {DType::f64}, {0, 0, count}); };
-      const Array range = truth("target_range"), velocity = truth("target_velocity"), power = truth("target_power");
+      const auto truth = [&](const char* name) {
+        return source_.load(row, name, {DType::f64}, {0, 0, count});
+      };
+      const Array range = truth("target_range"), velocity = truth("target_velocity"),
+                  power = truth("target_power");
       for (size_t i = 0; i < names_.size(); ++i)
         marks.push_back({wrapped(range.as<double>()[i], 0.0, static_cast<double>(ranges_) * range_bin_m_),
                          wrapped(velocity.as<double>()[i], velocity_min_,
@@ -129,14 +138,15 @@ class SensingPanel : public FramePanel {
     }
     if (source_.has("detection_range")) {
       const auto column = [&](const char* name, DType type) { return source_.load(row, name, {type}, {-1}); };
-      const Array range = column("detection_range", DType::f32), velocity = column("detection_velocity", DType::f32),
+      const Array range = column("detection_range", DType::f32),
+                  velocity = column("detection_velocity", DType::f32),
                   rx = column("detection_rx", DType::i32), tx = column("detection_tx", DType::i32),
                   instance = column("detection_instance", DType::u32);
       expect_same_rows(source_, {&range, &velocity, &rx, &tx, &instance});
       for (size_t i = 0; i < range.as<float>().size(); ++i)
         if (rx.as<int32_t>()[i] == 0 && tx.as<int32_t>()[i] == 0)
-          marks.push_back({range.as<float>()[i], velocity.as<float>()[i], false, instance.as<uint32_t>()[i] != 0,
-                           instance.as<uint32_t>()[i], ""});
+          marks.push_back({range.as<float>()[i], velocity.as<float>()[i], false,
+                           instance.as<uint32_t>()[i] != 0, instance.as<uint32_t>()[i], ""});
     }
     for (const Mark& mark : marks)
       if (mark.strong) farthest_m_ = std::max(farthest_m_, mark.range_m);

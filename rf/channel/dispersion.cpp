@@ -56,12 +56,13 @@ TransferSpectrum Dispersion::echo_spectrum(const TargetEcho& echo, const FacetWo
 }
 
 TransferSpectrum Dispersion::spectrum(const Path& path, const FacetWorld& world) const {
-  if (path.echo) return echo_spectrum(*path.echo, world);
+  if (path.echo && path.echo->has_legs()) return echo_spectrum(*path.echo, world);
   const GeometricPath geometry{path.interactions,  path.vertices,       path.length_m,     path.foliage_m,
                                path.patch_area_m2, path.edges_diffract, path.from_receiver};
   TransferSpectrum spectrum(subcarriers_.size());
-  // The line of sight in air that attenuates nothing is the same at every frequency.
-  if (path.interactions.empty() && path.foliage_m == 0.0 && carrier_.attenuation.none()) {
+  // The line of sight in air that attenuates nothing is the same at every frequency. An echo of surfaces
+  // keeps the carrier's values.
+  if (path.echo || (path.interactions.empty() && path.foliage_m == 0.0 && carrier_.attenuation.none())) {
     for (auto& transfer : spectrum) std::copy_n(path.transfer, 4, transfer.begin());
     return spectrum;
   }

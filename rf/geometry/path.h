@@ -39,7 +39,7 @@ struct Interaction {
   InteractionType type = InteractionType::reflection;
   /// Facet (index into Scene::facets); for diffraction the wedge, for a target the instance.
   uint32_t element = 0;
-  uint32_t patch = 0;    ///< number of the scattering patch on the facet; 0 for other types
+  uint32_t patch = 0;  ///< number of the scattering patch on the facet; 0 for other types
   auto operator<=>(const Interaction&) const = default;
 };
 
@@ -111,6 +111,11 @@ struct TargetEcho {
   /// Scattering matrix of the target, m, as Path::transfer: field in (theta, phi) at the departure of `home`
   /// times the distance, per field in (theta, phi) at the arrival of `out`. 4 pi |S|^2 is a cross-section.
   Complex scatter[4]{};
+  /// [time samples] phase since the first sample, turns, where it does not turn evenly (rotors); empty: it
+  /// turns with the Doppler shift of the path. An echo of surfaces has no legs, and all its transfer in the
+  /// path.
+  std::vector<double> turns;
+  bool has_legs() const { return !out.vertices.empty(); }
 };
 
 }  // namespace greatx::rf

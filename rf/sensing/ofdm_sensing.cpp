@@ -56,18 +56,21 @@ void check(const std::string& name, const SensingConfig& config, const SensingWa
   const uint64_t range = uint64_t{config.cfar.guard_range} + config.cfar.train_range,
                  doppler = uint64_t{config.cfar.guard_doppler} + config.cfar.train_doppler;
   if (range >= w.subcarriers)
-    throw_user_error("channel '{}': sensing.cfar: expected guard and training cells within {} range bins "
-                     "(subcarriers), found {} on each side",
-                     name, w.subcarriers, range);
+    throw_user_error(
+        "channel '{}': sensing.cfar: expected guard and training cells within {} range bins "
+        "(subcarriers), found {} on each side",
+        name, w.subcarriers, range);
   if (2 * doppler + 1 > w.symbols)
-    throw_user_error("channel '{}': sensing.cfar: expected guard and training cells within {} velocity bins "
-                     "(time_samples), found {} on each side",
-                     name, w.symbols, doppler);
+    throw_user_error(
+        "channel '{}': sensing.cfar: expected guard and training cells within {} velocity bins "
+        "(time_samples), found {} on each side",
+        name, w.symbols, doppler);
   const size_t pairs = arrays.transmit_m.size() * arrays.receive_m.size();
   if (pairs > OfdmSensing::most_pairs)
-    throw_user_error("channel '{}': sensing: expected at most {} pairs of a transmitting and a receiving element, "
-                     "found {}",
-                     name, OfdmSensing::most_pairs, pairs);
+    throw_user_error(
+        "channel '{}': sensing: expected at most {} pairs of a transmitting and a receiving element, "
+        "found {}",
+        name, OfdmSensing::most_pairs, pairs);
 }
 
 double around(double value, double period) { return value - period * std::nearbyint(value / period); }
@@ -81,8 +84,9 @@ dvec3 middle_of(const std::vector<dvec3>& places) {
   return std::accumulate(places.begin(), places.end(), dvec3(0.0)) / double(places.size());
 }
 
-/// Returns the shares of white noise that remain in the bins when the weighted mean c = sum w n/sum w is removed.
-/// A bin is Y - c R, with the window's response R to a tone at rest; Y and c are correlated as the bins are.
+/// Returns the shares of white noise that remain in the bins when the weighted mean c = sum w n/sum w is
+/// removed. A bin is Y - c R, with the window's response R to a tone at rest; Y and c are correlated as the
+/// bins are.
 std::vector<double> noise_left_of(const Window& window, uint32_t bins, bool removed) {
   std::vector<double> left(bins, 1.0);
   if (!removed) return left;
@@ -102,8 +106,8 @@ std::vector<double> noise_left_of(const Window& window, uint32_t bins, bool remo
 
 }  // namespace
 
-OfdmSensing::OfdmSensing(const std::string& name, const SensingConfig& config, const SensingWaveform& waveform,
-                         const SensingArrays& arrays)
+OfdmSensing::OfdmSensing(const std::string& name, const SensingConfig& config,
+                         const SensingWaveform& waveform, const SensingArrays& arrays)
     : config_(config), waveform_(waveform), arrays_(arrays) {
   check(name, config, waveform, arrays);
   const RadarSignalConfig signal = signal_of(config, waveform);
@@ -139,16 +143,16 @@ void OfdmSensing::add_leakage(const RadarSeeds& seeds, std::span<std::complex<fl
     std::vector<std::complex<float>> row(subcarriers);
     for (size_t k = 0; k < subcarriers; ++k) {
       const double offset_hz = (double(k) - double(subcarriers / 2)) * waveform_.spacing_hz;
-      row[k] = std::complex<float>(
-          amplitude * unit_phasor(phase - turns_of(waveform_.carrier_hz + offset_hz, config_.leakage_delay_s)));
+      row[k] = std::complex<float>(amplitude * unit_phasor(phase - turns_of(waveform_.carrier_hz + offset_hz,
+                                                                            config_.leakage_delay_s)));
     }
     for (size_t m = 0; m < symbols; ++m)
       for (size_t k = 0; k < subcarriers; ++k) cube[(pair * symbols + m) * subcarriers + k] += row[k];
   }
 }
 
-/// Rounds the samples in time. The symbols carry random phases of a quarter turn, which the receiver knows and
-/// removes again; without them the signal of a few paths would be a pulse in time.
+/// Rounds the samples in time. The symbols carry random phases of a quarter turn, which the receiver knows
+/// and removes again; without them the signal of a few paths would be a pulse in time.
 uint64_t OfdmSensing::convert(const RadarSeeds& seeds, uint32_t threads,
                               std::span<std::complex<float>> cube) const {
   const uint32_t count = waveform_.subcarriers;
@@ -192,8 +196,9 @@ uint64_t OfdmSensing::convert(const RadarSeeds& seeds, uint32_t threads,
   return std::accumulate(saturated.begin(), saturated.end(), uint64_t{0});
 }
 
-/// The mean is weighted by the window over the symbols. What it takes from a moving target's tone, and leaves at
-/// rest in its place, is then as low as the window's sidelobes; that of a plain mean would be found as a ghost.
+/// The mean is weighted by the window over the symbols. What it takes from a moving target's tone, and leaves
+/// at rest in its place, is then as low as the window's sidelobes; that of a plain mean would be found as a
+/// ghost.
 void OfdmSensing::remove_mean(uint32_t threads, std::span<std::complex<float>> cube) const {
   const size_t symbols = waveform_.symbols, subcarriers = waveform_.subcarriers;
   const std::vector<float>& weights = maps_->doppler_window().values();
@@ -264,8 +269,8 @@ double OfdmSensing::response(const SensingTone& tone, uint32_t range_bin, uint32
   if (std::abs(range_off) > reach_bins || std::abs(velocity_off) > reach_bins) return 0.0;
   std::complex<double> of_velocity = maps_->doppler_window().response(velocity_off);
   if (config_.remove_static)
-    of_velocity -= maps_->doppler_window().response(around(turns, velocities)) *
-                   maps_->doppler_window().response(-bin);
+    of_velocity -=
+        maps_->doppler_window().response(around(turns, velocities)) * maps_->doppler_window().response(-bin);
   return maps_->range_window().power(range_off) * std::norm(of_velocity);
 }
 
@@ -280,7 +285,8 @@ uint32_t OfdmSensing::instance_of(const CfarPeak& peak, std::span<const SensingT
   return best;
 }
 
-Direction OfdmSensing::direction_of(const CfarPeak& peak, std::span<const std::complex<float>> spectrum) const {
+Direction OfdmSensing::direction_of(const CfarPeak& peak,
+                                    std::span<const std::complex<float>> spectrum) const {
   const size_t plane = size_t{waveform_.symbols} * waveform_.subcarriers;
   const size_t cell = size_t{peak.range} * waveform_.symbols + peak.velocity;
   const size_t tx_ports = arrays_.transmit_ports();
@@ -293,8 +299,8 @@ Direction OfdmSensing::direction_of(const CfarPeak& peak, std::span<const std::c
       double power = 0.0;
       for (size_t r = 0; r < arrays_.receive_m.size(); ++r)
         for (size_t t = 0; t < arrays_.transmit_m.size(); ++t) {
-          const size_t pair = (r * arrays_.receive_polarizations + q) * tx_ports +
-                              t * arrays_.transmit_polarizations + p;
+          const size_t pair =
+              (r * arrays_.receive_polarizations + q) * tx_ports + t * arrays_.transmit_polarizations + p;
           snapshot.emplace_back(spectrum[pair * plane + cell]);
           power += std::norm(snapshot.back());
         }
@@ -311,8 +317,8 @@ SensingDetection OfdmSensing::detection(const CfarPeak& peak, std::span<const fl
     return std::max(0.0, map[size_t{range % ranges} * velocities + velocity % velocities] - peak.noise_w);
   };
   const double here = power(peak.range, peak.velocity);
-  const double range_off = maps_->range_window().peak_offset(power(peak.range + ranges - 1, peak.velocity), here,
-                                                             power(peak.range + 1, peak.velocity));
+  const double range_off = maps_->range_window().peak_offset(power(peak.range + ranges - 1, peak.velocity),
+                                                             here, power(peak.range + 1, peak.velocity));
   const double velocity_off = maps_->doppler_window().peak_offset(
       power(peak.range, peak.velocity + velocities - 1), here, power(peak.range, peak.velocity + 1));
   SensingDetection result;

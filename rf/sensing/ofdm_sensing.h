@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Turns the frequency responses of a burst of OFDM symbols into range-Doppler maps and detections
-// (docs/sensing.md; C. Sturm, W. Wiesbeck, "Waveform design and signal processing aspects for fusion of wireless
-// communications and radar sensing", Proc. IEEE 99(7), 2011):
+// (docs/sensing.md; C. Sturm, W. Wiesbeck, "Waveform design and signal processing aspects for fusion of
+// wireless communications and radar sensing", Proc. IEEE 99(7), 2011):
 //
 //   H(f, t) x sqrt(P) + leakage ─► noise ─► converter (in time, with random symbols) ─► less the static mean
 //     ─► windows, transforms ─► power over range and velocity ─► CFAR ─► detections
 //
-// Maps, CFAR and directions are those of rf/radar/signal: conj(H) over subcarriers and symbols is a beat signal
-// over samples and chirps.
+// Maps, CFAR and directions are those of rf/radar/signal: conj(H) over subcarriers and symbols is a beat
+// signal over samples and chirps.
 #pragma once
 
 #include <complex>
@@ -76,8 +76,8 @@ struct SensingDetection {
   double velocity_m_s = 0.0;  ///< rate of the range, positive receding, in [-v_max, v_max)
   double azimuth = 0.0, elevation = 0.0;  ///< rad, in the frame of the receiving array
   dvec3 position_m{0.0};                  ///< in the same frame, from the range and both angles
-  double snr = 0.0;      ///< (power of the cell - noise)/noise
-  double power_w = 0.0;  ///< received in a pair of ports, mean, corrected for the windows' scalloping
+  double snr = 0.0;                       ///< (power of the cell - noise)/noise
+  double power_w = 0.0;   ///< received in a pair of ports, mean, corrected for the windows' scalloping
   uint32_t instance = 0;  ///< index + 1; 0: no target accounts for it
   uint32_t range_bin = 0, velocity_bin = 0;
 };
@@ -92,8 +92,8 @@ class OfdmSensing {
  public:
   /// The most pairs of a transmitting and a receiving element whose directions are searched.
   static constexpr size_t most_pairs = 1024;
-  /// `name` is that of the channel, for messages. Throws UserError if the CFAR's cells do not fit the map, or if
-  /// there are too many pairs of elements.
+  /// `name` is that of the channel, for messages. Throws UserError if the CFAR's cells do not fit the map, or
+  /// if there are too many pairs of elements.
   OfdmSensing(const std::string& name, const SensingConfig& config, const SensingWaveform& waveform,
               const SensingArrays& arrays);
 

@@ -16,13 +16,13 @@ namespace greatx::rf {
 /// direction to source and receiver. A bistatic table has two.
 ///
 /// Each entry of S is interpolated linearly, as a complex amplitude, over all two or four angles. The error
-/// is at most the sum over the angles of (step^2 max|d^2 S/d angle^2|)/8, as for rf::PatternTable. S of a body
-/// of length L turns by up to 2 k L a radian (k = 2 pi/wavelength), so that amplitudes with phases need steps
-/// well below wavelength/(2 L) rad; tables of cross-sections alone (without phases) need no such steps.
+/// is at most the sum over the angles of (step^2 max|d^2 S/d angle^2|)/8, as for rf::PatternTable. S of a
+/// body of length L turns by up to 2 k L a radian (k = 2 pi/wavelength), so that amplitudes with phases need
+/// steps well below wavelength/(2 L) rad; tables of cross-sections alone (without phases) need no such steps.
 ///
 /// A monostatic table serves a bistatic aspect by the direction halfway between source and receiver (R. E.
-/// Kell, "On the derivation of bistatic RCS from monostatic measurements", Proc. IEEE 53(8), 1965). This holds
-/// for small bistatic angles of bodies without shadowing.
+/// Kell, "On the derivation of bistatic RCS from monostatic measurements", Proc. IEEE 53(8), 1965). This
+/// holds for small bistatic angles of bodies without shadowing.
 class RcsTable : public TargetModel {
  public:
   struct Grid {

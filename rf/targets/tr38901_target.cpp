@@ -18,7 +18,7 @@ namespace {
 struct Face {
   double phi_center, phi_3db;  ///< phi_3db = 0: the same at all azimuths
   double theta_center, theta_3db;
-  double most_dbsm;    ///< G_max
+  double most_dbsm;     ///< G_max
   double most_fall_db;  ///< sigma_max
 };
 

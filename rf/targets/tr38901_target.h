@@ -21,10 +21,10 @@ inline constexpr std::array<std::string_view, 6> tr38901_kinds = {"uav_small", "
 
 /// Holds the spread of sigma_S and the cross-polarization ratio of a kind, dB.
 struct Tr38901Spread {
-  double small_scale_db;                  ///< standard deviation of 10 lg sigma_S
-  double xpr_mean_db, xpr_deviation_db;   ///< of 10 lg kappa
-  double small_scale_mean_db() const;     ///< -(ln 10/20) small_scale_db^2 (eq. 7.9.2-1)
-  double small_scale_most_db() const;     ///< mean + 3 deviations, where the draw ends (eq. 7.9.4-1)
+  double small_scale_db;                 ///< standard deviation of 10 lg sigma_S
+  double xpr_mean_db, xpr_deviation_db;  ///< of 10 lg kappa
+  double small_scale_mean_db() const;    ///< -(ln 10/20) small_scale_db^2 (eq. 7.9.2-1)
+  double small_scale_most_db() const;    ///< mean + 3 deviations, where the draw ends (eq. 7.9.4-1)
 };
 Tr38901Spread tr38901_spread(Tr38901Kind kind);
 
@@ -39,7 +39,8 @@ double tr38901_pattern_dbsm(Tr38901Kind kind, const Aspect& aspect);
 class Tr38901Target : public TargetModel {
  public:
   /// `number` tells the targets of a channel apart.
-  Tr38901Target(Tr38901Kind kind, uint64_t seed, uint64_t number) : kind_(kind), seed_(seed), number_(number) {}
+  Tr38901Target(Tr38901Kind kind, uint64_t seed, uint64_t number)
+      : kind_(kind), seed_(seed), number_(number) {}
   ScatterMatrix scatter(const Aspect& aspect, const EchoKey& key) const override;
   /// Returns the drawn 10 lg sigma_S of a pair of legs, dB.
   double small_scale_db(const EchoKey& key) const;

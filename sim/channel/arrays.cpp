@@ -51,6 +51,9 @@ nlohmann::json describe_targets(const Experiment& experiment, const ChannelConfi
                         {"instance", target_instance(experiment, target) + 1}};
     if (const auto* kind = std::get_if<rf::Tr38901Kind>(&target.model))
       json["tr38901"] = rf::tr38901_kinds[static_cast<size_t>(*kind)];
+    else if (const auto* tubes = std::get_if<TargetTubes>(&target.model))
+      json["tubes"] = {
+          {"width_m", tubes->tube_m}, {"budget", tubes->budget}, {"max_bounces", tubes->max_bounces}};
     else {
       const rf::RcsTable& table = *std::get<std::shared_ptr<const rf::RcsTable>>(target.model);
       json["table"] = table.name();
@@ -71,8 +74,8 @@ Array filled(const Column<View>& column, std::vector<int64_t> leading, std::span
   return array;
 }
 
-/// Adds the echoes among `paths` to a block of a link that was solved element by element, whose own paths they
-/// are not. Targets are seen from the arrays' origins.
+/// Adds the echoes among `paths` to a block of a link that was solved element by element, whose own paths
+/// they are not. Targets are seen from the arrays' origins.
 void add_echoes_to(const PortBlock& block, std::span<const rf::Path> paths, const rf::FacetWorld& world,
                    const LinkEnds& ends, std::span<std::complex<float>> out) {
   std::vector<rf::Path> echoes;
@@ -280,13 +283,16 @@ std::vector<Array> ChannelSensor::arrays_of(const Results& results, uint32_t slo
 
 void ChannelSensor::add_sensed(const Results& results, uint32_t slot, std::vector<Array>& arrays) const {
   const size_t transmitters = results.size(), receivers = results[0].links.size();
-  const auto rx_ports = static_cast<size_t>(columns_.rx_ports), tx_ports = static_cast<size_t>(columns_.tx_ports);
+  const auto rx_ports = static_cast<size_t>(columns_.rx_ports),
+             tx_ports = static_cast<size_t>(columns_.tx_ports);
   Array own;
-  if (!config_.outputs.cfr) own = block_of(cfr_block(grid_, dispersion_ ? &*dispersion_ : nullptr), results, slot);
+  if (!config_.outputs.cfr)
+    own = block_of(cfr_block(grid_, dispersion_ ? &*dispersion_ : nullptr), results, slot);
   const std::span<const std::complex<float>> all =
       std::as_const(config_.outputs.cfr ? arrays[0] : own).as<std::complex<float>>();
   const size_t row = tx_ports * grid_.size_per_pair();
-  std::vector<std::vector<std::complex<float>>> gathered;  // with several transmitters a link is not contiguous
+  std::vector<std::vector<std::complex<float>>>
+      gathered;  // with several transmitters a link is not contiguous
   std::vector<SensedLink> links;
   for (size_t r = 0; r < receivers; ++r)
     for (size_t t = 0; t < transmitters; ++t) {
@@ -302,7 +308,8 @@ void ChannelSensor::add_sensed(const Results& results, uint32_t slot, std::vecto
     links.push_back({gathered[index], results[t].links[r].paths, std::move(ends.transmitter),
                      std::move(ends.receiver), results[t].transmitter, results[t].links[r].receiver});
   }
-  const std::span<const TargetState> targets = targets_ ? std::span(targets_->states()) : std::span<const TargetState>();
+  const std::span<const TargetState> targets =
+      targets_ ? std::span(targets_->states()) : std::span<const TargetState>();
   for (Array& array : sensing_->arrays_of(links, targets, moments_[slot].sequence, moments_[slot].tick))
     arrays.push_back(std::move(array));
 }

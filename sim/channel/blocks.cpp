@@ -30,9 +30,9 @@ rf::TapGrid tap_grid(const ChannelConfig& config, const rf::ChannelGrid& grid) {
 }
 
 PortBlock cfr_block(const rf::ChannelGrid& grid, const rf::Dispersion* dispersion) {
-  return response_block("cfr",
-                        "[rx, rx_ant, tx, tx_ant, time, subcarrier] H(f) at carrier + (k - floor(N/2)) * spacing",
-                        grid, dispersion, rf::PathSelection::all);
+  return response_block(
+      "cfr", "[rx, rx_ant, tx, tx_ant, time, subcarrier] H(f) at carrier + (k - floor(N/2)) * spacing", grid,
+      dispersion, rf::PathSelection::all);
 }
 
 std::vector<PortBlock> port_blocks(const ChannelConfig& config, const rf::ChannelGrid& grid,

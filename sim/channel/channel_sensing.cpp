@@ -18,7 +18,8 @@ namespace greatx::sim {
 
 namespace {
 
-double dbm_of(double power_w) { return 10.0 * std::log10(power_w) + 30.0; }
+/// Returns dBm, which are finite for any power.
+double dbm_of(double power_w) { return 10.0 * std::log10(std::max(power_w, 1e-300)) + 30.0; }
 
 std::vector<dvec3> places_of(const rf::AntennaArray& array) {
   std::vector<dvec3> places;
@@ -43,7 +44,7 @@ constexpr DetectionColumn detection_columns[] = {
     {"detection_elevation", "rad", "[detection] above the x-y plane of the receiving antenna",
      [](const rf::SensingDetection& d) { return d.elevation; }},
     {"detection_snr", "dB", "[detection] signal to noise in its cell of the map",
-     [](const rf::SensingDetection& d) { return decibels(d.snr); }},
+     [](const rf::SensingDetection& d) { return decibels(std::max(d.snr, 1e-300)); }},
     {"detection_power", "dBm", "[detection] received by a pair of ports, mean",
      [](const rf::SensingDetection& d) { return dbm_of(d.power_w); }},
 };
@@ -68,7 +69,8 @@ constexpr TruthColumn truth_columns[] = {
     {"target_azimuth", "rad", "[rx, tx, target] of the centre, from x towards y of the receiving antenna"},
     {"target_elevation", "rad", "[rx, tx, target] above the x-y plane of the receiving antenna"},
     {"target_power", "dBm", "[rx, tx, target] of its echoes, a pair of ports, mean; -inf: none"},
-    {"target_snr", "dB", "[rx, tx, target] of the same power in the middle of a cell; -inf: none; inf: no noise"},
+    {"target_snr", "dB",
+     "[rx, tx, target] of the same power in the middle of a cell; -inf: none; inf: no noise"},
 };
 
 }  // namespace
@@ -93,7 +95,11 @@ ChannelSensing::ChannelSensing(const Experiment& experiment, const ChannelConfig
       const rf::SensingArrays arrays{places_of(transmitters[t]), places_of(receivers[r]),
                                      transmitters[t].polarization_count(), receivers[r].polarization_count(),
                                      config.transmitters[t] == config.receivers[r]};
-      links_.push_back(std::make_unique<rf::OfdmSensing>(config.name, config_, waveform, arrays));
+      try {
+        links_.push_back(std::make_unique<rf::OfdmSensing>(config.name, config_, waveform, arrays));
+      } catch (const UserError& error) {
+        throw_user_error_at(config.where, "{}", error.what());
+      }
     }
 }
 
@@ -106,8 +112,8 @@ void ChannelSensing::describe(SensorSpec& spec) const {
   const auto rx = static_cast<int64_t>(receivers_), tx = static_cast<int64_t>(transmitters_);
   if (config_.range_doppler) {
     require_within(fmt::format("channel '{}': range_doppler", name_),
-                   saturating_product({receivers_, transmitters_, axes.range_m.size(), axes.velocity_m_s.size(),
-                                       sizeof(float)}),
+                   saturating_product({receivers_, transmitters_, axes.range_m.size(),
+                                       axes.velocity_m_s.size(), sizeof(float)}),
                    budget::channel_record);
     add({"range_doppler",
          DType::f32,
@@ -123,7 +129,10 @@ void ChannelSensing::describe(SensorSpec& spec) const {
       add({column.name, DType::f32, {-1}, column.unit, column.text}, FileFormat::npy_ragged);
     add({"detection_position", DType::f32, {-1, 3}, "m", "[detection, xyz] in the receiving antenna's frame"},
         FileFormat::npy_ragged);
-    add({"detection_instance", DType::u32, {-1}, "1",
+    add({"detection_instance",
+         DType::u32,
+         {-1},
+         "1",
          "[detection] index into instances + 1 of the target; 0: none accounts for it"},
         FileFormat::npy_ragged);
   }
@@ -132,7 +141,10 @@ void ChannelSensing::describe(SensorSpec& spec) const {
     add({column.name, DType::f64, {rx, tx, static_cast<int64_t>(targets_)}, column.unit, column.text},
         FileFormat::npy_stack);
   if (config_.detections)
-    add({"target_detected", DType::u8, {rx, tx, static_cast<int64_t>(targets_)}, "1",
+    add({"target_detected",
+         DType::u8,
+         {rx, tx, static_cast<int64_t>(targets_)},
+         "1",
          "[rx, tx, target] 1: a detection belongs to it"},
         FileFormat::npy_stack);
 }
@@ -152,7 +164,8 @@ void ChannelSensing::describe(nlohmann::json& metadata) const {
                       {"clutter_removal", config_.remove_static ? "static_mean" : "none"},
                       {"sign", "velocities are rates of range, positive receding"},
                       {"frame", "x forward, y left, z up"}};
-  if (config_.leakage_db) json["leakage"] = {{"level_db", *config_.leakage_db}, {"delay_s", config_.leakage_delay_s}};
+  if (config_.leakage_db)
+    json["leakage"] = {{"level_db", *config_.leakage_db}, {"delay_s", config_.leakage_delay_s}};
   metadata["sensing"] = std::move(json);
   if (targets_ > 0) {
     metadata["non_finite"].push_back("target_power");
@@ -241,8 +254,8 @@ std::vector<Array> ChannelSensing::arrays_of(std::span<const SensedLink> links,
   const auto of_rx = static_cast<int64_t>(receivers_), of_tx = static_cast<int64_t>(transmitters_);
   std::vector<Array> arrays;
   if (config_.range_doppler)
-    arrays.push_back(
-        Array::of<float>({of_rx, of_tx, std::ssize(axes.range_m), std::ssize(axes.velocity_m_s)}, std::span<const float>(maps)));
+    arrays.push_back(Array::of<float>({of_rx, of_tx, std::ssize(axes.range_m), std::ssize(axes.velocity_m_s)},
+                                      std::span<const float>(maps)));
   if (config_.detections) {
     const int64_t count = std::ssize(detections);
     arrays.push_back(Array::of<int32_t>({count}, std::span<const int32_t>(rx)));
@@ -289,7 +302,8 @@ void ChannelSensing::warn(std::vector<std::string>& warnings) const {
   if (aliased_ == 0) return;
   const rf::SensingWaveform& w = links_[0]->waveform();
   warnings.push_back(fmt::format(
-      "channel '{}': {} echoes of targets alias: the farthest of them is at {:.1f} m and the fastest has {:.2f} "
+      "channel '{}': {} echoes of targets alias: the farthest of them is at {:.1f} m and the fastest has "
+      "{:.2f} "
       "m/s, but ranges are known up to multiples of {:.1f} m (c/(2 subcarrier_spacing_hz)) and velocities of "
       "{:.2f} m/s (wavelength/(2 time_spacing_s))",
       name_, aliased_, longest_range_m_, fastest_m_s_, w.range_span_m(), w.velocity_span_m_s()));

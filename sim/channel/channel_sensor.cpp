@@ -46,16 +46,16 @@ ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& cross
   for (uint32_t t = 0; t < config_.transmitters.size(); ++t)
     paths_.push_back(std::make_unique<ChannelPaths>(gpu_scene, crossings, experiment, radio_, channel,
                                                     channel_ends(experiment, channel, t)));
-  if (all_effects_built && experiment.plan.target_echoes.on && !config_.targets.empty())
-    targets_ = std::make_unique<ChannelTargets>(gpu_scene, crossings, experiment, radio_, channel);
   grid_ = channel_grid(config_, experiment.plan);
+  if (all_effects_built && experiment.plan.target_echoes.on && !config_.targets.empty())
+    targets_ = std::make_unique<ChannelTargets>(gpu_scene, crossings, experiment, radio_, channel, grid_);
   if (all_effects_built && experiment.plan.dispersion.on)
     dispersion_.emplace(experiment.scene(), radio_->model().field_model(), radio_->model().effects.weather,
                         grid_);
   if (all_effects_built && experiment.plan.every_element.on) find_near_links();
   if (all_effects_built && experiment.plan.sensing.on && config_.sensing)
-    sensing_ = std::make_unique<ChannelSensing>(experiment, config_, grid_, transmitter_arrays_, receiver_arrays_,
-                                                targets_ ? config_.targets.size() : 0);
+    sensing_ = std::make_unique<ChannelSensing>(experiment, config_, grid_, transmitter_arrays_,
+                                                receiver_arrays_, targets_ ? config_.targets.size() : 0);
   describe();
 }
 
@@ -132,7 +132,8 @@ std::vector<Array> ChannelSensor::collect(const gpu::TickSlot& slot) {
   if (targets_) {
     targets_->collect(slot);
     for (uint32_t t = 0; t < results.size(); ++t)
-      for (size_t r = 0; r < results[t].links.size(); ++r) targets_->add_echoes(t, r, results[t].links[r].paths);
+      for (size_t r = 0; r < results[t].links.size(); ++r)
+        targets_->add_echoes(t, r, results[t].links[r].paths);
   }
   for (NearLink& link : near_links_)
     if (link.recorded[slot.index]) {

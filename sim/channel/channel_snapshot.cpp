@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "sim/channel/blocks.h"
 #include "sim/plan/plan_options.h"
 
 namespace greatx::sim {
@@ -34,7 +35,9 @@ ChannelSnapshot::ChannelSnapshot(gpu::Device& device, const Experiment& experime
         std::make_unique<ChannelPaths>(gpu_scene_, crossings_, experiment, radio_, channel, std::move(ends)));
   }
   if (experiment.plan.target_echoes.on && !experiment.scenario.channels[channel].targets.empty())
-    targets_ = std::make_unique<ChannelTargets>(gpu_scene_, crossings_, experiment, radio_, channel);
+    targets_ = std::make_unique<ChannelTargets>(
+        gpu_scene_, crossings_, experiment, radio_, channel,
+        channel_grid(experiment.scenario.channels[channel], experiment.plan));
 }
 
 void ChannelSnapshot::move(uint32_t sequence, int64_t tick) {

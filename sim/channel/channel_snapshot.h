@@ -57,9 +57,9 @@ class ChannelSnapshot {
   using Take = std::function<bool(Link)>;
   /// Solves the links to the receivers of the channel.
   void solve(const Take& take);
-  /// Solves the links to points at rest in the world instead, without echoes of targets. `points_at_once` of them are in memory at a
-  /// time; the results do not depend on this number. `first` is the number of the first point in its list.
-  /// With `check`, points inside a solid are counted and reported.
+  /// Solves the links to points at rest in the world instead, without echoes of targets. `points_at_once` of
+  /// them are in memory at a time; the results do not depend on this number. `first` is the number of the
+  /// first point in its list. With `check`, points inside a solid are counted and reported.
   void solve(std::span<const dvec3> points, size_t first, const Take& take, bool check = true);
   static constexpr size_t points_at_once = 256;
 

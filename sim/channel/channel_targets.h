@@ -3,8 +3,8 @@
 //
 // Computes the echoes of a channel's targets, which are points at the centres of their bodies
 // (docs/targets.md). Every antenna of the channel has a ChannelPaths whose receivers are the targets: its
-// legs. An echo joins a leg of the transmitter and a reversed leg of the receiver; an antenna that hears itself
-// has one set of legs for both.
+// legs. An echo joins a leg of the transmitter and a reversed leg of the receiver; an antenna that hears
+// itself has one set of legs for both.
 #pragma once
 
 #include <array>
@@ -16,6 +16,7 @@
 
 #include "rf/targets/target_model.h"
 #include "sim/channel/channel_paths.h"
+#include "sim/channel/tube_echoes.h"
 
 namespace greatx::sim {
 
@@ -33,7 +34,7 @@ class ChannelTargets {
  public:
   /// The channel has targets. All arguments outlive this.
   ChannelTargets(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
-                 const std::shared_ptr<RadioWorld>& radio, uint32_t channel);
+                 const std::shared_ptr<RadioWorld>& radio, uint32_t channel, const rf::ChannelGrid& grid);
 
   void start(const TickContext& context);
   bool looks_ahead() const;
@@ -57,24 +58,27 @@ class ChannelTargets {
     ChannelEnd centre;
     uint32_t instance = 0;
     std::unique_ptr<const rf::TargetModel> own;  ///< null: `model` belongs to the scenario
-    const rf::TargetModel* model = nullptr;
+    const rf::TargetModel* model = nullptr;      ///< null: a target of tubes
   };
   struct End {
     std::unique_ptr<ChannelPaths> legs;
     uint32_t node = 0;
-    uint64_t number = 0;         ///< of its name, for draws
-    ChannelPaths::Result solved;  ///< [targets]
+    uint64_t number = 0;          ///< of its name, for draws
+    ChannelPaths::Result solved;  ///< [points_]
   };
   Target make_target(const TargetConfig& config, uint64_t seed) const;
-  size_t end_called(const std::string& name) const;
   bool touches_target(const rf::Path& path) const;
-  void add_echoes_of(size_t target, const End& from, const End& to, std::vector<rf::Path>& paths);
+  void make_legs(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings);
+  void make_tubes(scene::GpuScene& gpu_scene, const rf::ChannelGrid& grid);
+  void add_echoes_of(size_t point, const End& from, const End& to, std::vector<rf::Path>& paths);
 
   const Experiment& experiment_;
   std::shared_ptr<RadioWorld> radio_;
   ChannelConfig leg_config_;  ///< the channel's, with the limits of legs
   std::vector<Target> targets_;
-  std::vector<End> ends_;                      ///< every antenna of the channel once
+  std::vector<size_t> points_;                    ///< the targets that are points
+  std::unique_ptr<TubeEchoes> tubes_;             ///< null: there is no other target
+  std::vector<End> ends_;                         ///< every antenna of the channel once
   std::vector<size_t> transmitters_, receivers_;  ///< indices into ends_
   std::vector<TargetState> states_;
   std::array<std::vector<TargetState>, slots_in_flight> states_in_flight_;

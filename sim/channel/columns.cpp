@@ -168,10 +168,11 @@ std::vector<PathColumn> path_columns(const ColumnContext& context) {
       [](const PathView& view, uint64_t* out) { *out = view.path->id(); }));
   columns.push_back(of_path<double>("foliage", {}, "m", "[path] of its length inside foliage",
                                     [](const PathView& view, double* out) { *out = view.path->foliage_m; }));
-  columns.push_back(of_interactions(
-      "interaction", "[path, i] 0: none, 1: reflection, 2: transmission, 3: diffraction, 4: scattering, "
-      "5: target",
-      context, depth, &Where::type));
+  columns.push_back(
+      of_interactions("interaction",
+                      "[path, i] 0: none, 1: reflection, 2: transmission, 3: diffraction, 4: scattering, "
+                      "5: target",
+                      context, depth, &Where::type));
   columns.push_back(
       of_path<double>("vertex", {depth, 3}, "m", "[path, i, xyz] of each interaction, world; NaN: none",
                       [&context, depth](const PathView& view, double* out) {

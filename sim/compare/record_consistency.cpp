@@ -265,19 +265,18 @@ ErrorStatistics compare_sensing(const RecordView& channel, const RecordView& pos
   for (size_t i = 0; i < detections; ++i) {
     const auto r = static_cast<uint32_t>(rx.as<int32_t>()[i]), t = static_cast<uint32_t>(tx.as<int32_t>()[i]);
     if (r >= receivers || t >= transmitters)
-      throw_user_error("{}: detection {}: expected one of {} x {} links, found ({}, {})", channel.spec.name, i,
-                       receivers, transmitters, r, t);
+      throw_user_error("{}: detection {}: expected one of {} x {} links, found ({}, {})", channel.spec.name,
+                       i, receivers, transmitters, r, t);
     links.push_back(r * static_cast<uint32_t>(transmitters) + t);
   }
   ErrorStatistics errors;
   for (uint32_t link = 0; link < receivers * transmitters; ++link)
-    for (const auto& [id, i] :
-         strongest_of(instance.as<uint32_t>(), power.as<float>(), links, link, boxes)) {
+    for (const auto& [id, i] : strongest_of(instance.as<uint32_t>(), power.as<float>(), links, link, boxes)) {
       const InstanceBox& box = boxes[id - 1];
       const Pose pose = box.node ? nodes.after(*box.node, 0.0) : Pose();
       errors.add(outside(range.as<float>()[i],
-                         ranges(place("transmitters", link % transmitters), place("receivers", link / transmitters),
-                                pose, box.box),
+                         ranges(place("transmitters", link % transmitters),
+                                place("receivers", link / transmitters), pose, box.box),
                          sensing.at("range_span_m"), sensing.at("range_bin_m")));
     }
   return errors;

@@ -31,8 +31,8 @@ struct RadioAsks {
   size_t channels = 0;
   uint32_t max_depth = 0, walls = 0, time_samples = 1;
   bool every_tick = false, beams = false, rays = false;
-  size_t targets = 0;               ///< of all channels
-  size_t sensing = 0;               ///< channels that sense
+  size_t targets = 0;  ///< of all channels
+  size_t sensing = 0;  ///< channels that sense
   bool sensing_noise = false, sensing_adc = false, leakage = false;
   uint32_t segments = 1;            ///< the most segments of a path, echoes of targets included
   std::vector<double> carriers_hz;  ///< [channels]
@@ -61,7 +61,11 @@ RadioAsks radio_asks_of(const Scenario& scenario) {
       asks.leakage |= channel.sensing->leakage_db.has_value();
     }
     asks.segments = std::max(asks.segments, channel.limits.max_depth + 1);
-    if (!channel.targets.empty()) asks.segments = std::max(asks.segments, 2 * (channel.legs.max_depth + 1));
+    if (!channel.targets.empty()) {
+      asks.segments = std::max(asks.segments, 2 * (channel.legs.max_depth + 1));
+      asks.max_depth = std::max(asks.max_depth, channel.legs.max_depth);
+      asks.walls = std::max(asks.walls, std::min(channel.legs.max_transmissions, channel.legs.max_depth));
+    }
     asks.walls = std::max(asks.walls, channel.walls());
     asks.time_samples = std::max(asks.time_samples, channel.time_samples);
     asks.longest_record_s =

@@ -198,7 +198,7 @@ struct ChannelConfig {
   std::optional<Taps> taps;
   /// Power into each transmit port; none: there are no received powers, fields and voltages.
   std::optional<double> power_dbm;
-  double resistance_ohm = 50.0;  ///< resistance of each receive port
+  double resistance_ohm = 50.0;       ///< resistance of each receive port
   std::vector<TargetConfig> targets;  ///< each node once
   TargetLegs legs;                    ///< of echoes over targets
   std::optional<rf::SensingConfig> sensing;

@@ -15,10 +15,16 @@
 
 namespace greatx::sim {
 
+/// Describes a target that is computed from its surfaces (rf::TubeOptions).
+struct TargetTubes {
+  double tube_m = 0.03;
+  uint32_t budget = 16384, max_bounces = 3;
+};
+
 /// Describes one node whose model is a target.
 struct TargetConfig {
   uint32_t node = 0;  ///< index into Scenario::nodes; it has a model
-  std::variant<rf::Tr38901Kind, std::shared_ptr<const rf::RcsTable>> model;
+  std::variant<rf::Tr38901Kind, std::shared_ptr<const rf::RcsTable>, TargetTubes> model;
   SourceLocation where;
 };
 

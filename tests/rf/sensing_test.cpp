@@ -77,7 +77,8 @@ SensingConfig noisy(double figure_db = 7.0) {
 TEST(OfdmSensing, APointIsWhereItIs) {
   const SensingArrays one;
   const OfdmSensing sensing("csi", noisy(), waveform, one);
-  for (const auto& [range, velocity] : {std::pair{100.0, 12.0}, {33.3, -7.7}, {512.25, 15.0}, {250.0, -19.0}}) {
+  for (const auto& [range, velocity] :
+       {std::pair{100.0, 12.0}, {33.3, -7.7}, {512.25, 15.0}, {250.0, -19.0}}) {
     const Point point{range, velocity, 1e-9};
     const SensingFrame frame = frame_of(sensing, one, std::span(&point, 1));
     ASSERT_EQ(frame.detections.size(), 1u) << range;
@@ -145,7 +146,8 @@ TEST(OfdmSensing, FalseAlarmsAreAsRareBesideTheNotch) {
     size_t near = 0, all = 0;
     constexpr int bursts = 12;
     for (uint32_t burst = 0; burst < bursts; ++burst)
-      for (const SensingDetection& d : sensing.process({silence, {}, {7, 21, burst}, {}, dvec3(0.0)}).detections) {
+      for (const SensingDetection& d :
+           sensing.process({silence, {}, {7, 21, burst}, {}, dvec3(0.0)}).detections) {
         ++all;
         near += std::abs(doppler_turns(d.velocity_bin, waveform.symbols)) <= 6;
       }
@@ -200,7 +202,10 @@ TEST(OfdmSensing, AnArrayFindsTheDirection) {
   for (const bool monostatic : {true, false}) {
     panel.monostatic = monostatic;
     const double azimuth = 0.4, elevation = -0.25;
-    const Point point{80.0, 6.0, 1e-10, 2,
+    const Point point{80.0,
+                      6.0,
+                      1e-10,
+                      2,
                       {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
                        std::sin(elevation)}};
     const SensingFrame frame =
@@ -247,7 +252,8 @@ TEST(OfdmSensing, ThreadsChangeNoByte) {
 }
 
 TEST(OfdmSensing, BadInputIsRefused) {
-  const auto message = [](const SensingConfig& config, const SensingWaveform& w, const SensingArrays& arrays) {
+  const auto message = [](const SensingConfig& config, const SensingWaveform& w,
+                          const SensingArrays& arrays) {
     try {
       const OfdmSensing sensing("csi", config, w, arrays);
     } catch (const UserError& error) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests of targets as points: the radar equation through H, the frame of a target, the statistics of TR 38.901,
-// and tables.
+// Tests of targets as points: the radar equation through H, the frame of a target, the statistics of TR
+// 38.901, and tables.
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -43,7 +43,8 @@ Path free_leg(const dvec3& from, const dvec3& to) {
 
 /// Returns the vector that a matrix on the bases of two directions makes of an incident field vector.
 dvec3 scattered(const ScatterMatrix& s, const Aspect& aspect, const dvec3& incident) {
-  const double t = glm::dot(incident, theta_hat(aspect.to_source)), p = glm::dot(incident, phi_hat(aspect.to_source));
+  const double t = glm::dot(incident, theta_hat(aspect.to_source)),
+               p = glm::dot(incident, phi_hat(aspect.to_source));
   return (s[0] * t + s[1] * p).real() * theta_hat(aspect.to_receiver) +
          (s[2] * t + s[3] * p).real() * phi_hat(aspect.to_receiver);
 }
@@ -73,8 +74,9 @@ TEST(Targets, TheRadarEquationHoldsThroughH) {
       const std::vector<Complex> h =
           frequency_response_fp64(std::span(&echo, 1), antenna, antenna, {carrier_hz, 1e6, 1, 1, 0.0});
       const double lambda = speed_of_light / carrier_hz;
-      const double expected = lambda * lambda * sigma_m2 /
-                              (std::pow(4.0 * pi, 3) * std::pow(out.length_m, 2) * std::pow(home.length_m, 2));
+      const double expected =
+          lambda * lambda * sigma_m2 /
+          (std::pow(4.0 * pi, 3) * std::pow(out.length_m, 2) * std::pow(home.length_m, 2));
       EXPECT_NEAR(std::norm(h[0]) / expected, 1.0, 1e-9);
     }
 }
@@ -93,8 +95,8 @@ TEST(Targets, TheFrameOfATargetTurnsWithIt) {
   for (int i = 0; i < 200; ++i) {
     ScatterMatrix s;
     for (Complex& entry : s) entry = random.uniform(-1, 1);
-    const dquat orientation = orientation_from_yaw_pitch_roll(random.uniform(-3, 3), random.uniform(-1.5, 1.5),
-                                                              random.uniform(-3, 3));
+    const dquat orientation = orientation_from_yaw_pitch_roll(
+        random.uniform(-3, 3), random.uniform(-1.5, 1.5), random.uniform(-3, 3));
     const Aspect world{random_direction(random), random_direction(random)};
     const dvec3 incident = glm::cross(world.to_source, random_direction(random));  // any field across
     const ScatterMatrix turned = scatter_in_world(Constant(s), orientation, world, {});
@@ -223,8 +225,7 @@ TEST(TargetsTable, AMonostaticTableInterpolatesBetweenItsSamples) {
     EXPECT_NEAR(std::abs(s[3] + linear(theta, 0.0)), 0.0, 1e-14);
   }
   // A bistatic aspect uses the direction halfway.
-  const ScatterMatrix halfway =
-      table.scatter({direction_at(1.0, 2.0), direction_at(1.4, 2.0)}, {});
+  const ScatterMatrix halfway = table.scatter({direction_at(1.0, 2.0), direction_at(1.4, 2.0)}, {});
   EXPECT_NEAR(std::abs(halfway[0] - linear(1.2, 0.0)), 0.0, 1e-14);
 }
 
@@ -244,10 +245,9 @@ TEST(TargetsTable, ABistaticTableInterpolatesOverFourAngles) {
   const auto at = [&](double ti, double pi_deg, double to, double po_deg) {
     return table.scatter({direction_at(ti, radians(pi_deg)), direction_at(to, radians(po_deg))}, {})[0];
   };
-  EXPECT_NEAR(std::abs(at(pi / 3, -180.0 + 72.0, pi / 2, 45.0) - (linear(pi / 3, pi / 2) + 0.01 + 0.001)), 0.0,
-              1e-12);
-  EXPECT_NEAR(std::abs(at(1.0, -180.0 + 36.0, 2.0, 45.0 * 7.5) -
-                       (linear(1.0, 2.0) + 0.005 + 0.5 * 0.007)),
+  EXPECT_NEAR(std::abs(at(pi / 3, -180.0 + 72.0, pi / 2, 45.0) - (linear(pi / 3, pi / 2) + 0.01 + 0.001)),
+              0.0, 1e-12);
+  EXPECT_NEAR(std::abs(at(1.0, -180.0 + 36.0, 2.0, 45.0 * 7.5) - (linear(1.0, 2.0) + 0.005 + 0.5 * 0.007)),
               0.0, 1e-12);
 }
 

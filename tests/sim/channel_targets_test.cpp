@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs channels with targets: the radar equation through H, Doppler ellipses, legs over surfaces, reciprocity,
-// and what a channel senses.
+// Runs channels with targets: the radar equation through H, Doppler ellipses, legs over surfaces,
+// reciprocity, and what a channel senses.
 #include <cmath>
 #include <fstream>
 
@@ -18,10 +18,10 @@
 namespace greatx::sim {
 namespace {
 
-using ::testing::Each;
-using ::testing::HasSubstr;
 using test::keep_run;
 using test::KeptRun;
+using ::testing::Each;
+using ::testing::HasSubstr;
 using Complex = std::complex<double>;
 
 /// Returns a table of one cross-section for all directions.
@@ -48,19 +48,22 @@ class ChannelTargets : public ::testing::Test {
 const std::string still = "{type: static, position_m: [40, 30, 12]}";
 std::string line(const dvec3& from, const dvec3& velocity) {
   const dvec3 to = from + velocity;
-  return fmt::format("{{type: waypoints, interpolation: linear, points: [{{t_s: 0, position_m: [{}, {}, {}]}}, "
-                     "{{t_s: 1, position_m: [{}, {}, {}]}}]}}",
-                     from.x, from.y, from.z, to.x, to.y, to.z);
+  return fmt::format(
+      "{{type: waypoints, interpolation: linear, points: [{{t_s: 0, position_m: [{}, {}, {}]}}, "
+      "{{t_s: 1, position_m: [{}, {}, {}]}}]}}",
+      from.x, from.y, from.z, to.x, to.y, to.z);
 }
 
 /// Returns two masts and a drone. The centre of the drone's box is not its origin, which mounts make up for.
-std::string open_sky(const std::string& trajectory, const std::string& channel, const std::string& more = "") {
+std::string open_sky(const std::string& trajectory, const std::string& channel,
+                     const std::string& more = "") {
   return "greatx: 1\nname: test\nseed: 5\nticks: 3\ntick_rate_hz: 10\n"
          "nodes:\n"
          "  - name: bs\n    trajectory: {type: static, position_m: [0, 0, 10]}\n"
          "    sensors: [{name: a, type: antenna}, {name: row, type: antenna, columns: 4, polarization: vh}]\n"
          "  - name: far\n    trajectory: {type: static, position_m: [90, -20, 4]}\n"
-         "    sensors: [{name: a, type: antenna}, {name: pair, type: antenna, columns: 2, polarization: slant}]\n"
+         "    sensors: [{name: a, type: antenna}, {name: pair, type: antenna, columns: 2, polarization: "
+         "slant}]\n"
          "  - name: drone\n    trajectory: " +
          trajectory +
          "\n    model: {generate: {kind: quadrotor, variant: large}}\n"
@@ -82,8 +85,9 @@ dvec3 target_vertex(const KeptRun& run, size_t packet) {
 TEST_F(ChannelTargets, TheRadarEquationHoldsThroughH) {
   for (const double carrier_hz : {1e9, 3.5e9, 28e9, 77e9}) {
     const KeptRun one = run(open_sky(
-        still, fmt::format("tx: bs/a, rx: bs/a, carrier_hz: {}, targets: [{{nodes: drone, table: one.csv}}]",
-                           carrier_hz),
+        still,
+        fmt::format("tx: bs/a, rx: bs/a, carrier_hz: {}, targets: [{{nodes: drone, table: one.csv}}]",
+                    carrier_hz),
         "effects: {gas: off}\n"));
     const dvec3 place = target_vertex(one, 0);
     const double r = glm::distance(place, dvec3(0, 0, 10)), lambda = speed_of_light / carrier_hz;
@@ -122,7 +126,8 @@ TEST_F(ChannelTargets, DopplerShiftsFollowTheEllipse) {
     // The drone turns with its velocity and with it the centre of its box; the attitude is fixed here.
     const dvec3 to = from + velocity;
     const std::string trajectory = fmt::format(
-        "{{type: waypoints, interpolation: linear, points: [{{t_s: 0, position_m: [{}, {}, {}], rotation_deg: "
+        "{{type: waypoints, interpolation: linear, points: [{{t_s: 0, position_m: [{}, {}, {}], "
+        "rotation_deg: "
         "[0, 0, 0]}}, {{t_s: 1, position_m: [{}, {}, {}], rotation_deg: [0, 0, 0]}}]}}",
         from.x, from.y, from.z, to.x, to.y, to.z);
     const KeptRun kept = run(open_sky(
@@ -153,18 +158,21 @@ std::string room(const std::string& channel, const std::string& more = "") {
          "    sensors: [{name: a, type: antenna}, {name: row, type: antenna, columns: 4}]\n"
          "  - name: user\n    trajectory: {type: static, position_m: [3, 1.2, 1]}\n"
          "    sensors: [{name: a, type: antenna, polarization: vh}]\n"
-         "  - name: drone\n    trajectory: {type: static, position_m: [2.2, 2.3, 1.2], rotation_deg: [20, 0, 0]}\n"
+         "  - name: drone\n    trajectory: {type: static, position_m: [2.2, 2.3, 1.2], rotation_deg: [20, 0, "
+         "0]}\n"
          "    model: {generate: {kind: quadrotor, variant: small}}\n"
          "channels:\n  - {name: csi, rate_hz: 10, subcarriers: 4, bandwidth_hz: 1e6, max_transmissions: 0, " +
          channel + "}\n" + more;
 }
 
 TEST_F(ChannelTargets, LegsReflectAndMeetInThePoint) {
-  const KeptRun direct = run(room("tx: bs/a, rx: user/a, max_depth: 0, targets: [{nodes: drone, tr38901: "
-                                  "uav_small}], legs: {max_depth: 0}"));
+  const KeptRun direct =
+      run(room("tx: bs/a, rx: user/a, max_depth: 0, targets: [{nodes: drone, tr38901: "
+               "uav_small}], legs: {max_depth: 0}"));
   EXPECT_EQ(direct.counter("csi.target_echoes"), 2u);  // one a tick: line of sight both ways
-  const KeptRun once = run(room("tx: bs/a, rx: user/a, max_depth: 0, targets: [{nodes: drone, tr38901: "
-                                "uav_small}], legs: {max_depth: 1, max_transmissions: 0}"));
+  const KeptRun once =
+      run(room("tx: bs/a, rx: user/a, max_depth: 0, targets: [{nodes: drone, tr38901: "
+               "uav_small}], legs: {max_depth: 1, max_transmissions: 0}"));
   // Each leg has the line of sight and six reflections.
   EXPECT_EQ(once.counter("csi.target_echoes"), 2u * 49u);
   const auto interaction = once.array<uint8_t>(0, "csi", "interaction");
@@ -176,7 +184,8 @@ TEST_F(ChannelTargets, LegsReflectAndMeetInThePoint) {
     dvec3 at(1, 1, 1.5);
     double length = 0.0;
     for (size_t i = 0; i < 3 && interaction[3 * path + i] != 0; ++i) {
-      const dvec3 next(vertex[3 * (3 * path + i)], vertex[3 * (3 * path + i) + 1], vertex[3 * (3 * path + i) + 2]);
+      const dvec3 next(vertex[3 * (3 * path + i)], vertex[3 * (3 * path + i) + 1],
+                       vertex[3 * (3 * path + i) + 2]);
       if (interaction[3 * path + i] == 5) {
         EXPECT_LT(glm::distance(next, place), 1e-9);
         EXPECT_EQ(once.array<uint32_t>(0, "csi", "facet")[3 * path + i], 0u);
@@ -248,8 +257,8 @@ TEST_F(ChannelTargets, ATargetSendsNothingToItsOwnAntenna) {
 /// A path that a target's own surface reflects is left to its echo.
 TEST_F(ChannelTargets, EchoesReplaceReflectionsAtTheTarget) {
   const std::string ends = "tx: bs/a, rx: user/a, max_depth: 1";
-  const KeptRun with = run(room(ends + ", targets: [{nodes: drone, tr38901: uav_small}]",
-                                "effects: {moving_reflectors: on}\n"));
+  const KeptRun with = run(
+      room(ends + ", targets: [{nodes: drone, tr38901: uav_small}]", "effects: {moving_reflectors: on}\n"));
   const auto object = with.array<uint32_t>(0, "csi", "object");
   const auto interaction = with.array<uint8_t>(0, "csi", "interaction");
   for (size_t i = 0; i < object.size(); ++i) {
@@ -270,8 +279,10 @@ std::string sensing(const std::string& trajectory, const std::string& more, cons
          "  - name: drone\n    trajectory: " +
          trajectory +
          "\n    model: {generate: {kind: quadrotor, variant: large}}\n"
-         "channels:\n  - {name: csi, rate_hz: 10, carrier_hz: 28e9, tx: bs/panel, rx: bs/panel, subcarriers: 256,"
-         " bandwidth_hz: 100e6, time_samples: 64, time_spacing_s: 100.0e-6, max_depth: 1, outputs: [], power_dbm: "
+         "channels:\n  - {name: csi, rate_hz: 10, carrier_hz: 28e9, tx: bs/panel, rx: bs/panel, subcarriers: "
+         "256,"
+         " bandwidth_hz: 100e6, time_samples: 64, time_spacing_s: 100.0e-6, max_depth: 1, outputs: [], "
+         "power_dbm: "
          "30, targets: [{nodes: drone, tr38901: uav_large}], sensing: {noise_figure_db: 7" +
          more + "}}\n" + effects;
 }
@@ -293,7 +304,8 @@ TEST_F(ChannelTargets, ABaseStationSeesADrone) {
         best = i;
     ASSERT_LT(best, instance.size()) << "tick " << packet;
     EXPECT_EQ(kept.array<uint8_t>(packet, "csi", "target_detected")[0], 1);
-    const double range_bin = speed_of_light / 2.0 / 100e6, velocity_bin = speed_of_light / 28e9 / 2.0 / 6.4e-3;
+    const double range_bin = speed_of_light / 2.0 / 100e6,
+                 velocity_bin = speed_of_light / 28e9 / 2.0 / 6.4e-3;
     EXPECT_NEAR(range[best], kept.array<double>(packet, "csi", "target_range")[0], 0.25 * range_bin);
     EXPECT_NEAR(velocity[best], kept.array<double>(packet, "csi", "target_velocity")[0], 0.25 * velocity_bin);
     EXPECT_NEAR(azimuth[best], kept.array<double>(packet, "csi", "target_azimuth")[0], radians(3.0));
@@ -329,7 +341,8 @@ TEST_F(ChannelTargets, AReceiverMayBeBlindedByItsLeakage) {
 }
 
 TEST_F(ChannelTargets, SensedBytesRepeat) {
-  const std::string yaml = sensing(flight, ", adc: {bits: 12, full_scale_dbm: -20}, leakage: {level_db: -90}");
+  const std::string yaml =
+      sensing(flight, ", adc: {bits: 12, full_scale_dbm: -20}, leakage: {level_db: -90}");
   test::expect_same_bytes(run(yaml), run(yaml));
 }
 
@@ -344,11 +357,14 @@ TEST_F(ChannelTargets, BadInputIsRefusedWithItsPlace) {
     }
     return std::string("accepted");
   };
-  EXPECT_THAT(refusal("targets: [{nodes: far, tr38901: human}]"),
-              HasSubstr("channels[0].targets[0].nodes: expected a node with a model, found 'far', which has none"));
+  EXPECT_THAT(
+      refusal("targets: [{nodes: far, tr38901: human}]"),
+      HasSubstr("channels[0].targets[0].nodes: expected a node with a model, found 'far', which has none"));
   EXPECT_THAT(refusal("targets: [{nodes: dron, tr38901: human}]"), HasSubstr("unknown 'dron'"));
-  EXPECT_THAT(refusal("targets: [{class: person, tr38901: human}]"), HasSubstr("'person', which no node has"));
-  EXPECT_THAT(refusal("targets: [{nodes: drone}]"), HasSubstr("expected a table of scattering (or 'tr38901')"));
+  EXPECT_THAT(refusal("targets: [{class: person, tr38901: human}]"),
+              HasSubstr("'person', which no node has"));
+  EXPECT_THAT(refusal("targets: [{nodes: drone}]"),
+              HasSubstr("expected a table of scattering (or 'tubes' or 'tr38901')"));
   EXPECT_THAT(refusal("targets: [{nodes: drone, tr38901: bird}]"), HasSubstr("uav_small, uav_large, human"));
   EXPECT_THAT(refusal("targets: [{nodes: drone, tr38901: human}, {nodes: 'd*', tr38901: human}]"),
               HasSubstr("expected every node once, found a second target 'drone'"));
@@ -357,7 +373,8 @@ TEST_F(ChannelTargets, BadInputIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal("time_samples: 16, sensing: {}"), HasSubstr("power_dbm"));
   EXPECT_THAT(refusal("time_samples: 16, sensing: {power_dbm: 1, cfar: {guard: [0, 0], train: [2, 9]}}"),
               HasSubstr("within the 16 time_samples"));
-  std::ofstream(folder_.path() / "gap.csv") << "theta_deg,phi_deg,rcs_dbsm\n0,0,1\n0,180,1\n90,0,1\n180,0,1\n180,180,1\n";
+  std::ofstream(folder_.path() / "gap.csv")
+      << "theta_deg,phi_deg,rcs_dbsm\n0,0,1\n0,180,1\n90,0,1\n180,0,1\n180,180,1\n";
   EXPECT_THAT(refusal("targets: [{nodes: drone, table: gap.csv}]"),
               HasSubstr("gap.csv:4: theta_deg 90, phi_deg 180: expected a line, found none (a gap)"));
 }

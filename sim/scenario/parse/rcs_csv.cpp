@@ -30,9 +30,9 @@ constexpr std::string_view monostatic_field[] = {"theta_deg", "phi_deg", "s_tt_r
                                                  "s_tp_re",   "s_tp_im", "s_pp_re", "s_pp_im"};
 constexpr std::string_view bistatic_rcs[] = {"theta_in_deg", "phi_in_deg", "theta_out_deg", "phi_out_deg",
                                              "rcs_dbsm"};
-constexpr std::string_view bistatic_field[] = {
-    "theta_in_deg", "phi_in_deg", "theta_out_deg", "phi_out_deg", "s_tt_re", "s_tt_im",
-    "s_tp_re",      "s_tp_im",    "s_pt_re",       "s_pt_im",     "s_pp_re", "s_pp_im"};
+constexpr std::string_view bistatic_field[] = {"theta_in_deg", "phi_in_deg", "theta_out_deg", "phi_out_deg",
+                                               "s_tt_re",      "s_tt_im",    "s_tp_re",       "s_tp_im",
+                                               "s_pt_re",      "s_pt_im",    "s_pp_re",       "s_pp_im"};
 constexpr Columns rcs_headers[] = {monostatic_rcs, monostatic_field, bistatic_rcs, bistatic_field};
 
 /// Holds a line: up to four angles, and the matrix.
@@ -90,7 +90,8 @@ void RcsParser::read_header(const CsvLine& line) {
     if (std::equal(names.begin(), names.end(), columns.begin(), columns.end())) columns_ = columns;
   if (columns_.empty()) {
     std::vector<std::string> headers;
-    for (const Columns& columns : rcs_headers) headers.push_back(fmt::format("'{}'", fmt::join(columns, ",")));
+    for (const Columns& columns : rcs_headers)
+      headers.push_back(fmt::format("'{}'", fmt::join(columns, ",")));
     line.fail(0, fmt::format("expected the header {}, found '{}'", fmt::join(headers, " or "),
                              fmt::join(names, ",")));
   }
@@ -125,9 +126,10 @@ RcsLine RcsParser::read(const CsvLine& line) const {
     if (angle && i % 2 == 1 && !(std::abs(*value) <= 360.0))
       line.fail(i, fmt::format("{}: expected an azimuth from -360 to 360, found {}", columns_[i], *value));
     if (!angle && (of_rcs() ? *value > most_dbsm : std::abs(*value) > most_scatter_m))
-      line.fail(i, of_rcs() ? fmt::format("{}: expected at most {} dBsm, found {}", columns_[i], most_dbsm, *value)
-                            : fmt::format("{}: expected at most {:g} m, found {}", columns_[i], most_scatter_m,
-                                          *value));
+      line.fail(
+          i, of_rcs()
+                 ? fmt::format("{}: expected at most {} dBsm, found {}", columns_[i], most_dbsm, *value)
+                 : fmt::format("{}: expected at most {:g} m, found {}", columns_[i], most_scatter_m, *value));
     values.push_back(*value);
   }
   RcsLine result;
@@ -167,9 +169,9 @@ RcsAxis RcsParser::axis(size_t angle) const {
   std::vector<double>& values = axis.values;
   for (const RcsLine& line : lines_) values.push_back(line.angles[angle]);
   std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end(),
-                           [](double a, double b) { return b - a <= equal_angles_deg; }),
-               values.end());
+  values.erase(
+      std::unique(values.begin(), values.end(), [](double a, double b) { return b - a <= equal_angles_deg; }),
+      values.end());
   std::vector<double> gaps;
   for (size_t i = 1; i < values.size(); ++i) gaps.push_back(values[i] - values[i - 1]);
   if (!gaps.empty()) {
@@ -204,7 +206,8 @@ std::vector<const RcsLine*> RcsParser::grid(const std::vector<RcsAxis>& axes) co
   for (size_t i = 0; i < axes.size(); ++i) sizes[i] = axes[i].values.size();
   const uint64_t expected = saturating_product({sizes[0], sizes[1], sizes[2], sizes[3]});
   if (expected > most_grid)
-    fail(header_line_, "expected a line for each combination of angles, of which there are {}, found {} lines",
+    fail(header_line_,
+         "expected a line for each combination of angles, of which there are {}, found {} lines",
          fmt::join(std::span(sizes).first(axes.size()), " x "), lines_.size());
   std::vector<std::pair<uint64_t, const RcsLine*>> places;
   for (const RcsLine& line : lines_) {

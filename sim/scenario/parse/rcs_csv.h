@@ -20,8 +20,8 @@ namespace greatx::sim {
 ///     theta_in_deg,phi_in_deg,theta_out_deg,phi_out_deg,s_tt_re,...,s_tp,s_pt,s_pp_im
 /// Directions point away from the target, in its frame. Zeniths go from 0 to 180 and azimuths once around,
 /// both in even steps, and every combination occurs once. A cross-section stands for both polarizations, with
-/// phase 0 and nothing between them. `name` stands for the file in messages. Throws UserError "file:line: ..."
-/// for anything else, with the direction that is missing.
+/// phase 0 and nothing between them. `name` stands for the file in messages. Throws UserError "file:line:
+/// ..." for anything else, with the direction that is missing.
 std::shared_ptr<const rf::RcsTable> parse_rcs_csv(std::string_view text, const std::string& name);
 std::shared_ptr<const rf::RcsTable> load_rcs_csv(const std::filesystem::path& file);
 

@@ -21,9 +21,10 @@ void parse_cells(const Field& where, const ChannelConfig& channel, const rf::Rad
                            channel.subcarriers),
                fmt::format("{} on each side", range));
   if (2 * doppler + 1 > channel.time_samples)
-    where.fail(fmt::format("guard and training cells (cfar) within the {} time_samples, which are velocity bins",
-                           channel.time_samples),
-               fmt::format("{} on each side", doppler));
+    where.fail(
+        fmt::format("guard and training cells (cfar) within the {} time_samples, which are velocity bins",
+                    channel.time_samples),
+        fmt::format("{} on each side", doppler));
 }
 
 }  // namespace
@@ -51,7 +52,8 @@ void parse_sensing(const FieldMap& of_channel, ChannelConfig& channel) {
   }
   if (const auto f = map.find("leakage")) {
     const FieldMap leakage(*f, {"level_db", "delay_s"});
-    sensing.leakage_db = leakage.require("level_db", "a level, dB of the transmitted power").between(-300.0, 0.0);
+    sensing.leakage_db =
+        leakage.require("level_db", "a level, dB of the transmitted power").between(-300.0, 0.0);
     if (const auto g = leakage.find("delay_s")) sensing.leakage_delay_s = g->between(0.0, 1.0);
   }
   if (const auto f = map.find("clutter_removal"))

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Parses the targets of a channel.
-#include <fnmatch.h>
-
 #include <algorithm>
+#include <fnmatch.h>
 
 #include "sim/scenario/parse/rcs_csv.h"
 #include "sim/scenario/parse/scenario_parse.h"
@@ -66,11 +65,22 @@ TargetConfig parse_model(const Field& field, const FieldMap& map, RcsFiles& load
   TargetConfig target;
   target.where = field.where();
   map.exclude("tr38901", "table");
+  map.exclude("tr38901", "tubes");
+  map.exclude("table", "tubes");
   if (const auto f = map.find("tr38901")) {
     target.model = static_cast<rf::Tr38901Kind>(f->choice(std::span(rf::tr38901_kinds)));
     return target;
   }
-  const Field file = map.require("table", "a table of scattering (or 'tr38901')");
+  if (const auto f = map.find("tubes")) {
+    const FieldMap of(*f, {"width_m", "budget", "max_bounces"});
+    TargetTubes tubes;
+    if (const auto g = of.find("width_m")) tubes.tube_m = g->positive(1e-4, 1e4);
+    if (const auto g = of.find("budget")) tubes.budget = g->integer32(0, 4'000'000);
+    if (const auto g = of.find("max_bounces")) tubes.max_bounces = g->integer32(1, 6);
+    target.model = tubes;
+    return target;
+  }
+  const Field file = map.require("table", "a table of scattering (or 'tubes' or 'tr38901')");
   const std::filesystem::path path = file.file();
   auto [at, fresh] = loaded.try_emplace(path);
   if (fresh) at->second = load_rcs_csv(path);
@@ -84,7 +94,7 @@ void parse_targets(const FieldMap& map, const std::vector<NodeConfig>& nodes, Rc
                    ChannelConfig& channel) {
   if (const auto f = map.find("targets"))
     for (const Field& item : f->list("targets", 1)) {
-      const FieldMap of(item, {"nodes", "class", "tr38901", "table"});
+      const FieldMap of(item, {"nodes", "class", "tr38901", "table", "tubes"});
       TargetConfig target = parse_model(item, of, loaded);
       for (const uint32_t node : nodes_of(of, nodes)) {
         target.node = node;
