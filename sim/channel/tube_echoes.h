@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Computes the echoes of targets from their surfaces for the links of a channel (docs/targets.md). Each echo is a
-// path with a place, a delay and a phase over the time samples of its own, so that turning parts shift
+// Computes the echoes of targets from their surfaces for the links of a channel (docs/targets.md). Each echo
+// is a path with a place, a delay and a phase over the time samples of its own, so that turning parts shift
 // frequencies.
 #pragma once
 
@@ -27,8 +27,8 @@ struct TubeTarget {
 
 class TubeEchoes {
  public:
-  /// `config` has the targets `targets` with these options. `grid` has its time samples. All arguments outlive
-  /// this.
+  /// `config` has the targets `targets` with these options. `grid` has its time samples. All arguments
+  /// outlive this.
   TubeEchoes(scene::GpuScene& gpu_scene, const Experiment& experiment, const ChannelConfig& config,
              const rf::RadioSurfaces& surfaces, const rf::ChannelGrid& grid, std::vector<TubeTarget> targets,
              const TargetTubes& options);

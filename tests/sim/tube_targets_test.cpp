@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reflectors of known radar cross-sections as targets of a channel that are computed from their surfaces. Their
-// size follows the wavelength, so that one closed form holds at every carrier: a = 0.1 m at 77 GHz.
+// Reflectors of known radar cross-sections as targets of a channel that are computed from their surfaces.
+// Their size follows the wavelength, so that one closed form holds at every carrier: a = 0.1 m at 77 GHz.
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -102,8 +102,8 @@ scene::Scene ball(double radius, int n) {
   return r.build();
 }
 
-/// Returns the cross-section of a convex mesh of conductors in physical optics by brute force, dBsm: quadrature
-/// over m^2 points of every lit triangle.
+/// Returns the cross-section of a convex mesh of conductors in physical optics by brute force, dBsm:
+/// quadrature over m^2 points of every lit triangle.
 double brute_force_db(const scene::Scene& scene, const dvec3& from, double wavelength, int m) {
   Complex sum(0.0);
   const double distance = glm::length(from), k = 2.0 * pi / wavelength;
@@ -183,7 +183,8 @@ TEST_P(TubeReflectors, APlate) {
     EXPECT_NEAR(section_db(run, sizes_, 1, 1), aperture_db(share), 0.02) << angle;  // phi to phi
     EXPECT_LT(section_db(run, sizes_, 0, 1), aperture_db(share) - 60.0);
     const auto type = run.array<uint8_t>(0, "csi", "interaction");
-    EXPECT_THAT(type, ::testing::Each(5));
+    const size_t depth = static_cast<size_t>(run.array(0, "csi", "interaction").shape[1]);
+    for (size_t i = 0; i < type.size(); i += depth) EXPECT_EQ(type[i], 5);
   }
 }
 
@@ -211,7 +212,7 @@ TEST_P(TubeReflectors, ASphere) {
   const double radius = 0.5 * sizes_.a();
   const scene::Scene scene = ball(radius, 24);
   const dvec3 from = direction(25.0, 10.0);
-  const KeptRun run = run_of(scene, sizes_, from, from, tubes(0.015, 40000, 1));
+  const KeptRun run = run_of(scene, sizes_, from, from, tubes(0.008, 60000, 1));
   const double found = section_db(run, sizes_);
   EXPECT_NEAR(found, brute_force_db(scene, sizes_.range_m() * from, sizes_.wavelength(), 8), 0.15);
   EXPECT_NEAR(found, decibels(pi * radius * radius), 1.5);

@@ -14,8 +14,11 @@ namespace {
 
 /// The view is wider than the box by this share, so that no silhouette lies on its border.
 constexpr double margin = 0.05;
+/// Tubes beside the box. A surface in a tube is found by the tube's ray or by those of its neighbours.
+constexpr double tubes_beside = 3.0;
 constexpr double near_pole = 1.3;     ///< elevation, rad, beyond which the view has all azimuths
 constexpr double widest_tube = 0.25;  ///< rad
+constexpr uint32_t least_tubes = 100;
 
 EchoEnd end_of(const std::string& name, uint32_t polarization, uint32_t body) {
   EchoEnd end;
@@ -39,7 +42,7 @@ EchoOptions options_of(const TubeOptions& tubes) {
 }
 
 /// Returns the azimuths and elevations of a box around a point, with a margin; the whole sphere from near by.
-FieldOfView view_of_box(const scene::Bounds& box, const Pose& pose, const dvec3& from) {
+FieldOfView view_of_box(const scene::Bounds& box, const Pose& pose, const dvec3& from, double tube_rad) {
   constexpr FieldOfView everything{-pi, pi, -0.5 * pi, 0.5 * pi};
   const double radius = 0.5 * glm::length(box.size());
   const dvec3 middle = pose.apply(box.center()) - from;
@@ -55,7 +58,8 @@ FieldOfView view_of_box(const scene::Bounds& box, const Pose& pose, const dvec3&
   }
   // The edges of a box bulge beyond its corners by less than the sagitta of their span.
   const double span = std::max(high - low, 2.0 * half), steepest = std::max(std::abs(low), std::abs(high));
-  const double room = margin * span + 0.125 * span * span * std::tan(std::min(steepest, 1.4));
+  const double room = std::max(margin * span, tubes_beside * tube_rad) +
+                      0.125 * span * span * std::tan(std::min(steepest, 1.4));
   low -= room, high += room, half += room;
   if (steepest + room > near_pole || half >= pi)
     return {-pi, pi, std::max(low, -0.5 * pi), std::min(high > near_pole ? 0.5 * pi : high, 0.5 * pi)};
@@ -88,15 +92,20 @@ TubeTargets::Search TubeTargets::view_of(uint32_t target, const dvec3& transmitt
   scene::Bounds box = instance.body == body ? instance.bounds : scene::Bounds{};
   if (body != 0) box.add(scene_.reach_of(body));
   const Pose pose = body == 0 ? Pose{} : bodies[body];
-  Search search;
-  search.view = view_of_box(box, pose, transmitter);
-  const double azimuths = search.view.azimuth_max - search.view.azimuth_min,
-               elevations = search.view.elevation_max - search.view.elevation_min;
   const double distance_m =
       std::max(glm::length(pose.apply(box.center()) - transmitter) - 0.5 * glm::length(box.size()), 1e-3);
-  const double wanted = azimuths * elevations * std::pow(distance_m / options_.tube_m, 2),
-               least = azimuths * elevations / (widest_tube * widest_tube);
-  search.tubes = static_cast<uint32_t>(std::max({16.0, least, std::min(wanted, double(options_.budget))}));
+  // The tubes widen until the view of the box and what is beside it has no more of them than allowed.
+  Search search;
+  double tube_rad = std::min(options_.tube_m / distance_m, widest_tube);
+  while (true) {
+    search.view = view_of_box(box, pose, transmitter, tube_rad);
+    const double azimuths = search.view.azimuth_max - search.view.azimuth_min,
+                 elevations = search.view.elevation_max - search.view.elevation_min;
+    const double wanted = azimuths * elevations / (tube_rad * tube_rad);
+    search.tubes = static_cast<uint32_t>(std::ceil(wanted));
+    if (wanted <= std::max(options_.budget, least_tubes) || tube_rad >= widest_tube) break;
+    tube_rad = std::min(1.1 * tube_rad, widest_tube);
+  }
   return search;
 }
 

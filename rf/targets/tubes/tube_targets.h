@@ -29,7 +29,8 @@ struct TubeOptions {
   double bandwidth_hz = 100e6;  ///< echoes merge that this band cannot tell apart
 };
 
-/// Describes what one polarization of the transmitter sends over a target to one polarization of the receiver.
+/// Describes what one polarization of the transmitter sends over a target to one polarization of the
+/// receiver.
 struct TubeEcho {
   uint32_t instance = 0;            ///< index into Scene::instances of the last surface
   uint32_t sent = 0, received = 0;  ///< 0: theta, 1: phi, in the directions below and in world axes
