@@ -211,83 +211,98 @@ void ChannelSensing::note_aliases(const rf::OfdmSensing& sensing, std::span<cons
   }
 }
 
-std::vector<Array> ChannelSensing::arrays_of(std::span<const SensedLink> links,
-                                             std::span<const TargetState> targets, uint32_t sequence,
-                                             int64_t tick) {
+struct ChannelSensing::Sensed {
   std::vector<float> maps;
   std::vector<Truth> truths;
   std::vector<rf::SensingDetection> detections;
-  std::vector<int32_t> rx, tx;
-  for (size_t index = 0; index < links.size(); ++index) {
-    const SensedLink& link = links[index];
-    const size_t r = index / transmitters_, t = index % transmitters_;
-    const rf::OfdmSensing& sensing = of_link(r, t);
-    const std::vector<double> gains =
-        rf::path_powers(link.paths, link.transmitter, link.receiver, carrier_hz_);
-    std::vector<rf::SensingTone> tones;
-    for (size_t i = 0; i < link.paths.size(); ++i) {
-      const rf::Path& path = link.paths[i];
-      uint32_t instance = 0;
-      for (const rf::Interaction& interaction : path.interactions)
-        if (interaction.type == rf::InteractionType::target) instance = interaction.element + 1;
-      tones.push_back({instance, path.delay_s, path.doppler_hz, gains[i]});
-    }
-    note_aliases(sensing, tones);
-    const rf::RadarSeeds seeds{seed_, fnv1a32(fmt::format("{}#{}.{}.{}", name_, sequence, r, t)),
-                               static_cast<uint32_t>(tick)};
-    rf::SensingFrame frame =
-        sensing.process({link.h, tones, seeds, link.receiver_state.orientation,
-                         link.transmitter_state.position - link.receiver_state.position});
-    ++bursts_;
-    saturated_ += frame.saturated_samples;
-    detections_ += frame.detections.size();
-    maps.insert(maps.end(), frame.range_doppler.begin(), frame.range_doppler.end());
-    for (const TargetState& target : targets)
-      truths.push_back(truth_of(sensing, link, target, tones, frame.detections));
-    for (const rf::SensingDetection& d : frame.detections) {
-      detections.push_back(d);
-      rx.push_back(static_cast<int32_t>(r)), tx.push_back(static_cast<int32_t>(t));
-    }
-  }
+  std::vector<int32_t> rx, tx;  ///< [detections]
+};
 
-  const rf::RadarAxes& axes = links_[0]->axes();
-  const auto of_rx = static_cast<int64_t>(receivers_), of_tx = static_cast<int64_t>(transmitters_);
-  std::vector<Array> arrays;
-  if (config_.range_doppler)
-    arrays.push_back(Array::of<float>({of_rx, of_tx, std::ssize(axes.range_m), std::ssize(axes.velocity_m_s)},
-                                      std::span<const float>(maps)));
-  if (config_.detections) {
-    const int64_t count = std::ssize(detections);
-    arrays.push_back(Array::of<int32_t>({count}, std::span<const int32_t>(rx)));
-    arrays.push_back(Array::of<int32_t>({count}, std::span<const int32_t>(tx)));
-    for (const DetectionColumn& column : detection_columns) {
-      std::vector<float> values;
-      for (const rf::SensingDetection& d : detections) values.push_back(static_cast<float>(column.value(d)));
-      arrays.push_back(Array::of<float>({count}, std::span<const float>(values)));
-    }
-    std::vector<float> places;
-    std::vector<uint32_t> instances;
-    for (const rf::SensingDetection& d : detections) {
-      for (int c = 0; c < 3; ++c) places.push_back(static_cast<float>(d.position_m[c]));
-      instances.push_back(d.instance);
-    }
-    arrays.push_back(Array::of<float>({count, 3}, std::span<const float>(places)));
-    arrays.push_back(Array::of<uint32_t>({count}, std::span<const uint32_t>(instances)));
+std::vector<rf::SensingTone> ChannelSensing::tones_of(const SensedLink& link) const {
+  const std::vector<double> gains = rf::path_powers(link.paths, link.transmitter, link.receiver, carrier_hz_);
+  std::vector<rf::SensingTone> tones;
+  for (size_t i = 0; i < link.paths.size(); ++i) {
+    const rf::Path& path = link.paths[i];
+    uint32_t instance = 0;
+    for (const rf::Interaction& interaction : path.interactions)
+      if (interaction.type == rf::InteractionType::target) instance = interaction.element + 1;
+    tones.push_back({instance, path.delay_s, path.doppler_hz, gains[i]});
   }
-  if (targets_ == 0) return arrays;
+  return tones;
+}
+
+void ChannelSensing::sense(size_t index, const SensedLink& link, std::span<const TargetState> targets,
+                           uint32_t sequence, int64_t tick, Sensed& sensed) {
+  const size_t r = index / transmitters_, t = index % transmitters_;
+  const rf::OfdmSensing& sensing = of_link(r, t);
+  const std::vector<rf::SensingTone> tones = tones_of(link);
+  note_aliases(sensing, tones);
+  const rf::RadarSeeds seeds{seed_, fnv1a32(fmt::format("{}#{}.{}.{}", name_, sequence, r, t)),
+                             static_cast<uint32_t>(tick)};
+  const rf::SensingFrame frame =
+      sensing.process({link.h, tones, seeds, link.receiver_state.orientation,
+                       link.transmitter_state.position - link.receiver_state.position});
+  ++bursts_;
+  saturated_ += frame.saturated_samples;
+  detections_ += frame.detections.size();
+  sensed.maps.insert(sensed.maps.end(), frame.range_doppler.begin(), frame.range_doppler.end());
+  for (const TargetState& target : targets)
+    sensed.truths.push_back(truth_of(sensing, link, target, tones, frame.detections));
+  for (const rf::SensingDetection& detection : frame.detections) {
+    sensed.detections.push_back(detection);
+    sensed.rx.push_back(static_cast<int32_t>(r)), sensed.tx.push_back(static_cast<int32_t>(t));
+  }
+}
+
+void ChannelSensing::add_detections(const Sensed& sensed, std::vector<Array>& arrays) const {
+  const int64_t count = std::ssize(sensed.detections);
+  arrays.push_back(Array::of<int32_t>({count}, std::span<const int32_t>(sensed.rx)));
+  arrays.push_back(Array::of<int32_t>({count}, std::span<const int32_t>(sensed.tx)));
+  for (const DetectionColumn& column : detection_columns) {
+    std::vector<float> values;
+    for (const rf::SensingDetection& d : sensed.detections)
+      values.push_back(static_cast<float>(column.value(d)));
+    arrays.push_back(Array::of<float>({count}, std::span<const float>(values)));
+  }
+  std::vector<float> places;
+  std::vector<uint32_t> instances;
+  for (const rf::SensingDetection& d : sensed.detections) {
+    for (int c = 0; c < 3; ++c) places.push_back(static_cast<float>(d.position_m[c]));
+    instances.push_back(d.instance);
+  }
+  arrays.push_back(Array::of<float>({count, 3}, std::span<const float>(places)));
+  arrays.push_back(Array::of<uint32_t>({count}, std::span<const uint32_t>(instances)));
+}
+
+void ChannelSensing::add_truth(const Sensed& sensed, std::vector<Array>& arrays) const {
+  const std::vector<int64_t> shape{static_cast<int64_t>(receivers_), static_cast<int64_t>(transmitters_),
+                                   static_cast<int64_t>(targets_)};
   for (double Truth::*member : {&Truth::range_m, &Truth::velocity_m_s, &Truth::azimuth, &Truth::elevation,
                                 &Truth::power_dbm, &Truth::snr_db}) {
     std::vector<double> values;
-    for (const Truth& truth : truths) values.push_back(truth.*member);
-    arrays.push_back(
-        Array::of<double>({of_rx, of_tx, static_cast<int64_t>(targets_)}, std::span<const double>(values)));
+    for (const Truth& truth : sensed.truths) values.push_back(truth.*member);
+    arrays.push_back(Array::of<double>(shape, std::span<const double>(values)));
   }
-  if (config_.detections) {
-    std::vector<uint8_t> values;
-    for (const Truth& truth : truths) values.push_back(truth.detected);
-    arrays.push_back(
-        Array::of<uint8_t>({of_rx, of_tx, static_cast<int64_t>(targets_)}, std::span<const uint8_t>(values)));
-  }
+  if (!config_.detections) return;
+  std::vector<uint8_t> values;
+  for (const Truth& truth : sensed.truths) values.push_back(truth.detected);
+  arrays.push_back(Array::of<uint8_t>(shape, std::span<const uint8_t>(values)));
+}
+
+std::vector<Array> ChannelSensing::arrays_of(std::span<const SensedLink> links,
+                                             std::span<const TargetState> targets, uint32_t sequence,
+                                             int64_t tick) {
+  Sensed sensed;
+  for (size_t index = 0; index < links.size(); ++index)
+    sense(index, links[index], targets, sequence, tick, sensed);
+  const rf::RadarAxes& axes = links_[0]->axes();
+  std::vector<Array> arrays;
+  if (config_.range_doppler)
+    arrays.push_back(Array::of<float>({static_cast<int64_t>(receivers_), static_cast<int64_t>(transmitters_),
+                                       std::ssize(axes.range_m), std::ssize(axes.velocity_m_s)},
+                                      std::span<const float>(sensed.maps)));
+  if (config_.detections) add_detections(sensed, arrays);
+  if (targets_ > 0) add_truth(sensed, arrays);
   return arrays;
 }
 

@@ -54,11 +54,18 @@ class ChannelSensing {
 
  private:
   struct Truth;
+  /// Holds what all links of a record have sensed.
+  struct Sensed;
   const rf::OfdmSensing& of_link(size_t receiver, size_t transmitter) const {
     return *links_[receiver * transmitters_ + transmitter];
   }
   Truth truth_of(const rf::OfdmSensing& sensing, const SensedLink& link, const TargetState& target,
                  std::span<const rf::SensingTone> tones, std::span<const rf::SensingDetection> found) const;
+  std::vector<rf::SensingTone> tones_of(const SensedLink& link) const;
+  void sense(size_t index, const SensedLink& link, std::span<const TargetState> targets, uint32_t sequence,
+             int64_t tick, Sensed& sensed);
+  void add_detections(const Sensed& sensed, std::vector<Array>& arrays) const;
+  void add_truth(const Sensed& sensed, std::vector<Array>& arrays) const;
   void note_aliases(const rf::OfdmSensing& sensing, std::span<const rf::SensingTone> tones);
 
   std::string name_;

@@ -340,6 +340,42 @@ TEST_F(ChannelTargets, AReceiverMayBeBlindedByItsLeakage) {
   EXPECT_EQ(detected(", leakage: {level_db: -30}, adc: {bits: 4, full_scale_dbm: 12}"), 0);
 }
 
+/// A radar beside the panel, with the same band and the same time between its chirps, finds the drone at the same
+/// range and velocity as the channel does by its symbols. The target has its surfaces in both.
+TEST_F(ChannelTargets, ARadarAtTheSamePlaceAgrees) {
+  std::string yaml = sensing(flight, "");
+  const auto replace = [&](const std::string& what, const std::string& with) {
+    ASSERT_NE(yaml.find(what), std::string::npos) << what;
+    yaml.replace(yaml.find(what), what.size(), with);
+  };
+  replace(
+      "rows: 2, columns: 4}]",
+      "rows: 2, columns: 4}, {name: radar, type: radar, rate_hz: 10, power_dbm: 30, waveform: {carrier_hz: "
+      "28e9, bandwidth_hz: 100e6, samples: 128, chirps: 64, interval_s: 100.0e-6}, transmit: {pattern: "
+      "tr38901}, receive: {pattern: tr38901, columns: 4}, receiver: {noise_figure_db: 7}, echoes: "
+      "{target_tube_m: 0.02, target_budget: 20000}}]");
+  replace("tr38901: uav_large", "tubes: {width_m: 0.02, budget: 20000}");
+  const KeptRun kept = run(yaml);
+  const auto strongest = [&](const std::string& sensor, const std::string& prefix) {
+    const auto instance = kept.array<uint32_t>(1, sensor, prefix + "instance");
+    const auto power = kept.array<float>(1, sensor, prefix + "power");
+    size_t best = instance.size();
+    for (size_t i = 0; i < instance.size(); ++i)
+      if (instance[i] != 0 && kept.instances.at(instance[i] - 1).name.starts_with("drone") &&
+          (best == instance.size() || power[i] > power[best]))
+        best = i;
+    EXPECT_LT(best, instance.size()) << sensor;
+    return best == instance.size()
+               ? std::pair(0.0, 0.0)
+               : std::pair(double{kept.array<float>(1, sensor, prefix + "range")[best]},
+                           double{kept.array<float>(1, sensor, prefix + "velocity")[best]});
+  };
+  const auto radar = strongest("bs/radar", ""), channel = strongest("csi", "detection_");
+  // A quarter of a range bin, and of a velocity bin.
+  EXPECT_NEAR(radar.first, channel.first, 0.375);
+  EXPECT_NEAR(radar.second, channel.second, 0.21);
+}
+
 TEST_F(ChannelTargets, SensedBytesRepeat) {
   const std::string yaml =
       sensing(flight, ", adc: {bits: 12, full_scale_dbm: -20}, leakage: {level_db: -90}");

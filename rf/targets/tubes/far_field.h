@@ -10,15 +10,16 @@
 
 namespace greatx::rf {
 
-/// Describes where a target is: its bodies' poses, and the point that its phases refer to, in local coordinates.
+/// Describes where a target is: its bodies' poses, and the point that its phases refer to, in local
+/// coordinates.
 struct PosedTarget {
   std::vector<Pose> bodies;
   dvec3 centre{0.0};
   double size_m = 1.0;  ///< diameter of a ball around the centre that holds the target
 };
 
-/// Returns a distance at which waves are plane over the target: the error of the phase at its edge is pi/400 at
-/// the wavelength.
+/// Returns a distance at which waves are plane over the target: the error of the phase at its edge is pi/400
+/// at the wavelength.
 double far_distance_m(const PosedTarget& target, double wavelength_m);
 
 /// Returns the matrix for directions in world axes, on the bases of the world.
