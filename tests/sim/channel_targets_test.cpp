@@ -340,8 +340,8 @@ TEST_F(ChannelTargets, AReceiverMayBeBlindedByItsLeakage) {
   EXPECT_EQ(detected(", leakage: {level_db: -30}, adc: {bits: 4, full_scale_dbm: 12}"), 0);
 }
 
-/// A radar beside the panel, with the same band and the same time between its chirps, finds the drone at the same
-/// range and velocity as the channel does by its symbols. The target has its surfaces in both.
+/// A radar beside the panel, with the same band and the same time between its chirps, finds the drone at the
+/// same range and velocity as the channel does by its symbols. The target has its surfaces in both.
 TEST_F(ChannelTargets, ARadarAtTheSamePlaceAgrees) {
   std::string yaml = sensing(flight, "");
   const auto replace = [&](const std::string& what, const std::string& with) {

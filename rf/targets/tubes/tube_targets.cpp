@@ -61,8 +61,9 @@ FieldOfView view_of_box(const scene::Bounds& box, const Pose& pose, const dvec3&
   const double room = std::max(margin * span, tubes_beside * tube_rad) +
                       0.125 * span * span * std::tan(std::min(steepest, 1.4));
   low -= room, high += room, half += room;
+  // Near a pole the azimuth carries no information, and the view has the pole in it.
   if (steepest + room > near_pole || half >= pi)
-    return {-pi, pi, std::max(low, -0.5 * pi), std::min(high > near_pole ? 0.5 * pi : high, 0.5 * pi)};
+    return {-pi, pi, low < -near_pole ? -0.5 * pi : low, high > near_pole ? 0.5 * pi : high};
   return {azimuth - half, azimuth + half, low, high};
 }
 
@@ -99,9 +100,9 @@ TubeTargets::Search TubeTargets::view_of(uint32_t target, const dvec3& transmitt
   double tube_rad = std::min(options_.tube_m / distance_m, widest_tube);
   while (true) {
     search.view = view_of_box(box, pose, transmitter, tube_rad);
-    const double azimuths = search.view.azimuth_max - search.view.azimuth_min,
-                 elevations = search.view.elevation_max - search.view.elevation_min;
-    const double wanted = azimuths * elevations / (tube_rad * tube_rad);
+    const double solid_angle = (search.view.azimuth_max - search.view.azimuth_min) *
+                               (std::sin(search.view.elevation_max) - std::sin(search.view.elevation_min));
+    const double wanted = solid_angle / (tube_rad * tube_rad);
     search.tubes = static_cast<uint32_t>(std::ceil(wanted));
     if (wanted <= std::max(options_.budget, least_tubes) || tube_rad >= widest_tube) break;
     tube_rad = std::min(1.1 * tube_rad, widest_tube);
