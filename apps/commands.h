@@ -21,5 +21,6 @@ void add_tradeoff(CLI::App& app);
 void add_calibrate(CLI::App& app);
 void add_view(CLI::App& app);
 void add_selftest(CLI::App& app);
+void add_rcs(CLI::App& app);
 
 }  // namespace greatx::apps

@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   apps::add_explain(app);
   apps::add_paths(app);
   apps::add_map(app);
+  apps::add_rcs(app);
   apps::add_tradeoff(app);
   apps::add_calibrate(app);
   apps::add_bench(app);

@@ -291,8 +291,8 @@ io::Color color_of_gain(const GainScale& scale, double gain_db) {
 }
 
 io::Color color_of_kind(rf::InteractionType kind) {
-  constexpr Color colors[] = {
-      {120, 235, 130}, {255, 176, 64}, {90, 190, 255}, {255, 110, 170}, {190, 150, 255}};
+  constexpr Color colors[] = {{120, 235, 130}, {255, 176, 64},  {90, 190, 255},
+                              {255, 110, 170}, {190, 150, 255}, {255, 240, 100}};
   return colors[static_cast<size_t>(kind)];
 }
 

@@ -66,6 +66,8 @@ char letter_of(rf::InteractionType type) {
       return 'D';
     case rf::InteractionType::scattering:
       return 'S';
+    case rf::InteractionType::target:
+      return 'E';
   }
   throw ContractError(fmt::format("interaction {} has no letter", static_cast<int>(type)));
 }
@@ -78,7 +80,7 @@ std::string chain_of(const rf::Path& path) {
 }
 
 rf::InteractionType kind_of(const rf::Path& path) {
-  // The values of InteractionType ascend from none to scattering.
+  // The values of InteractionType ascend from none to target.
   auto kind = rf::InteractionType::none;
   for (const rf::Interaction& interaction : path.interactions) kind = std::max(kind, interaction.type);
   return kind;
@@ -90,6 +92,13 @@ const char* kind_name(rf::InteractionType kind) {
 
 Touched touched(const rf::Interaction& interaction, const PathScene& scene) {
   Touched result;
+  if (interaction.type == rf::InteractionType::target) {
+    GREATX_CHECK(interaction.element < scene.scene->instances.size(), "instance {} of {}",
+                 interaction.element, scene.scene->instances.size());
+    result.objects.push_back(scene.scene->instances[interaction.element].name);
+    result.materials.emplace_back("target");
+    return result;
+  }
   if (interaction.type == rf::InteractionType::diffraction) {
     GREATX_CHECK(interaction.element < scene.wedges.size(), "wedge {} of {}", interaction.element,
                  scene.wedges.size());

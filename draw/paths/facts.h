@@ -51,20 +51,22 @@ rf::Complex vertical_amplitude(const rf::Path& path, double carrier_hz);
 /// Returns 10 log10(gain); -infinity for zero.
 double gain_db(double gain);
 
-/// Returns the letters of the interactions in their order (R, T, D, S), or "LoS" if there is none.
+/// Returns the letters of the interactions in their order (R, T, D, S, E for the echo of a
+/// target), or "LoS" if there is none.
 std::string chain_of(const rf::Path& path);
 char letter_of(rf::InteractionType type);
 
-/// Returns the kind of a path: the first of scattering, diffraction, transmission and reflection that occurs
-/// in its interactions, or none for the line of sight.
+/// Returns the kind of a path: the first of target, scattering, diffraction, transmission and reflection that
+/// occurs in its interactions, or none for the line of sight.
 rf::InteractionType kind_of(const rf::Path& path);
-inline constexpr std::array<rf::InteractionType, 5> path_kinds = {
-    rf::InteractionType::none, rf::InteractionType::reflection, rf::InteractionType::transmission,
-    rf::InteractionType::diffraction, rf::InteractionType::scattering};
+inline constexpr std::array<rf::InteractionType, 6> path_kinds = {
+    rf::InteractionType::none,        rf::InteractionType::reflection, rf::InteractionType::transmission,
+    rf::InteractionType::diffraction, rf::InteractionType::scattering, rf::InteractionType::target};
 /// Returns "line of sight", "reflection", ...
 const char* kind_name(rf::InteractionType kind);
 
-/// Describes the surfaces at an interaction: one facet, or the one or two faces of a wedge.
+/// Describes the surfaces at an interaction: one facet, or the one or two faces of a wedge. A target has an
+/// object and no facet.
 struct Touched {
   std::vector<uint32_t> facets;
   std::vector<std::string> objects, materials;  ///< [facets]

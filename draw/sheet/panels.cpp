@@ -21,9 +21,9 @@ struct Maker {
   bool intervals = false;                    ///< see is_about_intervals()
 };
 constexpr Maker makers[] = {
-    {"camera", camera_frames, nullptr}, {"event_camera", event_frames, nullptr, true},
-    {"lidar", lidar_frames, nullptr},   {"radar", radar_frames, nullptr},
-    {"csi", nullptr, add_csi_panels},   {"pose", nullptr, add_pose_panels},
+    {"camera", camera_frames, nullptr},      {"event_camera", event_frames, nullptr, true},
+    {"lidar", lidar_frames, nullptr},        {"radar", radar_frames, nullptr},
+    {"csi", sensing_frames, add_csi_panels}, {"pose", nullptr, add_pose_panels},
 };
 
 /// Returns the entry of a kind, or null if the kind is unknown.
@@ -153,9 +153,10 @@ void add_panels(const PanelSource& source, Panels& panels) {
 
 bool has_panels(std::string_view kind) { return maker_of(kind) != nullptr; }
 
-bool has_frame_panels(std::string_view kind) {
-  const Maker* const maker = maker_of(kind);
-  return maker != nullptr && maker->frames != nullptr;
+bool has_frame_panels(const SensorSpec& sensor) {
+  return std::ranges::any_of(frame_kinds(sensor.kind), [&](const FrameKind& kind) {
+    return kind.group != nullptr && has_arrays(sensor, kind.arrays);
+  });
 }
 
 bool is_about_intervals(std::string_view kind) {

@@ -93,8 +93,8 @@ struct Panels {
 void add_panels(const PanelSource& source, Panels& panels);
 /// Returns true if sensors of the kind have panels.
 bool has_panels(std::string_view kind);
-/// Returns true if sensors of the kind have frame panels.
-bool has_frame_panels(std::string_view kind);
+/// Returns true if the sensor has arrays that a frame panel draws.
+bool has_frame_panels(const SensorSpec& sensor);
 /// Returns true if a record of the kind covers the time since the previous record, so that the first record
 /// of a sequence is empty.
 bool is_about_intervals(std::string_view kind);
@@ -105,6 +105,8 @@ std::vector<FrameKind> camera_frames();
 std::vector<FrameKind> event_frames();
 std::vector<FrameKind> lidar_frames();
 std::vector<FrameKind> radar_frames();
+/// Of a channel that senses (sensing_panel.cpp).
+std::vector<FrameKind> sensing_frames();
 void add_csi_panels(const PanelSource& source, Panels& panels);
 void add_pose_panels(const PanelSource& source, Panels& panels);
 /// Of a camera: normals, optical flow, boxes (truth_panels.cpp).

@@ -30,7 +30,7 @@ std::vector<SheetMoment> choose_moments(const DatasetReader& reader, uint32_t se
   for (const bool frames_only : {true, false}) {
     for (size_t s = 0; s < reader.sensors().size(); ++s) {
       const std::vector<IndexRow> rows = reader.records_of(sequence, s);
-      if (rows.empty() || (frames_only && !has_frame_panels(reader.sensors()[s].kind))) continue;
+      if (rows.empty() || (frames_only && !has_frame_panels(reader.sensors()[s]))) continue;
       std::vector<SheetMoment> moments;
       const size_t first = intervals && rows.size() > 1 ? 1 : 0;
       const size_t most = std::min(count, rows.size() - first);
@@ -51,7 +51,7 @@ std::vector<Panels> panels_by_sensor(const DatasetReader& reader, uint32_t seque
   for (size_t s = 0; s < reader.sensors().size(); ++s) {
     const SensorSpec& sensor = reader.sensors()[s];
     const std::vector<IndexRow> rows = reader.records_of(sequence, s);
-    if (rows.empty() || (!has_frame_panels(sensor.kind) && !drawn.insert(sensor.kind).second)) continue;
+    if (rows.empty() || (!has_frame_panels(sensor) && !drawn.insert(sensor.kind).second)) continue;
     add_panels({reader, sequence, s, nearest(rows, moments)}, panels[s]);
   }
   return panels;

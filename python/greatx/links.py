@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 SPEED_OF_LIGHT = 299792458.0  #: m/s
 
 # Values of the arrays `interaction`.
-NONE, REFLECTION, TRANSMISSION, DIFFRACTION, SCATTERING = range(5)
+NONE, REFLECTION, TRANSMISSION, DIFFRACTION, SCATTERING, TARGET = range(6)
 
 
 def check_channel(sensor: "Sensor") -> "Sensor":

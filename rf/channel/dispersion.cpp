@@ -9,6 +9,7 @@
 #include "rf/atmosphere/fog.h"
 #include "rf/atmosphere/gas.h"
 #include "rf/atmosphere/rain.h"
+#include "rf/targets/echo_path.h"
 
 namespace greatx::rf {
 namespace {
@@ -38,12 +39,30 @@ Dispersion::Dispersion(const scene::Scene& scene, const FieldModel& carrier, con
   }
 }
 
+/// Returns the spectrum of an echo: those of its legs, with the carrier's scattering matrix between them.
+TransferSpectrum Dispersion::echo_spectrum(const TargetEcho& echo, const FacetWorld& world) const {
+  TransferSpectrum out = spectrum(echo.out, world);
+  const TransferSpectrum home = spectrum(echo.home, world);
+  ScatterMatrix s;
+  std::copy_n(echo.scatter, 4, s.begin());
+  for (size_t k = 0; k < out.size(); ++k) {
+    Complex of_out[4], of_home[4], product[4];
+    std::copy_n(out[k].begin(), 4, of_out);
+    std::copy_n(home[k].begin(), 4, of_home);
+    join(of_out, s, of_home, product);
+    std::copy_n(product, 4, out[k].begin());
+  }
+  return out;
+}
+
 TransferSpectrum Dispersion::spectrum(const Path& path, const FacetWorld& world) const {
+  if (path.echo && path.echo->has_legs()) return echo_spectrum(*path.echo, world);
   const GeometricPath geometry{path.interactions,  path.vertices,       path.length_m,     path.foliage_m,
                                path.patch_area_m2, path.edges_diffract, path.from_receiver};
   TransferSpectrum spectrum(subcarriers_.size());
-  // The line of sight in air that attenuates nothing is the same at every frequency.
-  if (path.interactions.empty() && path.foliage_m == 0.0 && carrier_.attenuation.none()) {
+  // The line of sight in air that attenuates nothing is the same at every frequency. An echo of surfaces
+  // keeps the carrier's values.
+  if (path.echo || (path.interactions.empty() && path.foliage_m == 0.0 && carrier_.attenuation.none())) {
     for (auto& transfer : spectrum) std::copy_n(path.transfer, 4, transfer.begin());
     return spectrum;
   }

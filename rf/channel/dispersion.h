@@ -38,6 +38,7 @@ class Dispersion {
   std::vector<TransferSpectrum> spectra(std::span<const Path> paths, const FacetWorld& world) const;
 
  private:
+  TransferSpectrum echo_spectrum(const TargetEcho& echo, const FacetWorld& world) const;
   struct Subcarrier {
     RadioSurfaces surfaces;
     PathAttenuation attenuation;

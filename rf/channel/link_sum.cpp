@@ -112,9 +112,12 @@ void LinkSum::load(Term term, const Complex* transfer) {
     set_factors(place, path.delay_s, factors_.front());
   amplitudes_of_(path, transfer, pair_.data());
   const Complex carrier = unit_phasor(-turns_of(times_.carrier_hz, path.delay_s));
+  const std::vector<double>* const uneven =
+      path.echo && path.echo->turns.size() >= times_.samples ? &path.echo->turns : nullptr;
   for (uint32_t m = 0; m < times_.samples; ++m) {
-    const Complex turned =
-        carrier * unit_phasor(turns_of(static_cast<double>(m), times_.spacing_s, path.doppler_hz));
+    const double turns = uneven ? fraction_of_turn((*uneven)[m])
+                                : turns_of(static_cast<double>(m), times_.spacing_s, path.doppler_hz);
+    const Complex turned = carrier * unit_phasor(turns);
     for (size_t pair = 0; pair < pair_.size(); ++pair)
       amplitudes_[(pair * times_.samples + m) * chunk_ + place] = pair_[pair] * turned;
   }

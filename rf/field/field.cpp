@@ -215,7 +215,8 @@ void travel(const GeometricPath& path, const FieldModel& model, const Runs& runs
         before_m = 0.0;
         break;
       case InteractionType::none:
-        GREATX_CHECK(false, "interaction {} is none", i);
+      case InteractionType::target:  // a path over a target is two paths to this function (rf/targets)
+        GREATX_CHECK(false, "interaction {} is of type {}", i, static_cast<int>(interaction.type));
     }
   }
 }

@@ -21,6 +21,8 @@ const char* name_of(InteractionType type) {
       return "diffraction";
     case InteractionType::scattering:
       return "scattering";
+    case InteractionType::target:
+      return "target";
   }
   throw ContractError("interaction type without a name");
 }

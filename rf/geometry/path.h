@@ -14,6 +14,7 @@
 #include <compare>
 #include <complex>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -28,15 +29,17 @@ enum class InteractionType : uint8_t {
   reflection = 1,
   transmission = 2,
   diffraction = 3,
-  scattering = 4
+  scattering = 4,
+  target = 5  ///< the echo of a target (rf/targets); the element is an instance
 };
 const char* name_of(InteractionType type);
 
 /// Describes the interaction of a path at one of its vertices.
 struct Interaction {
   InteractionType type = InteractionType::reflection;
-  uint32_t element = 0;  ///< facet (index into Scene::facets); for diffraction the wedge
-  uint32_t patch = 0;    ///< number of the scattering patch on the facet; 0 for other types
+  /// Facet (index into Scene::facets); for diffraction the wedge, for a target the instance.
+  uint32_t element = 0;
+  uint32_t patch = 0;  ///< number of the scattering patch on the facet; 0 for other types
   auto operator<=>(const Interaction&) const = default;
 };
 
@@ -76,6 +79,8 @@ struct GeometricPath {
   }
 };
 
+struct TargetEcho;
+
 /// Holds a path as seen from one transmitter and one receiver (their reference points).
 struct Path {
   std::vector<Interaction> interactions;
@@ -94,8 +99,23 @@ struct Path {
   /// `departure`, 1/m. It includes the spreading but not the phase e^{-j 2 pi f tau}, which the channel adds
   /// in turns. Row-major [theta_rx theta_tx, theta_rx phi_tx, phi_rx theta_tx, phi_rx phi_tx].
   Complex transfer[4]{};
+  std::shared_ptr<const TargetEcho> echo;  ///< set if and only if the path leads over a target
   uint64_t id() const { return path_id(interactions); }
   FacetSequence facets() const { return reflecting_facets(interactions); }
+};
+
+/// Holds the parts of a path over a target.
+struct TargetEcho {
+  Path out;   ///< from the transmitter to the target
+  Path home;  ///< from the target to the receiver
+  /// Scattering matrix of the target, m, as Path::transfer: field in (theta, phi) at the departure of `home`
+  /// times the distance, per field in (theta, phi) at the arrival of `out`. 4 pi |S|^2 is a cross-section.
+  Complex scatter[4]{};
+  /// [time samples] phase since the first sample, turns, where it does not turn evenly (rotors); empty: it
+  /// turns with the Doppler shift of the path. An echo of surfaces has no legs, and all its transfer in the
+  /// path.
+  std::vector<double> turns;
+  bool has_legs() const { return !out.vertices.empty(); }
 };
 
 }  // namespace greatx::rf

@@ -43,6 +43,27 @@ nlohmann::json describe_ends(const std::vector<rf::AntennaArray>& arrays, std::s
   return json;
 }
 
+/// Describes the targets with their models; instances as on disk, index + 1.
+nlohmann::json describe_targets(const Experiment& experiment, const ChannelConfig& config) {
+  nlohmann::json targets = nlohmann::json::array();
+  for (const TargetConfig& target : config.targets) {
+    nlohmann::json json{{"node", experiment.scenario.nodes[target.node].name},
+                        {"instance", target_instance(experiment, target) + 1}};
+    if (const auto* kind = std::get_if<rf::Tr38901Kind>(&target.model))
+      json["tr38901"] = rf::tr38901_kinds[static_cast<size_t>(*kind)];
+    else if (const auto* tubes = std::get_if<TargetTubes>(&target.model))
+      json["tubes"] = {
+          {"width_m", tubes->tube_m}, {"budget", tubes->budget}, {"max_bounces", tubes->max_bounces}};
+    else {
+      const rf::RcsTable& table = *std::get<std::shared_ptr<const rf::RcsTable>>(target.model);
+      json["table"] = table.name();
+      json["sha256"] = table.sha256();
+    }
+    targets.push_back(std::move(json));
+  }
+  return targets;
+}
+
 /// Returns an array with one row for each of `rows`. `leading` holds the dimensions before those of a row.
 template <typename View>
 Array filled(const Column<View>& column, std::vector<int64_t> leading, std::span<const View> rows) {
@@ -51,6 +72,18 @@ Array filled(const Column<View>& column, std::vector<int64_t> leading, std::span
   const size_t step = column.row_bytes();
   for (size_t i = 0; i < rows.size(); ++i) column.fill(rows[i], array.bytes.data() + i * step);
   return array;
+}
+
+/// Adds the echoes among `paths` to a block of a link that was solved element by element, whose own paths
+/// they are not. Targets are seen from the arrays' origins.
+void add_echoes_to(const PortBlock& block, std::span<const rf::Path> paths, const rf::FacetWorld& world,
+                   const LinkEnds& ends, std::span<std::complex<float>> out) {
+  std::vector<rf::Path> echoes;
+  for (const rf::Path& path : paths)
+    if (path.echo) echoes.push_back(path);
+  std::vector<std::complex<float>> sum(out.size());
+  block.sum(echoes, world, ends.transmitter, ends.receiver, sum, 1);
+  for (size_t i = 0; i < out.size(); ++i) out[i] += sum[i];
 }
 
 }  // namespace
@@ -105,6 +138,7 @@ void ChannelSensor::describe() {
     spec_.arrays.push_back({column.name, column.dtype, std::move(shape), column.unit, column.description});
     spec_.outputs.push_back({"paths/" + column.name, FileFormat::npy_ragged, {column.name}});
   }
+  if (sensing_) sensing_->describe(spec_);
   spec_.metadata_json = metadata();
 }
 
@@ -117,9 +151,11 @@ std::string ChannelSensor::metadata() const {
   metadata["time_samples"] = config_.time_samples;
   metadata["time_spacing_s"] = config_.time_spacing_s;
   metadata["max_depth"] = config_.limits.max_depth;
+  if (targets_) metadata["targets"] = describe_targets(experiment_, config_);
   metadata["non_finite"] = {"vertex"};
   for (const LinkColumn& column : link_columns_)
     if (column.dtype == DType::f64) metadata["non_finite"].push_back(column.name);
+  if (sensing_) sensing_->describe(metadata);
   metadata["axes"] = {"batch", "rx", "rx_ant", "tx", "tx_ant", "time", "subcarrier"};
   if (config_.taps)
     metadata["taps"] = {{"bandwidth_hz", config_.taps->bandwidth_hz}, {"first", config_.taps->first}};
@@ -170,11 +206,13 @@ Array ChannelSensor::block_of(const PortBlock& block, const Results& results, ui
     std::vector<std::complex<float>> apart(transmitters == 1 ? 0 : rx_ports * row);
     const std::span<std::complex<float>> h =
         transmitters == 1 ? out.subspan(r * rx_ports * row, rx_ports * row) : std::span(apart);
-    if (const ElementPaths* elements = elements_of(r, t, slot))
+    const std::vector<rf::Path>& paths = results[t].links[r].paths;
+    const LinkEnds ends = ends_of(results, r, t);
+    if (const ElementPaths* elements = elements_of(r, t, slot)) {
       elements->assemble(block.per_pair(), block.sum, h);
-    else {
-      const LinkEnds ends = ends_of(results, r, t);
-      block.sum(results[t].links[r].paths, *results[t].world, ends.transmitter, ends.receiver, h, threads);
+      if (targets_) add_echoes_to(block, paths, *results[t].world, ends, h);
+    } else {
+      block.sum(paths, *results[t].world, ends.transmitter, ends.receiver, h, threads);
     }
     for (size_t port = 0; !apart.empty() && port < rx_ports; ++port)
       std::copy_n(
@@ -239,7 +277,41 @@ std::vector<Array> ChannelSensor::arrays_of(const Results& results, uint32_t slo
   for (const LinkColumn& column : link_columns_) arrays.push_back(filled<LinkView>(column, {rx, tx}, links));
   for (const PathColumn& column : path_columns_)
     arrays.push_back(filled<PathView>(column, {static_cast<int64_t>(paths.size())}, paths));
+  if (sensing_) add_sensed(results, slot, arrays);
   return arrays;
+}
+
+void ChannelSensor::add_sensed(const Results& results, uint32_t slot, std::vector<Array>& arrays) const {
+  const size_t transmitters = results.size(), receivers = results[0].links.size();
+  const auto rx_ports = static_cast<size_t>(columns_.rx_ports),
+             tx_ports = static_cast<size_t>(columns_.tx_ports);
+  Array own;
+  if (!config_.outputs.cfr)
+    own = block_of(cfr_block(grid_, dispersion_ ? &*dispersion_ : nullptr), results, slot);
+  const std::span<const std::complex<float>> all =
+      std::as_const(config_.outputs.cfr ? arrays[0] : own).as<std::complex<float>>();
+  const size_t row = tx_ports * grid_.size_per_pair();
+  std::vector<std::vector<std::complex<float>>>
+      gathered;  // with several transmitters a link is not contiguous
+  std::vector<SensedLink> links;
+  for (size_t r = 0; r < receivers; ++r)
+    for (size_t t = 0; t < transmitters; ++t) {
+      std::vector<std::complex<float>>& h = gathered.emplace_back();
+      for (size_t port = 0; port < rx_ports; ++port) {
+        const auto from = all.subspan(((r * rx_ports + port) * transmitters + t) * row, row);
+        h.insert(h.end(), from.begin(), from.end());
+      }
+    }
+  for (size_t index = 0; index < receivers * transmitters; ++index) {
+    const size_t r = index / transmitters, t = index % transmitters;
+    LinkEnds ends = ends_of(results, r, t);
+    links.push_back({gathered[index], results[t].links[r].paths, std::move(ends.transmitter),
+                     std::move(ends.receiver), results[t].transmitter, results[t].links[r].receiver});
+  }
+  const std::span<const TargetState> targets =
+      targets_ ? std::span(targets_->states()) : std::span<const TargetState>();
+  for (Array& array : sensing_->arrays_of(links, targets, moments_[slot].sequence, moments_[slot].tick))
+    arrays.push_back(std::move(array));
 }
 
 }  // namespace greatx::sim

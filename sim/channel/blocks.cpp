@@ -29,13 +29,16 @@ rf::TapGrid tap_grid(const ChannelConfig& config, const rf::ChannelGrid& grid) {
   return {grid.carrier_hz, taps.bandwidth_hz, taps.first, taps.count, grid.time_samples, grid.time_spacing_s};
 }
 
+PortBlock cfr_block(const rf::ChannelGrid& grid, const rf::Dispersion* dispersion) {
+  return response_block(
+      "cfr", "[rx, rx_ant, tx, tx_ant, time, subcarrier] H(f) at carrier + (k - floor(N/2)) * spacing", grid,
+      dispersion, rf::PathSelection::all);
+}
+
 std::vector<PortBlock> port_blocks(const ChannelConfig& config, const rf::ChannelGrid& grid,
                                    const rf::Dispersion* dispersion) {
   std::vector<PortBlock> blocks;
-  if (config.outputs.cfr)
-    blocks.push_back(response_block(
-        "cfr", "[rx, rx_ant, tx, tx_ant, time, subcarrier] H(f) at carrier + (k - floor(N/2)) * spacing",
-        grid, dispersion, rf::PathSelection::all));
+  if (config.outputs.cfr) blocks.push_back(cfr_block(grid, dispersion));
   if (config.outputs.cfr_parts) {
     blocks.push_back(response_block("cfr_line_of_sight", "as cfr, of the line of sight alone", grid,
                                     dispersion, rf::PathSelection::line_of_sight));

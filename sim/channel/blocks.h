@@ -34,6 +34,9 @@ struct PortBlock {
   size_t per_pair() const { return static_cast<size_t>(time * last); }
 };
 
+/// Returns the frequency response `cfr`. `dispersion` is as below.
+PortBlock cfr_block(const rf::ChannelGrid& grid, const rf::Dispersion* dispersion);
+
 /// Returns the arrays of a channel. `dispersion` outlives the blocks; null: materials and air have their
 /// values at the carrier.
 std::vector<PortBlock> port_blocks(const ChannelConfig& config, const rf::ChannelGrid& grid,

@@ -68,8 +68,14 @@ std::shared_ptr<const rf::FacetWorld> RadioWorld::snapshot() {
 ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings,
                            const Experiment& experiment, std::shared_ptr<RadioWorld> radio, uint32_t channel,
                            ChannelEnds ends)
+    : ChannelPaths(gpu_scene, crossings, experiment, std::move(radio), experiment.scenario.channels[channel],
+                   std::move(ends)) {}
+
+ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings,
+                           const Experiment& experiment, std::shared_ptr<RadioWorld> radio,
+                           const ChannelConfig& config, ChannelEnds ends)
     : world_(*experiment.world),
-      config_(experiment.scenario.channels[channel]),
+      config_(config),
       ends_(std::move(ends)),
       radio_(std::move(radio)),
       crossings_(crossings) {
@@ -126,6 +132,9 @@ void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
                                     world_position(ends_.receivers[r], context));
     rf::LinkGeometry geometry = search_->geometry(r, flight.transmitter, link.receiver, threads);
     link.paths = std::move(geometry.paths);
+    // An antenna that hears itself has no line of sight to itself.
+    if (ends_.receivers[r].name == ends_.transmitter.name)
+      std::erase_if(link.paths, [](const rf::GeometricPath& path) { return path.interactions.empty(); });
     link.left_out = {geometry.searched, geometry.overflow};
   });
   flight.segments.clear();

@@ -81,6 +81,10 @@ class ChannelPaths {
   /// channel stands still, or if diffraction is on and candidates come from rays.
   ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
                std::shared_ptr<RadioWorld> radio, uint32_t channel, ChannelEnds ends);
+  /// The same with other settings than those of the channel, such as the limits of a target's legs. `config`
+  /// outlives this.
+  ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
+               std::shared_ptr<RadioWorld> radio, const ChannelConfig& config, ChannelEnds ends);
 
   /// Computes the paths from the first transmitter of the channel to its receivers alone.
   ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,

@@ -47,10 +47,15 @@ ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& cross
     paths_.push_back(std::make_unique<ChannelPaths>(gpu_scene, crossings, experiment, radio_, channel,
                                                     channel_ends(experiment, channel, t)));
   grid_ = channel_grid(config_, experiment.plan);
+  if (all_effects_built && experiment.plan.target_echoes.on && !config_.targets.empty())
+    targets_ = std::make_unique<ChannelTargets>(gpu_scene, crossings, experiment, radio_, channel, grid_);
   if (all_effects_built && experiment.plan.dispersion.on)
     dispersion_.emplace(experiment.scene(), radio_->model().field_model(), radio_->model().effects.weather,
                         grid_);
   if (all_effects_built && experiment.plan.every_element.on) find_near_links();
+  if (all_effects_built && experiment.plan.sensing.on && config_.sensing)
+    sensing_ = std::make_unique<ChannelSensing>(experiment, config_, grid_, transmitter_arrays_,
+                                                receiver_arrays_, targets_ ? config_.targets.size() : 0);
   describe();
 }
 
@@ -58,6 +63,8 @@ void ChannelSensor::find_near_links() {
   Spending pairs(budget::element_pairs);
   for (size_t r = 0; r < receiver_arrays_.size(); ++r)
     for (size_t t = 0; t < transmitter_arrays_.size(); ++t) {
+      // An array that hears itself is at no distance of itself; its waves come back from far away.
+      if (config_.transmitters[t] == config_.receivers[r]) continue;
       const double within_m =
           every_element_within_m(experiment_.scenario, config_, transmitter_arrays_[t], receiver_arrays_[r]);
       const bool all = std::isinf(within_m);
@@ -83,12 +90,15 @@ std::unique_ptr<ElementPaths> ChannelSensor::make_elements(const NearLink& link)
 
 void ChannelSensor::start(const TickContext& context) {
   for (const auto& paths : paths_) paths->start(context);
+  if (targets_) targets_->start(context);
   for (const NearLink& link : near_links_)
     if (link.elements) link.elements->start();
 }
 
 void ChannelSensor::record(gpu::TickSlot& slot, const TickContext& context) {
+  moments_[slot.index] = {context.sequence, context.tick};
   for (const auto& paths : paths_) paths->record(slot, context);
+  if (targets_) targets_->record(slot, context);
   for (NearLink& link : near_links_) {
     const ChannelPaths& paths = *paths_[link.transmitter];
     const double distance_m = glm::distance(world_position(paths.transmitter(), context),
@@ -107,16 +117,24 @@ void ChannelSensor::record(gpu::TickSlot& slot, const TickContext& context) {
 }
 
 bool ChannelSensor::looks_ahead() const {
-  return std::any_of(paths_.begin(), paths_.end(), [](const auto& paths) { return paths->looks_ahead(); });
+  return (targets_ && targets_->looks_ahead()) ||
+         std::any_of(paths_.begin(), paths_.end(), [](const auto& paths) { return paths->looks_ahead(); });
 }
 
 void ChannelSensor::record_ahead(gpu::TickSlot& slot, const TickContext& next) {
   for (const auto& paths : paths_) paths->record_ahead(slot, next);
+  if (targets_) targets_->record_ahead(slot, next);
 }
 
 std::vector<Array> ChannelSensor::collect(const gpu::TickSlot& slot) {
   Results results;
   for (const auto& paths : paths_) results.push_back(paths->collect(slot));
+  if (targets_) {
+    targets_->collect(slot);
+    for (uint32_t t = 0; t < results.size(); ++t)
+      for (size_t r = 0; r < results[t].links.size(); ++r)
+        targets_->add_echoes(t, r, results[t].links[r].paths);
+  }
   for (NearLink& link : near_links_)
     if (link.recorded[slot.index]) {
       link.elements->collect(slot);
@@ -146,6 +164,7 @@ void ChannelSensor::check_sights(const Results& results) {
 Evidence ChannelSensor::evidence() const {
   Evidence evidence;
   evidence.delays_against_distances = &sights_;
+  evidence.sensed = sensing_ && sensing_->detects() && targets_;
   return evidence;
 }
 
@@ -154,6 +173,16 @@ void ChannelSensor::count(std::map<std::string, uint64_t>& counters) const {
     std::map<std::string, uint64_t> own;
     paths->count(own);
     for (const auto& [name, value] : own) counters[config_.name + "." + name] += value;
+  }
+  if (targets_) {
+    std::map<std::string, uint64_t> of_targets;
+    targets_->count(of_targets);
+    for (const auto& [name, value] : of_targets) counters[config_.name + "." + name] = value;
+  }
+  if (sensing_) {
+    std::map<std::string, uint64_t> of_sensing;
+    sensing_->count(of_sensing);
+    for (const auto& [name, value] : of_sensing) counters[config_.name + "." + name] = value;
   }
   if (near_links_.empty()) return;
   std::map<std::string, uint64_t> of_elements;
@@ -164,9 +193,14 @@ void ChannelSensor::count(std::map<std::string, uint64_t>& counters) const {
     counters[fmt::format("{}.every_element_{}", config_.name, name)] = of_elements[name];
 }
 
+void ChannelSensor::warn(std::vector<std::string>& warnings) const {
+  if (sensing_) sensing_->warn(warnings);
+}
+
 void ChannelSensor::note(std::vector<std::pair<std::string, std::string>>& notes) const {
   LinkLeftOut left_out = left_out_of_elements_;
   for (const auto& paths : paths_) left_out.add(paths->left_out());
+  if (targets_) left_out.add(targets_->left_out());
   for (const auto& [name, text] : paths_[0]->notes(left_out))
     notes.emplace_back(config_.name + "." + name, text);
 }

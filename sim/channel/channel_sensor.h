@@ -14,6 +14,8 @@
 #include "rf/channel/frequency_response.h"
 #include "sim/channel/blocks.h"
 #include "sim/channel/channel_paths.h"
+#include "sim/channel/channel_sensing.h"
+#include "sim/channel/channel_targets.h"
 #include "sim/channel/columns.h"
 #include "sim/channel/element_paths.h"
 #include "sim/channel/link_ends.h"
@@ -38,6 +40,7 @@ class ChannelSensor : public Sensor {
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
   Evidence evidence() const override;
   void count(std::map<std::string, uint64_t>& counters) const override;
+  void warn(std::vector<std::string>& warnings) const override;
   void note(std::vector<std::pair<std::string, std::string>>& notes) const override;
 
  private:
@@ -60,6 +63,8 @@ class ChannelSensor : public Sensor {
   struct LinkFacts;
   LinkFacts facts_of(const Results& results, size_t receiver, size_t transmitter, uint32_t slot) const;
   LinkEnds ends_of(const Results& results, size_t receiver, size_t transmitter) const;
+  /// Adds what the channel senses with its responses, of which `arrays` may hold the first block.
+  void add_sensed(const Results& results, uint32_t slot, std::vector<Array>& arrays) const;
   Array block_of(const PortBlock& block, const Results& results, uint32_t slot) const;
 
   scene::GpuScene& gpu_scene_;
@@ -70,6 +75,14 @@ class ChannelSensor : public Sensor {
   bool doppler_;
   std::shared_ptr<RadioWorld> radio_;
   std::vector<std::unique_ptr<ChannelPaths>> paths_;  ///< [tx]
+  std::unique_ptr<ChannelTargets> targets_;           ///< null: no echoes of targets
+  std::unique_ptr<ChannelSensing> sensing_;           ///< null: it senses nothing
+  /// Describes the tick in each slot, for the draws of noise.
+  struct Moment {
+    uint32_t sequence = 0;
+    int64_t tick = 0;
+  };
+  std::array<Moment, slots_in_flight> moments_;
   std::vector<rf::AntennaArray> transmitter_arrays_, receiver_arrays_;
   std::vector<NearLink> near_links_;
   bool told_near_ = false;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "sim/channel/blocks.h"
 #include "sim/plan/plan_options.h"
 
 namespace greatx::sim {
@@ -33,15 +34,19 @@ ChannelSnapshot::ChannelSnapshot(gpu::Device& device, const Experiment& experime
     paths_.push_back(
         std::make_unique<ChannelPaths>(gpu_scene_, crossings_, experiment, radio_, channel, std::move(ends)));
   }
+  if (experiment.plan.target_echoes.on && !experiment.scenario.channels[channel].targets.empty())
+    targets_ = std::make_unique<ChannelTargets>(
+        gpu_scene_, crossings_, experiment, radio_, channel,
+        channel_grid(experiment.scenario.channels[channel], experiment.plan));
 }
 
 void ChannelSnapshot::move(uint32_t sequence, int64_t tick) {
   courses_ = make_courses(experiment_.scenario, *experiment_.world, sequence);
   moment_ = moment_at(*experiment_.world, courses_, Clock(experiment_.scenario.tick_rate_hz), tick);
-  started_ = false;  // the moment is treated as the start of a sequence
+  started_ = targets_started_ = false;  // the moment is treated as the start of a sequence
 }
 
-void ChannelSnapshot::solve(const Take& take) { solve_batch(0, take); }
+void ChannelSnapshot::solve(const Take& take) { solve_batch(0, take, targets_ != nullptr); }
 
 void ChannelSnapshot::solve(std::span<const dvec3> points, size_t first, const Take& take, bool check) {
   paths_[0]->check_receivers(check);  // one check is enough for points with several transmitters
@@ -49,25 +54,30 @@ void ChannelSnapshot::solve(std::span<const dvec3> points, size_t first, const T
     for (const auto& paths : paths_)
       paths->set_points(points.subspan(begin, std::min(points_at_once, points.size() - begin)),
                         first + begin);
-    if (!solve_batch(first + begin, take)) return;
+    if (!solve_batch(first + begin, take, false)) return;
   }
 }
 
-bool ChannelSnapshot::solve_batch(size_t first, const Take& take) {
+bool ChannelSnapshot::solve_batch(size_t first, const Take& take, bool echoes) {
   if (!started_)
     for (const auto& paths : paths_) paths->start(moment_.context);
   started_ = true;
+  if (echoes && !targets_started_) targets_->start(moment_.context);
+  targets_started_ |= echoes;
   gpu::TickSlot& slot = ring_.begin();
   gpu_scene_.record_update(slot, moment_.bodies);
   for (const auto& paths : paths_) paths->record(slot, moment_.context);
+  if (echoes) targets_->record(slot, moment_.context);
   ring_.submit(slot);
   ring_.wait(slot);
   std::vector<ChannelPaths::Result> results;
   for (const auto& paths : paths_) results.push_back(paths->collect(slot));
+  if (echoes) targets_->collect(slot);
 
   for (size_t r = 0; r < results[0].links.size(); ++r)
     for (size_t t = 0; t < results.size(); ++t) {
       ChannelPaths::Link& solved = results[t].links[r];
+      if (echoes) targets_->add_echoes(transmitters_[t], r, solved.paths);
       Link link{transmitters_[t],
                 first + r,
                 paths_[t]->transmitter().name,

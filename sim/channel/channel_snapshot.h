@@ -16,6 +16,7 @@
 #include "rf/paths/crossings.h"
 #include "scene/device/gpu_scene.h"
 #include "sim/channel/channel_paths.h"
+#include "sim/channel/channel_targets.h"
 #include "sim/world/moment.h"
 
 namespace greatx::sim {
@@ -56,9 +57,9 @@ class ChannelSnapshot {
   using Take = std::function<bool(Link)>;
   /// Solves the links to the receivers of the channel.
   void solve(const Take& take);
-  /// Solves the links to points at rest in the world instead. `points_at_once` of them are in memory at a
-  /// time; the results do not depend on this number. `first` is the number of the first point in its list.
-  /// With `check`, points inside a solid are counted and reported.
+  /// Solves the links to points at rest in the world instead, without echoes of targets. `points_at_once` of
+  /// them are in memory at a time; the results do not depend on this number. `first` is the number of the
+  /// first point in its list. With `check`, points inside a solid are counted and reported.
   void solve(std::span<const dvec3> points, size_t first, const Take& take, bool check = true);
   static constexpr size_t points_at_once = 256;
 
@@ -82,7 +83,7 @@ class ChannelSnapshot {
   gpu::TickRing& ring() { return ring_; }
 
  private:
-  bool solve_batch(size_t first, const Take& take);
+  bool solve_batch(size_t first, const Take& take, bool echoes);
 
   const Experiment& experiment_;
   uint32_t channel_;
@@ -94,7 +95,8 @@ class ChannelSnapshot {
   std::shared_ptr<RadioWorld> radio_;
   std::vector<uint32_t> transmitters_;                ///< indices in the channel
   std::vector<std::unique_ptr<ChannelPaths>> paths_;  ///< [transmitters_]
-  bool started_ = false;
+  std::unique_ptr<ChannelTargets> targets_;           ///< null: no echoes of targets
+  bool started_ = false, targets_started_ = false;
 };
 
 }  // namespace greatx::sim

@@ -48,6 +48,10 @@ struct Where {
 Where where_of(const rf::Interaction& interaction, const ColumnContext& context) {
   Where where;
   where.type = static_cast<uint8_t>(interaction.type);
+  if (interaction.type == rf::InteractionType::target) {
+    where.object = interaction.element + 1;
+    return where;
+  }
   uint32_t facet = interaction.element;
   if (interaction.type == rf::InteractionType::diffraction) {
     facet = context.model->wedges[interaction.element].facet_0;
@@ -143,8 +147,13 @@ size_t Column<View>::row_bytes() const {
 template struct Column<PathView>;
 template struct Column<LinkView>;
 
+uint32_t most_interactions(const ChannelConfig& config) {
+  return config.targets.empty() ? config.limits.max_depth
+                                : std::max(config.limits.max_depth, 2 * config.legs.max_depth + 1);
+}
+
 std::vector<PathColumn> path_columns(const ColumnContext& context) {
-  const int64_t depth = std::max<uint32_t>(1, context.config->limits.max_depth);
+  const int64_t depth = std::max<uint32_t>(1, most_interactions(*context.config));
   std::vector<PathColumn> columns{
       of_path<int32_t>("rx", {}, "1", "[path] receiver",
                        [](const PathView& view, int32_t* out) { *out = view.link->receiver; }),
@@ -159,16 +168,19 @@ std::vector<PathColumn> path_columns(const ColumnContext& context) {
       [](const PathView& view, uint64_t* out) { *out = view.path->id(); }));
   columns.push_back(of_path<double>("foliage", {}, "m", "[path] of its length inside foliage",
                                     [](const PathView& view, double* out) { *out = view.path->foliage_m; }));
-  columns.push_back(of_interactions(
-      "interaction", "[path, i] 0: none, 1: reflection, 2: transmission, 3: diffraction, 4: scattering",
-      context, depth, &Where::type));
+  columns.push_back(
+      of_interactions("interaction",
+                      "[path, i] 0: none, 1: reflection, 2: transmission, 3: diffraction, 4: scattering, "
+                      "5: target",
+                      context, depth, &Where::type));
   columns.push_back(
       of_path<double>("vertex", {depth, 3}, "m", "[path, i, xyz] of each interaction, world; NaN: none",
                       [&context, depth](const PathView& view, double* out) {
                         fill_vertices(view, context.scene->origin, static_cast<size_t>(depth), out);
                       }));
   columns.push_back(of_interactions("facet",
-                                    "[path, i] facet + 1 (diffraction: the wedge's first face); 0: none",
+                                    "[path, i] facet + 1 (diffraction: the wedge's first face); 0: none, "
+                                    "target",
                                     context, depth, &Where::facet));
   columns.push_back(of_interactions("element",
                                     "[path, i] wedge + 1, or the scattering facet's patch + 1; 0: none",

@@ -60,6 +60,8 @@ struct ColumnContext {
   const ChannelConfig* config = nullptr;
   int64_t rx_ports = 1, tx_ports = 1;
 };
+/// Returns the most interactions that a path of the channel can have, echoes of targets included.
+uint32_t most_interactions(const ChannelConfig& config);
 /// Return the columns of paths and of links that the channel writes.
 std::vector<PathColumn> path_columns(const ColumnContext& context);
 std::vector<LinkColumn> link_columns(const ColumnContext& context);

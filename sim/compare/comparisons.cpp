@@ -44,6 +44,12 @@ void keep_radar(const TickEvidence& tick, const KeepErrors& keep) {
       keep(witness, tick.poses, compare_radar(witness.record, tick.poses->record, tick.boxes));
 }
 
+void keep_sensing(const TickEvidence& tick, const KeepErrors& keep) {
+  for (const Witness& witness : tick.witnesses)
+    if (witness.evidence.sensed && tick.poses != nullptr)
+      keep(witness, tick.poses, compare_sensing(witness.record, tick.poses->record, tick.boxes));
+}
+
 /// Returns what recomputing needs. A camera with boxes compares instances in a run even if it does not write
 /// them. The figure can then be recomputed only if they are written.
 Comparison::Needs lidar_needs(const SensorSpec& camera) {
@@ -71,6 +77,13 @@ constexpr Comparison table[] = {
        return {{"range", "power", "instance"}, {}, true};
      },
      compare_radar},
+    {sensing_figure, false, keep_sensing,
+     [](const SensorSpec&) -> Comparison::Needs {
+       return {{"detection_range", "detection_power", "detection_instance", "detection_rx", "detection_tx"},
+               {},
+               true};
+     },
+     compare_sensing},
 };
 
 }  // namespace
@@ -91,7 +104,7 @@ void Comparer::compare(uint32_t sequence, int64_t tick, std::span<const Witness>
   bool detections = false;
   for (const Witness& witness : witnesses) {
     if (witness.evidence.poses) evidence.poses = &witness;
-    detections |= witness.evidence.detections;
+    detections |= witness.evidence.detections || witness.evidence.sensed;
   }
   if (all_ && detections && boxes_.empty()) boxes_ = instance_boxes(world_);
   evidence.boxes = boxes_;

@@ -40,6 +40,7 @@ struct Evidence {
   std::optional<ReturnEvidence> returns;
   bool poses = false;       ///< the record holds the poses of all nodes
   bool detections = false;  ///< the record has the arrays range, power and instance of a radar
+  bool sensed = false;      ///< the record has detections of a channel that senses targets
   /// Errors of the depth of a picture, which its camera checks.
   const ErrorStatistics* pixels_against_rays = nullptr;
   /// Errors of the delays of direct paths, which their channel checks.

@@ -147,6 +147,20 @@ double outside(double range_m, const Span& span, double ambiguity_m, double bin_
   return turns > 0.0 ? std::min(gap(turns - 1.0), gap(turns)) : gap(0.0);
 }
 
+/// Returns the strongest detection of each instance with a box, among those of one link.
+std::map<uint32_t, size_t> strongest_of(std::span<const uint32_t> instances, std::span<const float> powers,
+                                        std::span<const uint32_t> links, uint32_t link,
+                                        std::span<const InstanceBox> boxes) {
+  std::map<uint32_t, size_t> strongest;
+  for (size_t i = 0; i < instances.size(); ++i) {
+    const uint32_t id = instances[i];
+    if (links[i] != link || id == 0 || id > boxes.size() || boxes[id - 1].box.empty()) continue;
+    const auto [at, fresh] = strongest.emplace(id, i);
+    if (!fresh && powers[i] > powers[at->second]) at->second = i;
+  }
+  return strongest;
+}
+
 }  // namespace
 
 RecordView view_of(const SensorSpec& spec, const Record& record) {
@@ -218,13 +232,9 @@ ErrorStatistics compare_radar(const RecordView& radar, const RecordView& poses,
   const auto detections = static_cast<size_t>(instance.element_count());
   const Array range = expect_array(radar, "range", DType::f32, detections),
               power = expect_array(radar, "power", DType::f32, detections);
-  std::map<uint32_t, size_t> strongest;
-  for (size_t i = 0; i < instance.as<uint32_t>().size(); ++i) {
-    const uint32_t id = instance.as<uint32_t>()[i];
-    if (id == 0 || id > boxes.size() || boxes[id - 1].box.empty()) continue;
-    const auto [at, fresh] = strongest.emplace(id, i);
-    if (!fresh && power.as<float>()[i] > power.as<float>()[at->second]) at->second = i;
-  }
+  const std::vector<uint32_t> everything(detections, 0);
+  const std::map<uint32_t, size_t> strongest =
+      strongest_of(instance.as<uint32_t>(), power.as<float>(), everything, 0, boxes);
   ErrorStatistics errors;
   for (const auto& [id, i] : strongest) {
     const InstanceBox& box = boxes[id - 1];
@@ -232,6 +242,43 @@ ErrorStatistics compare_radar(const RecordView& radar, const RecordView& poses,
     errors.add(outside(range.as<float>()[i], ranges(transmitter, receiver, pose, box.box),
                        about.at("range_span_m"), about.at("range_bin_m")));
   }
+  return errors;
+}
+
+ErrorStatistics compare_sensing(const RecordView& channel, const RecordView& poses,
+                                std::span<const InstanceBox> boxes) {
+  const Json about = metadata_of(channel);
+  const Json& sensing = about.at("sensing");
+  const Nodes nodes(poses);
+  const auto place = [&](const char* ends, size_t number) {
+    const Json& end = about.at(ends).at(number);
+    return nodes.at_tick(node_of(end.at("name"))).apply(pose_of(end.at("body_from_antenna")).position);
+  };
+  const Array instance = channel.array("detection_instance");
+  const auto detections = static_cast<size_t>(instance.element_count());
+  const Array range = expect_array(channel, "detection_range", DType::f32, detections),
+              power = expect_array(channel, "detection_power", DType::f32, detections),
+              rx = expect_array(channel, "detection_rx", DType::i32, detections),
+              tx = expect_array(channel, "detection_tx", DType::i32, detections);
+  const size_t receivers = about.at("receivers").size(), transmitters = about.at("transmitters").size();
+  std::vector<uint32_t> links;
+  for (size_t i = 0; i < detections; ++i) {
+    const auto r = static_cast<uint32_t>(rx.as<int32_t>()[i]), t = static_cast<uint32_t>(tx.as<int32_t>()[i]);
+    if (r >= receivers || t >= transmitters)
+      throw_user_error("{}: detection {}: expected one of {} x {} links, found ({}, {})", channel.spec.name,
+                       i, receivers, transmitters, r, t);
+    links.push_back(r * static_cast<uint32_t>(transmitters) + t);
+  }
+  ErrorStatistics errors;
+  for (uint32_t link = 0; link < receivers * transmitters; ++link)
+    for (const auto& [id, i] : strongest_of(instance.as<uint32_t>(), power.as<float>(), links, link, boxes)) {
+      const InstanceBox& box = boxes[id - 1];
+      const Pose pose = box.node ? nodes.after(*box.node, 0.0) : Pose();
+      errors.add(outside(range.as<float>()[i],
+                         ranges(place("transmitters", link % transmitters),
+                                place("receivers", link / transmitters), pose, box.box),
+                         sensing.at("range_span_m"), sensing.at("range_bin_m")));
+    }
   return errors;
 }
 

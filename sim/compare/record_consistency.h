@@ -21,6 +21,7 @@ inline constexpr const char* depth_figure = "depth_vs_ray";
 inline constexpr const char* lidar_figure = "lidar_vs_depth";
 inline constexpr const char* sight_figure = "line_of_sight_delay_vs_distance";
 inline constexpr const char* radar_figure = "radar_range_vs_box";
+inline constexpr const char* sensing_figure = "sensing_range_vs_box";
 
 /// Holds the comparison of one record with another record of its tick.
 struct ConsistencyRow {
@@ -60,5 +61,9 @@ ErrorStatistics compare_sights(const RecordView& channel, const RecordView& pose
 /// box.
 ErrorStatistics compare_radar(const RecordView& radar, const RecordView& poses,
                               std::span<const InstanceBox> boxes);
+
+/// The same for the detections of each link of a channel that senses, whose ranges are those at the tick.
+ErrorStatistics compare_sensing(const RecordView& channel, const RecordView& poses,
+                                std::span<const InstanceBox> boxes);
 
 }  // namespace greatx::sim

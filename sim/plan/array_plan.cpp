@@ -74,7 +74,7 @@ Nearest nearest_of(const Scenario& scenario) {
     for (size_t t = 0; t < channel.transmitters.size(); ++t)
       for (size_t r = 0; r < channel.receivers.size(); ++r) {
         const double far_m = far_field_of(scenario, channel, t, r);
-        if (far_m == 0.0) continue;
+        if (far_m == 0.0 || channel.transmitters[t] == channel.receivers[r]) continue;
         const double distance_m =
             distance(reach_of(scenario, channel.transmitters[t]), reach_of(scenario, channel.receivers[r]));
         if (nearest.far_m == 0.0 || distance_m / far_m < nearest.distance_m / nearest.far_m)

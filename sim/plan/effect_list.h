@@ -90,7 +90,12 @@
   X(doppler, true, none, "time samples turn with the Doppler shift of each path") \
   X(wave_curvature, true, none, "a wave passes an array as a sphere, not as a plane") \
   X(beam_squint, true, none, "a wave reaches each element of an array at its own delay over the band") \
-  X(every_element, true, none, "paths between every two elements of arrays that are near each other")
+  X(every_element, true, none, "paths between every two elements of arrays that are near each other") \
+  X(target_echoes, true, none, "paths over the targets of a channel") \
+  X(sensing, false, none, "range-Doppler maps and detections from a channel's symbols") \
+  X(sensing_noise, true, none, "noise of the receiver of a channel that senses") \
+  X(sensing_quantisation, true, none, "steps of its converter") \
+  X(sensing_leakage, true, none, "what its receiver takes from its transmitter without the scene")
 
 #define GREATX_CHECKS(X) \
   X(consistency, true, none, "the check that all sensors see one world")

@@ -70,9 +70,12 @@ EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene,
   plan_lidar(plan, planner, scenario, scene, offers);
   plan_radar(plan, planner, scenario, scene);
   plan_radio(plan, planner, scenario, scene, points);
-  const bool check = asks.cameras > 0 && asks.depth && offers.triangles;
-  planner.decide(plan.consistency, check,
-                 check ? "depth pixels are checked against rays" : "no depth picture of a surface to check",
+  const bool pictures = asks.cameras > 0 && asks.depth && offers.triangles,
+             targets = plan.sensing.on && plan.target_echoes.on;
+  planner.decide(plan.consistency, pictures || targets,
+                 pictures  ? "depth pixels are checked against rays"
+                 : targets ? "detections of targets are checked against their boxes"
+                           : "no depth picture of a surface to check",
                  "256 rays per camera and tick");
   plan_rays(plan, planner, offers);
 

@@ -31,6 +31,10 @@ struct RadioAsks {
   size_t channels = 0;
   uint32_t max_depth = 0, walls = 0, time_samples = 1;
   bool every_tick = false, beams = false, rays = false;
+  size_t targets = 0;  ///< of all channels
+  size_t sensing = 0;  ///< channels that sense
+  bool sensing_noise = false, sensing_adc = false, leakage = false;
+  uint32_t segments = 1;            ///< the most segments of a path, echoes of targets included
   std::vector<double> carriers_hz;  ///< [channels]
   double longest_record_s = 0.0, highest_hz = 0.0, lowest_hz = std::numeric_limits<double>::infinity();
 };
@@ -49,6 +53,19 @@ RadioAsks radio_asks_of(const Scenario& scenario) {
   for (const ChannelConfig& channel : scenario.channels) {
     ++asks.channels;
     asks.max_depth = std::max(asks.max_depth, channel.limits.max_depth);
+    asks.targets += channel.targets.size();
+    if (channel.sensing) {
+      ++asks.sensing;
+      asks.sensing_noise |= channel.sensing->noise_figure_db.has_value();
+      asks.sensing_adc |= channel.sensing->adc.has_value();
+      asks.leakage |= channel.sensing->leakage_db.has_value();
+    }
+    asks.segments = std::max(asks.segments, channel.limits.max_depth + 1);
+    if (!channel.targets.empty()) {
+      asks.segments = std::max(asks.segments, 2 * (channel.legs.max_depth + 1));
+      asks.max_depth = std::max(asks.max_depth, channel.legs.max_depth);
+      asks.walls = std::max(asks.walls, std::min(channel.legs.max_transmissions, channel.legs.max_depth));
+    }
     asks.walls = std::max(asks.walls, channel.walls());
     asks.time_samples = std::max(asks.time_samples, channel.time_samples);
     asks.longest_record_s =
@@ -126,7 +143,7 @@ double largest_body_m(const scene::Scene& scene) {
 
 /// Returns an upper bound of the length of a path. Each segment of a path lies in the box around the scene,
 /// the trajectories, all antenna elements, the moving reflectors, and the points given from outside.
-double longest_path_m(const Scenario& scenario, const scene::Scene& scene, uint32_t max_depth,
+double longest_path_m(const Scenario& scenario, const scene::Scene& scene, uint32_t segments,
                       bool moving_reflectors, const scene::Bounds& points) {
   scene::Bounds courses;
   for (const NodeConfig& node : scenario.nodes) add_trajectory(scenario, node.trajectory, courses);
@@ -137,7 +154,7 @@ double longest_path_m(const Scenario& scenario, const scene::Scene& scene, uint3
   }
   for (const ChannelConfig& channel : scenario.channels) add_elements(scenario, channel, bounds);
   bounds.add(points);
-  return (max_depth + 1.0) * glm::length(bounds.size());
+  return segments * glm::length(bounds.size());
 }
 
 /// Holds the inputs that all functions below need.
@@ -345,6 +362,33 @@ void plan_doppler(EffectPlan& plan, const Radio& radio) {
               : "");
 }
 
+/// Decides the echoes of targets. They have no bound that is known before the run.
+void plan_targets(EffectPlan& plan, const Radio& radio) {
+  const size_t targets = radio.asks.targets;
+  radio.planner.decide(
+      plan.target_echoes, targets > 0,
+      radio.why(targets > 0 ? fmt::format("{} target{} of channels", targets, targets == 1 ? "" : "s")
+                            : "no channel has targets"),
+      targets > 0 ? "paths that a target's surfaces reflect are left to its echoes" : "");
+  if (targets == 0) plan.target_echoes.on = false;
+}
+
+void plan_sensing(EffectPlan& plan, const Radio& radio) {
+  const RadioAsks& asks = radio.asks;
+  const bool senses = asks.sensing > 0;
+  radio.planner.decide(
+      plan.sensing, senses,
+      radio.why(senses ? fmt::format("{} channel{}", asks.sensing, asks.sensing == 1 ? "" : "s")
+                       : "no channel senses"));
+  const auto decide = [&](Effect& effect, bool needed, const char* yes, const char* no) {
+    radio.planner.decide(effect, needed, radio.why(!senses ? "no channel senses" : needed ? yes : no));
+    if (!needed) effect.on = false;
+  };
+  decide(plan.sensing_noise, asks.sensing_noise, "a receiver has a noise figure", "no receiver has one");
+  decide(plan.sensing_quantisation, asks.sensing_adc, "a converter has steps", "no converter is described");
+  decide(plan.sensing_leakage, asks.leakage, "a channel has a level of leakage", "no channel has one");
+}
+
 /// Throws UserError if a channel cannot find what its effects ask for.
 void check_candidates(const EffectPlan& plan, const Scenario& scenario) {
   for (const ChannelConfig& channel : scenario.channels)
@@ -377,10 +421,12 @@ void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenar
   plan_transmission(plan, radio);
   plan_on_request(plan, radio);
   check_candidates(plan, scenario);
-  const double longest_m = longest_path_m(scenario, scene, asks.max_depth, plan.moving_reflectors.on, points);
+  const double longest_m = longest_path_m(scenario, scene, asks.segments, plan.moving_reflectors.on, points);
   plan_attenuation(plan, radio, scenario, longest_m);
   plan_finite_reflectors(plan, radio, scenario, scene, longest_m);
   plan_doppler(plan, radio);
+  plan_targets(plan, radio);
+  plan_sensing(plan, radio);
   plan_arrays(plan, planner, scenario);
 }
 

@@ -22,6 +22,7 @@
 #include "renderer/lidar/scan/returns.h"
 #include "renderer/lidar/scan/scan_pattern.h"
 #include "rf/config/path_limits.h"
+#include "rf/config/sensing_config.h"
 #include "sim/scenario/accuracy.h"
 #include "sim/scenario/antenna.h"
 #include "sim/scenario/limits.h"
@@ -29,6 +30,7 @@
 #include "sim/scenario/radar.h"
 #include "sim/scenario/rational.h"
 #include "sim/scenario/rotation.h"
+#include "sim/scenario/targets.h"
 
 namespace greatx::sim {
 
@@ -196,7 +198,10 @@ struct ChannelConfig {
   std::optional<Taps> taps;
   /// Power into each transmit port; none: there are no received powers, fields and voltages.
   std::optional<double> power_dbm;
-  double resistance_ohm = 50.0;  ///< resistance of each receive port
+  double resistance_ohm = 50.0;       ///< resistance of each receive port
+  std::vector<TargetConfig> targets;  ///< each node once
+  TargetLegs legs;                    ///< of echoes over targets
+  std::optional<rf::SensingConfig> sensing;
   /// Returns the number of walls that a path may pass.
   uint32_t walls() const { return std::min(limits.max_transmissions, limits.max_depth); }
   SourceLocation where;

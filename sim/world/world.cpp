@@ -42,8 +42,20 @@ dquat orientation_of(const dvec3& yaw_pitch_roll) {
   return orientation_from_yaw_pitch_roll(yaw_pitch_roll.x, yaw_pitch_roll.y, yaw_pitch_roll.z);
 }
 
-bool never_moves(const NodeConfig& node) {
+bool stands_still(const NodeConfig& node) {
   return std::holds_alternative<StaticTrajectory>(node.trajectory) && node.parts.empty();
+}
+
+bool is_target(const Scenario& scenario, size_t node) {
+  return std::ranges::any_of(scenario.channels, [&](const ChannelConfig& channel) {
+    return std::ranges::any_of(channel.targets, [&](const TargetConfig& t) { return t.node == node; });
+  });
+}
+
+/// Returns whether the node's mesh is part of the static world. The mesh of a target is a body of its own,
+/// since it must not hide the target's centre.
+bool never_moves(const Scenario& scenario, size_t node) {
+  return stands_still(scenario.nodes[node]) && !is_target(scenario, node);
 }
 
 /// Checks materials before anything runs: one without a row at a carrier is an error of the scenario.
@@ -103,14 +115,21 @@ bool same_part(const PartConfig& a, const PartConfig& b) {
 bool same_body(const NodeConfig& a, const NodeConfig& b) {
   if (a.name != b.name || a.model.has_value() != b.model.has_value()) return false;
   if (!a.model) return true;
-  if (never_moves(a) != never_moves(b)) return false;
-  if (never_moves(a)) {
+  if (stands_still(a) != stands_still(b)) return false;
+  if (stands_still(a)) {
     const auto &x = std::get<StaticTrajectory>(a.trajectory), &y = std::get<StaticTrajectory>(b.trajectory);
     if (x.position_m != y.position_m || x.rotation != y.rotation) return false;
   }
   return same_source(*a.model, *b.model) && std::ranges::equal(a.parts, b.parts, same_part) &&
          std::tie(a.model_mount.position_m, a.model_mount.rotation, a.model_scale, a.semantic_class) ==
              std::tie(b.model_mount.position_m, b.model_mount.rotation, b.model_scale, b.semantic_class);
+}
+
+/// Whether the same nodes have bodies of their own.
+bool same_bodies(const Scenario& a, const Scenario& b) {
+  for (size_t node = 0; node < std::min(a.nodes.size(), b.nodes.size()); ++node)
+    if (never_moves(a, node) != never_moves(b, node)) return false;
+  return true;
 }
 
 /// Finds the carrier and the part of each body. `parts` have their names, and nodes their bodies.
@@ -134,7 +153,7 @@ bool same_world(const Scenario& a, const Scenario& b) {
   return a.name == b.name && a.scene.origin_m == b.scene.origin_m &&
          a.scene.radio_materials == b.scene.radio_materials && a.scene.optical_only == b.scene.optical_only &&
          std::ranges::equal(a.scene.objects, b.scene.objects, same_object) &&
-         std::ranges::equal(a.nodes, b.nodes, same_body);
+         std::ranges::equal(a.nodes, b.nodes, same_body) && same_bodies(a, b);
 }
 
 void check_world(const Scenario& scenario, const World& world) {
@@ -157,11 +176,13 @@ World load_world(const Scenario& scenario) {
                           semantic_class(object.semantic_class, object.model.where),
                           {}});
   }
-  for (const NodeConfig& node : scenario.nodes) {
+  for (size_t index = 0; index < scenario.nodes.size(); ++index) {
+    const NodeConfig& node = scenario.nodes[index];
+    const bool fixed_in_world = never_moves(scenario, index);
     if (!node.model) continue;
     models.push_back(load(*node.model, scenario.scene));
     Pose pose{node.model_mount.position_m, orientation_of(node.model_mount.rotation)};
-    if (never_moves(node)) {
+    if (fixed_in_world) {
       const auto& fixed = std::get<StaticTrajectory>(node.trajectory);
       pose = Pose{fixed.position_m, orientation_of(fixed.rotation)} * pose;
     }
@@ -169,7 +190,7 @@ World load_world(const Scenario& scenario) {
                           &models.back(),
                           pose,
                           node.model_scale,
-                          !never_moves(node),
+                          !fixed_in_world,
                           semantic_class(node.semantic_class, node.where),
                           {}});
     for (FoundPart& part : find_parts(node, models.back())) {
@@ -179,8 +200,11 @@ World load_world(const Scenario& scenario) {
     }
   }
   world.scene = scene::build_scene(placements, {scenario.name, scenario.scene.origin_m});
-  for (const NodeConfig& node : scenario.nodes)
-    world.body_of_node.push_back(node.model && !never_moves(node) ? world.scene.body_index(node.name) : 0);
+  for (size_t index = 0; index < scenario.nodes.size(); ++index) {
+    const NodeConfig& node = scenario.nodes[index];
+    const bool own_body = node.model && !never_moves(scenario, index);
+    world.body_of_node.push_back(own_body ? world.scene.body_index(node.name) : 0);
+  }
   find_bodies(world);
   check_radio(scenario, world.scene);
   return world;

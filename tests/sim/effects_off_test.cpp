@@ -90,7 +90,7 @@ scene::Scene yard() {
   return scene;
 }
 
-enum Sensor { camera_sensor, lidar_sensor, radar_sensor, channel_sensor };
+enum Sensor { camera_sensor, lidar_sensor, radar_sensor, channel_sensor, sensing_sensor };
 
 const char* const sensor_texts[] = {
     "      - {name: camera, type: camera, rate_hz: 10, width: 64, height: 48, fov_deg: 90, "
@@ -104,7 +104,7 @@ const char* const sensor_texts[] = {
     "samples: 64, sample_rate_hz: 25e6, adc_start_s: 1.5e-6, chirp_s: 12e-6, interval_s: 13e-6, chirps: 32}, "
     "receiver: {noise_figure_db: 12, phase_noise: {level_dbc_hz: -95, pole_hz: 2e6}, "
     "adc: {bits: 10, full_scale_dbm: -20}}}\n",
-    ""};
+    "", ""};
 
 /// Switches every effect that can be switched: on if it is in `on`, else off.
 std::string switches_with(const std::set<std::string>& on) {
@@ -135,7 +135,8 @@ std::string yard_scenario(Sensor sensor, const std::string& effects, uint32_t de
   yaml +=
       "  - name: van\n"
       "    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [0, -7, 0]}, {t_s: 1, position_m: [0, "
-      "-4, 0]}]}\n"
+      "-4, 0]}]}\n" +
+      std::string(sensor == sensing_sensor ? "    model: {generate: {kind: car}}\n" : "") +
       "  - name: mast\n"
       "    trajectory: {type: static, position_m: [12, 0.2, 3]}\n"
       "    sensors: [{name: antenna, type: antenna}]\n";
@@ -144,6 +145,14 @@ std::string yard_scenario(Sensor sensor, const std::string& effects, uint32_t de
         "channels:\n  - {{name: csi, tx: mast/antenna, rx: [rig/antenna], rate_hz: 10, carrier_hz: 28e9, "
         "bandwidth_hz: 400e6, subcarriers: 16, time_samples: 2, max_depth: {}}}\n",
         depth);
+  if (sensor == sensing_sensor)
+    yaml +=
+        "channels:\n  - {name: csi, tx: mast/antenna, rx: [rig/antenna], rate_hz: 10, carrier_hz: 28e9, "
+        "bandwidth_hz: 400e6, subcarriers: 32, time_samples: 16, max_depth: 2, targets: [{nodes: van, "
+        "tr38901: "
+        "vehicle}], sensing: {power_dbm: 30, noise_figure_db: 7, adc: {bits: 8, full_scale_dbm: -20}, "
+        "leakage: "
+        "{level_db: -60}, clutter_removal: none}}\n";
   return yaml + effects;
 }
 
@@ -282,6 +291,10 @@ const std::map<std::string, Tried> tried{
     {"wave_curvature", {channel_sensor, {}}},
     {"beam_squint", {channel_sensor, {}}},
     {"every_element", {channel_sensor, {}}},
+    {"target_echoes", {sensing_sensor, {}}},
+    {"sensing_noise", {sensing_sensor, {}}},
+    {"sensing_quantisation", {sensing_sensor, {}}},
+    {"sensing_leakage", {sensing_sensor, {}}},
 };
 
 const Effect& effect_called(const EffectPlan& plan, const std::string& name) {
@@ -296,7 +309,7 @@ TEST(EffectsOff, EveryEffectWorksWhenItIsOnAndDoesNothingWhenItIsOff) {
   std::map<std::string, KeptRun> without;  // by sensor and effects
   const auto run_with = [&](const Tried& one, const std::set<std::string>& on) -> const KeptRun& {
     std::set<std::string> effects = on;
-    if (one.sensor == channel_sensor && !on.contains("reflection")) effects.insert("line_of_sight");
+    if (one.sensor >= channel_sensor && !on.contains("reflection")) effects.insert("line_of_sight");
     const std::string yaml = yard_scenario(one.sensor, switches_with(effects), 2, one.night);
     const auto [known, is_new] = without.try_emplace(yaml);
     if (is_new) known->second = run_yard(yaml);

@@ -54,7 +54,7 @@ std::filesystem::path write_rotor(const std::filesystem::path& folder) {
 }
 
 /// Returns the scenario. The two ends of the channel stand on both sides of the radar.
-std::string scenario(const std::filesystem::path& model) {
+std::string scenario(const std::filesystem::path& model, const std::string& targets = "") {
   return fmt::format(
       "greatx: 1\nname: test\nseed: 5\nticks: {}\ntick_rate_hz: {}\nnodes:\n"
       "  - name: post\n    trajectory: {{type: static, position_m: [0, 0, 8]}}\n    sensors:\n"
@@ -70,10 +70,10 @@ std::string scenario(const std::filesystem::path& model) {
       "  - name: drive\n    trajectory: {{type: static, position_m: [{}, 0, 8]}}\n"
       "    model: {{file: {}, parts: [{{nodes: rotor, rpm: {}, phase_deg: {}}}]}}\n"
       "channels:\n  - {{name: csi, tx: post/tx, rx: [post/rx], rate_hz: {}, carrier_hz: 5e9, subcarriers: 4, "
-      "bandwidth_hz: 20e6, max_depth: 1}}\n"
+      "bandwidth_hz: 20e6, max_depth: 1{}}}\n"
       "effects: {{moving_reflectors: on, line_of_sight: off}}\n",
       samples, sample_hz, 1.0 / sample_hz, samples, samples, distance_m, model.string(), rpm, phase_deg,
-      sample_hz);
+      sample_hz, targets);
 }
 
 /// Returns the instants within the span at which a turning normal points at the sensors.
@@ -213,6 +213,35 @@ TEST(RotorBladeFrequency, IsTheSameInRadarAndChannel) {
   EXPECT_NEAR(strongest_line(chirps), blade_hz, line_hz);
   EXPECT_NEAR(strongest_line(chirps), strongest_line(channel), line_hz);
   EXPECT_NEAR(strongest_line(chirps), frequency_of(by_doppler), line_hz + relative_doppler * blade_hz);
+}
+
+/// Returns the power of each tick of the echoes of the bar alone, without the pole below it.
+std::vector<double> power_of_bar(const KeptRun& run) {
+  std::vector<double> power(samples);
+  for (uint32_t tick = 0; tick < samples; ++tick) {
+    const auto amplitude = run.array<std::complex<float>>(tick, "csi", "amplitude");
+    const auto vertex = run.array<double>(tick, "csi", "vertex");
+    const size_t row = amplitude.empty() ? 0 : vertex.size() / amplitude.size();  // one port at each end
+    std::complex<double> sum = 0.0;
+    for (size_t i = 0; i < amplitude.size(); ++i)
+      if (std::abs(vertex[i * row + 2] - 8.0) < 0.2) sum += std::complex<double>(amplitude[i]);
+    power[tick] = std::norm(sum);
+  }
+  return power;
+}
+
+/// A channel whose target is computed from its surfaces has the radar's own echoes in H: flashes at the same
+/// instants and the same spectral lines, by ray tubes instead of mirror points.
+TEST(RotorBladeFrequency, IsTheSameInTheEchoesOfATarget) {
+  const test::TemporaryFolder folder;
+  const KeptRun run =
+      keep_run(scenario(write_rotor(folder.path()),
+                        ", targets: [{nodes: drive, tubes: {width_m: 0.04, budget: 8000, max_bounces: 1}}]"));
+  const std::vector<double> chirps = power_of_chirps(run), channel = power_of_bar(run);
+  expect_instants(flashes_of_power(channel), 0.5 / sample_hz);
+  const double line_hz = 0.01 / span_s;
+  EXPECT_NEAR(strongest_line(channel), blade_hz, line_hz);
+  EXPECT_NEAR(strongest_line(channel), strongest_line(chirps), line_hz);
 }
 
 }  // namespace

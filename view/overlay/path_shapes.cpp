@@ -44,6 +44,7 @@ PointShape::Mark mark_of(InteractionType type) {
     case InteractionType::diffraction:
       return PointShape::Mark::triangle;
     case InteractionType::scattering:
+    case InteractionType::target:
       return PointShape::Mark::cross;
   }
   return PointShape::Mark::dot;

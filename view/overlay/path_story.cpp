@@ -29,6 +29,8 @@ const char* verb_of(rf::InteractionType type) {
       return "is diffracted at an edge of";
     case rf::InteractionType::scattering:
       return "is scattered at";
+    case rf::InteractionType::target:
+      return "is sent on by the target";
   }
   return "passes";
 }

@@ -45,7 +45,8 @@ void add_leg(Shapes& shapes, const dvec3& a, const dvec3& b, double begin_m, dou
 }
 
 bool begins_a_zone(rf::InteractionType type) {
-  return type == rf::InteractionType::diffraction || type == rf::InteractionType::scattering;
+  return type == rf::InteractionType::diffraction || type == rf::InteractionType::scattering ||
+         type == rf::InteractionType::target;
 }
 
 }  // namespace

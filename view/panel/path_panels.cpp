@@ -18,8 +18,8 @@ namespace {
 constexpr double ring_db = 10.0, compass_db = 60.0, reach_px = 8.0;
 
 /// Of InteractionType, as docs/paths.md numbers them.
-constexpr const char* interaction_names[] = {"line of sight", "reflection", "transmission", "diffraction",
-                                             "scattering"};
+constexpr const char* interaction_names[] = {"line of sight", "reflection", "transmission",
+                                             "diffraction",   "scattering", "target"};
 
 struct PathMark {
   double gain_db = 0.0;  ///< mean over pairs of ports

@@ -25,6 +25,7 @@ from ..links import (
     DIFFRACTION,
     REFLECTION,
     SCATTERING,
+    TARGET,
     SPEED_OF_LIGHT,
     TRANSMISSION,
     antenna_pose,
@@ -39,7 +40,7 @@ DEEPMIMO_VERSION = "4.0.5"
 #: A tick becomes a snapshot in a subfolder of its own, or adds users to one static scenario.
 LAYOUTS = ("snapshots", "users")
 #: DeepMIMO's digits of our interactions.
-DIGIT = {REFLECTION: 1, DIFFRACTION: 2, SCATTERING: 3, TRANSMISSION: 4}
+DIGIT = {REFLECTION: 1, DIFFRACTION: 2, SCATTERING: 3, TRANSMISSION: 4, TARGET: 3}
 _DIGITS = np.array([DIGIT.get(i, 0) for i in range(max(DIGIT) + 1)])
 VACUUM_PERMITTIVITY = 8.8541878188e-12  # F/m, CODATA 2022
 TX_SET, RX_SET = 0, 1

@@ -19,6 +19,7 @@ from ..links import (
     DIFFRACTION,
     REFLECTION,
     SCATTERING,
+    TARGET,
     TRANSMISSION,
     antenna_pose,
     check_channel,
@@ -30,7 +31,7 @@ from .common import make_folder, pick_channel, pick_sequence, turns
 
 #: Values of sionna.rt.constants.InteractionType of our interactions: SPECULAR, DIFFUSE, REFRACTION,
 #: DIFFRACTION.
-INTERACTION = {REFLECTION: 1, SCATTERING: 2, TRANSMISSION: 4, DIFFRACTION: 8}
+INTERACTION = {REFLECTION: 1, SCATTERING: 2, TRANSMISSION: 4, DIFFRACTION: 8, TARGET: 2}
 _INTERACTIONS = np.array([INTERACTION.get(i, 0) for i in range(max(INTERACTION) + 1)], np.uint32)
 INVALID = 0xFFFFFFFF  #: value in `objects` that stands for no object
 

@@ -61,6 +61,12 @@ class EchoFinder {
   EchoList collect(const Pending& pending, const EchoMotion& motion, EchoStatistics* statistics = nullptr);
 
   const EchoOptions& options() const { return options_; }
+  /// Sets the field of view and the number of tubes for the calls of record() and collect() that follow. Both
+  /// calls of one search need the same.
+  void set_view(const FieldOfView& view, uint32_t tubes) {
+    options_.field_of_view = view;
+    options_.tubes = tubes;
+  }
 
  private:
   std::vector<TargetBox> targets(std::span<const Pose> body_poses) const;

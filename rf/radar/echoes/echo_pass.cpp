@@ -36,7 +36,7 @@ EchoPass::Pending EchoPass::record(gpu::TickSlot& slot, const EchoRays& rays,
       device.limits().maxStorageBufferRange / std::max(sizeof(vec3), sizeof(uint32_t) * max_bounces_) - 1;
   if (directions.size() > most)
     throw_user_error(
-        "radar echoes: tubes, target_budget: expected at most {} rays of {} bounces on '{}', found {}", most,
+        "radar echoes: tubes: expected at most {} rays of {} bounces on '{}', found {}", most,
         max_bounces_, device.info().name, directions.size());
   const auto body = [](uint32_t index) { return index == 0 ? ~0u : index; };
   const uint32_t count = static_cast<uint32_t>(directions.size());

@@ -213,7 +213,7 @@ void parse_outputs(const FieldMap& map, ChannelConfig& channel) {
 }
 
 ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
-                            const std::vector<NodeConfig>& nodes) {
+                            const std::vector<NodeConfig>& nodes, RcsFiles& tables) {
   const FieldMap map(field, {"name",
                              "tx",
                              "rx",
@@ -236,7 +236,10 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
                              "outputs",
                              "taps",
                              "power_dbm",
-                             "resistance_ohm"});
+                             "resistance_ohm",
+                             "targets",
+                             "legs",
+                             "sensing"});
   ChannelConfig channel;
   channel.where = field.where();
   channel.name = folder_name(map.require("name", "a name"));
@@ -270,6 +273,8 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
   if (const auto f = map.find("search"))
     channel.search = std::array{ChannelConfig::Search::automatic, ChannelConfig::Search::once,
                                 ChannelConfig::Search::every_tick}[f->choice({"auto", "once", "every_tick"})];
+  parse_targets(map, nodes, tables, channel);
+  parse_sensing(map, channel);
   return channel;
 }
 
@@ -303,8 +308,9 @@ std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rat
 std::vector<ChannelConfig> parse_channels(const Field& field, const Rational& tick_rate_hz,
                                           const std::vector<NodeConfig>& nodes) {
   std::vector<ChannelConfig> channels;
+  RcsFiles tables;
   for (const Field& item : field.list("channels")) {
-    channels.push_back(parse_channel(item, tick_rate_hz, nodes));
+    channels.push_back(parse_channel(item, tick_rate_hz, nodes, tables));
     const std::string name = channels.back().name;
     for (size_t i = 0; i + 1 < channels.size(); ++i)
       if (channels[i].name == name)

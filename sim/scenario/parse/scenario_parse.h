@@ -26,6 +26,9 @@ struct NodeReference {
 /// Holds the antenna patterns that a scenario names. Each is read once.
 using PatternFiles = std::map<std::filesystem::path, std::shared_ptr<const rf::PatternTable>>;
 
+/// Holds the tables of scattering that a scenario names. Each is read once.
+using RcsFiles = std::map<std::filesystem::path, std::shared_ptr<const rf::RcsTable>>;
+
 /// Returns the index of the text of `key` in `choices`. It is called before the other keys of the map are
 /// known.
 size_t kind_of(const Field& field, std::string_view key, std::span<const std::string_view> choices);
@@ -60,6 +63,15 @@ void resolve_illuminators(std::vector<NodeConfig>& nodes);
 /// Gives event cameras that share a camera's pixels its optics and mount.
 void resolve_event_cameras(std::vector<NodeConfig>& nodes);
 std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz);
+/// Parse parts of a receiver and of its processing, which radars and sensing channels share.
+rf::RadarWindow parse_window(const Field& field);
+void parse_cfar(const Field& field, rf::RadarCfar& cfar);
+rf::AnalogToDigital parse_adc(const Field& field);
+/// Parses `sensing` of a channel whose other fields are known.
+void parse_sensing(const FieldMap& map, ChannelConfig& channel);
+/// Parses `targets` and `legs` of a channel whose ends are known.
+void parse_targets(const FieldMap& map, const std::vector<NodeConfig>& nodes, RcsFiles& loaded,
+                   ChannelConfig& channel);
 std::vector<ChannelConfig> parse_channels(const Field& field, const Rational& tick_rate_hz,
                                           const std::vector<NodeConfig>& nodes);
 

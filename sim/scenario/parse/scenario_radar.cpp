@@ -77,48 +77,17 @@ void parse_receiver(const Field& field, rf::RadarReceiver& receiver) {
     if (const auto g = noise.find("level_dbc_hz")) receiver.phase_noise->level_dbc_hz = g->number();
     if (const auto g = noise.find("pole_hz")) receiver.phase_noise->pole_hz = g->positive();
   }
-  if (const auto f = map.find("adc")) {
-    const FieldMap adc(*f, {"bits", "full_scale_dbm"});
-    receiver.adc.emplace();
-    if (const auto g = adc.find("bits")) receiver.adc->bits = g->integer32(2, 24);
-    if (const auto g = adc.find("full_scale_dbm")) receiver.adc->full_scale_dbm = g->number();
-  }
+  if (const auto f = map.find("adc")) receiver.adc = parse_adc(*f);
 }
 
 void parse_processing(const Field& field, rf::RadarProcessing& processing) {
   const FieldMap map(field, {"range_window", "doppler_window", "azimuths", "azimuth_limit_deg", "cfar"});
-  constexpr rf::RadarWindow windows[] = {rf::RadarWindow::rectangular, rf::RadarWindow::hann,
-                                         rf::RadarWindow::hamming, rf::RadarWindow::blackman,
-                                         rf::RadarWindow::taylor};
-  const auto window = [&](const char* key, rf::RadarWindow& value) {
-    if (const auto f = map.find(key))
-      value = windows[f->choice({"rectangular", "hann", "hamming", "blackman", "taylor"})];
-  };
-  window("range_window", processing.range_window);
-  window("doppler_window", processing.doppler_window);
+  if (const auto f = map.find("range_window")) processing.range_window = parse_window(*f);
+  if (const auto f = map.find("doppler_window")) processing.doppler_window = parse_window(*f);
   if (const auto f = map.find("azimuths")) processing.azimuths = f->integer32(2, 4096);
   if (const auto f = map.find("azimuth_limit_deg"))
     processing.azimuth_limit = radians(f->between(0.1, 180.0));
-  if (const auto f = map.find("cfar")) {
-    const FieldMap cfar(*f, {"kind", "false_alarm", "guard", "train", "rank"});
-    rf::RadarCfar& c = processing.cfar;
-    if (const auto g = cfar.find("kind"))
-      c.kind = g->choice({"cell_averaging", "ordered_statistic"}) == 0
-                   ? rf::RadarCfar::Kind::cell_averaging
-                   : rf::RadarCfar::Kind::ordered_statistic;
-    if (const auto g = cfar.find("false_alarm")) c.false_alarm = g->positive();
-    const auto cells = [&](const char* key, uint32_t& range, uint32_t& doppler) {
-      const auto g = cfar.find(key);
-      if (!g) return;
-      const std::vector<Field> sides = g->list("cells in range and in Doppler", 2);
-      if (sides.size() != 2) g->fail("two numbers: cells on each side in range and in Doppler");
-      range = sides[0].integer32(0, 1024);
-      doppler = sides[1].integer32(0, 1024);
-    };
-    cells("guard", c.guard_range, c.guard_doppler);
-    cells("train", c.train_range, c.train_doppler);
-    if (const auto g = cfar.find("rank")) c.rank = g->between(0.0, 1.0);
-  }
+  if (const auto f = map.find("cfar")) parse_cfar(*f, processing.cfar);
 }
 
 void parse_outputs(const Field& field, RadarConfig& radar) {
@@ -175,6 +144,40 @@ const AntennaConfig& illuminator_of(const std::vector<NodeConfig>& nodes, const 
 }
 
 }  // namespace
+
+rf::RadarWindow parse_window(const Field& field) {
+  constexpr rf::RadarWindow windows[] = {rf::RadarWindow::rectangular, rf::RadarWindow::hann,
+                                         rf::RadarWindow::hamming, rf::RadarWindow::blackman,
+                                         rf::RadarWindow::taylor};
+  return windows[field.choice({"rectangular", "hann", "hamming", "blackman", "taylor"})];
+}
+
+rf::AnalogToDigital parse_adc(const Field& field) {
+  const FieldMap map(field, {"bits", "full_scale_dbm"});
+  rf::AnalogToDigital adc;
+  if (const auto f = map.find("bits")) adc.bits = f->integer32(2, 24);
+  if (const auto f = map.find("full_scale_dbm")) adc.full_scale_dbm = f->number();
+  return adc;
+}
+
+void parse_cfar(const Field& field, rf::RadarCfar& c) {
+  const FieldMap cfar(field, {"kind", "false_alarm", "guard", "train", "rank"});
+  if (const auto g = cfar.find("kind"))
+    c.kind = g->choice({"cell_averaging", "ordered_statistic"}) == 0 ? rf::RadarCfar::Kind::cell_averaging
+                                                                     : rf::RadarCfar::Kind::ordered_statistic;
+  if (const auto g = cfar.find("false_alarm")) c.false_alarm = g->positive();
+  const auto cells = [&](const char* key, uint32_t& range, uint32_t& doppler) {
+    const auto g = cfar.find(key);
+    if (!g) return;
+    const std::vector<Field> sides = g->list("cells in range and in Doppler", 2);
+    if (sides.size() != 2) g->fail("two numbers: cells on each side in range and in Doppler");
+    range = sides[0].integer32(0, 1024);
+    doppler = sides[1].integer32(0, 1024);
+  };
+  cells("guard", c.guard_range, c.guard_doppler);
+  cells("train", c.train_range, c.train_doppler);
+  if (const auto g = cfar.find("rank")) c.rank = g->between(0.0, 1.0);
+}
 
 void resolve_illuminators(std::vector<NodeConfig>& nodes) {
   for (size_t n = 0; n < nodes.size(); ++n) {

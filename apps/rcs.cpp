@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The rcs command: the scattering of a node's model, computed once and kept as a table for channels.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "apps/commands.h"
+#include "apps/console/command_line.h"
+#include "apps/console/session.h"
+#include "core/error.h"
+#include "core/units.h"
+#include "core/watch.h"
+#include "gpu/device.h"
+#include "io/files/file.h"
+#include "rf/targets/target_model.h"
+#include "rf/targets/tubes/far_field.h"
+#include "scene/description/scene.h"
+#include "scene/device/gpu_scene.h"
+#include "sim/world/world.h"
+
+namespace greatx::apps {
+
+namespace {
+
+struct RcsCommand {
+  ScenarioOptions scenario;
+  RunOptions run;
+  std::string node, output = "rcs.csv";
+  double carrier_hz = 28e9, step_deg = 5.0, width_m = 0.03;
+  uint32_t budget = 16384, bounces = 3;
+};
+
+/// Returns the world of one node at the origin, its model a body of its own as that of a channel's target.
+sim::World world_of(const RcsCommand& command) {
+  sim::Scenario all = load_scenario(command.scenario);
+  for (const sim::NodeConfig& node : all.nodes) {
+    if (node.name != command.node) continue;
+    if (!node.model) throw_user_error("--node: expected a node with a model, found '{}'", command.node);
+    sim::Scenario alone;
+    alone.name = all.name;
+    alone.scene.radio_materials = all.scene.radio_materials;
+    alone.nodes = {node};
+    alone.nodes[0].trajectory = sim::StaticTrajectory{};
+    alone.nodes[0].sensors.clear();
+    sim::ChannelConfig& channel = alone.channels.emplace_back();
+    channel.name = "rcs";
+    channel.carrier_hz = command.carrier_hz;
+    channel.targets.push_back({0, sim::TargetTubes{}, {}});
+    channel.where = node.where;
+    return sim::load_world(alone);
+  }
+  throw_user_error("--node: expected the name of a node of the scenario, found '{}'", command.node);
+}
+
+rf::PosedTarget posed(const scene::Scene& scene, uint32_t body) {
+  rf::PosedTarget target;
+  for (uint32_t i = 0; i < scene.bodies.size(); ++i) {
+    const auto& joint = scene.bodies[i].joint;
+    const Pose world = i == 0 ? Pose{} : scene.to_local(Pose{});
+    target.bodies.push_back(joint ? world * joint->pose(0.0) : world);
+  }
+  target.centre = scene.to_local(scene.reach_of(body).center());
+  target.size_m = glm::length(scene.reach_of(body).size());
+  return target;
+}
+
+std::string table_of(const RcsCommand& command, gpu::Device& device, const sim::World& world) {
+  const scene::Scene& scene = world.scene;
+  const uint32_t body = world.body_of_node[0];
+  if (body == 0 || scene.reach_of(body).empty())
+    throw_user_error("--node: expected a node with surfaces, found '{}'", command.node);
+  const rf::PosedTarget target = posed(scene, body);
+  scene::GpuScene gpu_scene(device, scene, {});
+  const rf::RadioSurfaces surfaces(scene, command.carrier_hz);
+  rf::TubeOptions options;
+  for (uint32_t i = 0; i < scene.instances.size() && options.instances.empty(); ++i)
+    if (scene.owner_of(scene.instances[i].body) == body) options.instances = {i};
+  options.tube_m = command.width_m;
+  options.budget = command.budget;
+  options.max_bounces = command.bounces;
+  options.bandwidth_hz = 1.0;  // all echoes of a direction are summed at the carrier
+  rf::TubeTargets tubes(gpu_scene, surfaces, "rcs", 0, 0, options);
+  gpu::TickRing ring(device, 2, 1u << 20, 1u << 20);
+  std::string text = fmt::format(
+      "# {} at {:g} Hz, tubes of {:g} m, {} bounces: S in m by physical optics, phases about the centre of "
+      "its "
+      "box\ntheta_deg,phi_deg,s_tt_re,s_tt_im,s_tp_re,s_tp_im,s_pp_re,s_pp_im\n",
+      command.node, command.carrier_hz, command.width_m, command.bounces);
+  const auto zeniths = static_cast<int>(std::lround(180.0 / command.step_deg));
+  for (int i = 0; i <= zeniths; ++i)
+    for (int j = 0; j < 2 * zeniths; ++j) {
+      checkpoint();
+      // A pole has the basis of its azimuth, so that entries are smooth towards it.
+      const double theta = std::clamp(radians(i * command.step_deg), 1e-6, pi - 1e-6),
+                   phi = radians(j * command.step_deg);
+      const dvec3 d(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+      const rf::ScatterMatrix s = rf::far_field(tubes, gpu_scene, ring, target, {d, d}, command.carrier_hz);
+      const rf::Complex cross = 0.5 * (s[1] + s[2]);  // equal by reciprocity, but for the tubes
+      text += fmt::format("{:g},{:g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}\n", i * command.step_deg,
+                          j * command.step_deg, s[0].real(), s[0].imag(), cross.real(), cross.imag(),
+                          s[3].real(), s[3].imag());
+    }
+  return text;
+}
+
+void run(const RcsCommand& command) {
+  const double zeniths = 180.0 / command.step_deg;
+  if (std::abs(zeniths - std::round(zeniths)) > 1e-9)
+    throw_user_error("--step: expected a step that divides 180 degrees, found {}", command.step_deg);
+  const sim::World world = world_of(command);
+  gpu::Device device(command.run.device_options());
+  io::write_file_atomically(command.output, table_of(command, device, world));
+  check_validation(device);
+  std::cout << fmt::format("wrote {}: {} directions at {:g} GHz\n", command.output,
+                           (std::lround(zeniths) + 1) * 2 * std::lround(zeniths), command.carrier_hz * 1e-9);
+}
+
+}  // namespace
+
+void add_rcs(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("rcs", "compute the scattering of a node's model as a table");
+  auto options = std::make_shared<RcsCommand>();
+  options->scenario.add_to(*command);
+  options->run.add_to(*command);
+  command->add_option("--node", options->node, "the node whose model scatters")->required();
+  command->add_option("--carrier", options->carrier_hz, "frequency, Hz")->check(number_of(1e6, 1e13));
+  command->add_option("--step", options->step_deg, "step of both angles, degrees; it divides 180")
+      ->check(number_of(0.1, 90.0));
+  command->add_option("--width", options->width_m, "width of the ray tubes, m")->check(number_of(1e-4, 1e4));
+  command->add_option("--budget", options->budget, "most ray tubes")->check(integer_of(100, 4'000'000));
+  command->add_option("--bounces", options->bounces, "most surfaces that a tube meets")
+      ->check(integer_of(1, 6));
+  command->add_option("-o,--output", options->output, "the table, CSV");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace greatx::apps

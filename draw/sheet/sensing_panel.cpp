@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Draws what a channel senses: power over range and velocity, its detections, and where its targets truly
+// are.
+#include <algorithm>
+#include <cmath>
+
+#include "draw/sheet/panels.h"
+
+namespace greatx::io {
+
+namespace {
+
+constexpr size_t most_targets = 10'000;
+
+double dbm_of(float watt) { return watt > 0.0f ? 10.0 * std::log10(double{watt}) + 30.0 : -400.0; }
+
+/// Shows the map of receiver 0 and transmitter 0. Detections are circles, red if they belong to a target.
+/// Crosses with names are the truth, wrapped into the spans of the waveform; a target without an echo is
+/// grey.
+class SensingPanel : public FramePanel {
+ public:
+  explicit SensingPanel(const PanelSource& source) : source_(source) {
+    read_axes();
+    double top = -400.0, floor = 400.0;
+    for (const IndexRow& row : source_.chosen) {
+      const Array map = source_.load(row, "range_doppler", {DType::f32}, {0, 0, 0, 0});
+      ranges_ = map.shape[2], velocities_ = map.shape[3];
+      std::vector<double>& levels = maps_.emplace_back();
+      const auto cells = map.as<float>().first(static_cast<size_t>(ranges_ * velocities_));
+      for (const float watt : cells) levels.push_back(dbm_of(watt));
+      std::vector<double> sorted = levels;
+      std::sort(sorted.begin(), sorted.end());
+      floor = std::min(floor, sorted[sorted.size() / 2]);
+      top = std::max(top, sorted[sorted.size() - 1 - sorted.size() / 1000]);
+      load_marks(row);
+    }
+    if (!maps_.empty()) scale_ = {std::max(floor - 1.0, top - 60.0), std::max(top, floor + 11.0), false};
+  }
+  std::string title() const override { return source_.spec().name + " senses"; }
+
+  void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
+    const int shown = shown_ranges();
+    canvas.clip(picture);
+    canvas.raster(picture, static_cast<int>(velocities_), shown, [&](int x, int y) {
+      return viridis(std::clamp(scale_.at(level(row, shown - 1 - y, x)), 0.0, 1.0));
+    });
+    const double step = 100.0 * std::max(1.0, std::round(shown * range_bin_m_ / 400.0));
+    for (int i = 1; i * step < (shown - 1) * range_bin_m_; ++i)
+      canvas.text(picture.x + 6, static_cast<int>(place(picture, i * step, velocity_min_).y) - 8,
+                  fmt::format("{:g} m", i * step), theme::text_scale, theme::text);
+    canvas.text(picture.x + 6, picture.bottom() - 20, fmt::format("{:.1f}", velocity_min_), theme::text_scale,
+                theme::text);
+    canvas.text(picture.right() - 6, picture.bottom() - 20, fmt::format("+{:.1f} m/s", -velocity_min_),
+                theme::text_scale, theme::text, Align::right);
+    for (const Mark& mark : marks_[row]) {
+      const dvec2 at = place(picture, mark.range_m, mark.velocity);
+      const Color color = mark.strong ? Color{255, 92, 92} : theme::dim;
+      if (!mark.truth) {
+        canvas.circle(at.x, at.y, 7.0, 1.6, color);
+        continue;
+      }
+      const Color cross = mark.strong ? Color{255, 255, 255} : theme::dim;
+      canvas.line(at.x - 12, at.y, at.x - 4, at.y, 1.6, cross);
+      canvas.line(at.x + 4, at.y, at.x + 12, at.y, 1.6, cross);
+      canvas.line(at.x, at.y - 12, at.x, at.y - 4, 1.6, cross);
+      canvas.line(at.x, at.y + 4, at.x, at.y + 12, 1.6, cross);
+      canvas.text(static_cast<int>(at.x) + 12, static_cast<int>(at.y) - 18, mark.name, theme::text_scale,
+                  cross);
+    }
+    canvas.unclip();
+    draw_color_bar(canvas, legend, scale_, viridis, "dBm");
+  }
+
+  std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames& names) override {
+    const int shown = shown_ranges();
+    const std::optional<RasterCell> cell = cell_at(picture, velocities_, shown, x, y);
+    if (!cell) return {};
+    const int range = shown - 1 - cell->row;
+    std::string text =
+        fmt::format("{:.2f} m, {:.2f} m/s: {:.1f} dBm", range * range_bin_m_,
+                    velocity_min_ + cell->column * velocity_bin_, level(row, range, cell->column));
+    for (const Mark& mark : marks_[row]) {
+      const dvec2 at = place(picture, mark.range_m, mark.velocity);
+      if (std::hypot(x + 0.5 - at.x, y + 0.5 - at.y) > 7.0) continue;
+      text += fmt::format("\n{}: {:.2f} m, {:.2f} m/s{}", mark.truth ? mark.name : "detection", mark.range_m,
+                          mark.velocity,
+                          mark.truth    ? ""
+                          : mark.strong ? ", " + names.instance(mark.instance)
+                                        : ", of no target");
+    }
+    return text;
+  }
+
+ private:
+  struct Mark {
+    double range_m, velocity;
+    bool truth, strong;  ///< strong: it belongs to a target, or the target has an echo
+    uint32_t instance;
+    std::string name;
+  };
+
+  void read_axes() {
+    const JsonDocument metadata = metadata_of(source_);
+    if (metadata.root().has("sensing")) {
+      const JsonValue sensing = metadata.root().at("sensing");
+      const auto number = [&](const char* key, double otherwise, double least, double most) {
+        return sensing.has(key) ? sensing.at(key).number(least, most) : otherwise;
+      };
+      range_bin_m_ = number("range_bin_m", 1.0, 1e-9, 1e12);
+      velocity_min_ = number("velocity_min_m_s", -1.0, -1e12, 0.0);
+      velocity_bin_ = number("velocity_bin_m_s", 1.0, 1e-12, 1e12);
+    }
+    if (metadata.root().has("targets"))
+      for (const JsonValue& target : metadata.root().at("targets").list(most_targets))
+        names_.push_back(target.at("node").text());
+  }
+
+  double wrapped(double value, double low, double span) const {
+    return value - span * std::floor((value - low) / span);
+  }
+
+  void load_marks(const IndexRow& row) {
+    std::vector<Mark>& marks = marks_.emplace_back();
+    if (source_.has("target_range") && !names_.empty()) {
+      const auto count = static_cast<int64_t>(names_.size());
+      const auto truth = [&](const char* name) {
+        return source_.load(row, name, {DType::f64}, {0, 0, count});
+      };
+      const Array range = truth("target_range"), velocity = truth("target_velocity"),
+                  power = truth("target_power");
+      for (size_t i = 0; i < names_.size(); ++i)
+        marks.push_back({wrapped(range.as<double>()[i], 0.0, static_cast<double>(ranges_) * range_bin_m_),
+                         wrapped(velocity.as<double>()[i], velocity_min_,
+                                 static_cast<double>(velocities_) * velocity_bin_),
+                         true, std::isfinite(power.as<double>()[i]), 0, names_[i]});
+    }
+    if (source_.has("detection_range")) {
+      const auto column = [&](const char* name, DType type) { return source_.load(row, name, {type}, {-1}); };
+      const Array range = column("detection_range", DType::f32),
+                  velocity = column("detection_velocity", DType::f32),
+                  rx = column("detection_rx", DType::i32), tx = column("detection_tx", DType::i32),
+                  instance = column("detection_instance", DType::u32);
+      expect_same_rows(source_, {&range, &velocity, &rx, &tx, &instance});
+      for (size_t i = 0; i < range.as<float>().size(); ++i)
+        if (rx.as<int32_t>()[i] == 0 && tx.as<int32_t>()[i] == 0)
+          marks.push_back({range.as<float>()[i], velocity.as<float>()[i], false,
+                           instance.as<uint32_t>()[i] != 0, instance.as<uint32_t>()[i], ""});
+    }
+    for (const Mark& mark : marks)
+      if (mark.strong) farthest_m_ = std::max(farthest_m_, mark.range_m);
+  }
+
+  /// Shows 1.3 times the range of the farthest target or detection of one; the whole map if there is none.
+  int shown_ranges() const {
+    const auto all = static_cast<int>(ranges_);
+    if (farthest_m_ == 0.0) return all;
+    return std::clamp(static_cast<int>(1.3 * farthest_m_ / range_bin_m_), std::min(all, 16), all);
+  }
+  double level(size_t row, int64_t range, int64_t column) const {
+    return maps_[row][static_cast<size_t>(range * velocities_ + column)];
+  }
+  dvec2 place(const Rect& picture, double range_m, double velocity) const {
+    return {picture.x + ((velocity - velocity_min_) / velocity_bin_ + 0.5) * picture.width /
+                            static_cast<double>(velocities_),
+            picture.bottom() - (range_m / range_bin_m_ + 0.5) * picture.height / shown_ranges()};
+  }
+
+  PanelSource source_;
+  double range_bin_m_ = 1.0, velocity_min_ = -1.0, velocity_bin_ = 1.0, farthest_m_ = 0.0;
+  int64_t ranges_ = 1, velocities_ = 1;
+  std::vector<std::string> names_;
+  std::vector<std::vector<double>> maps_;  ///< dBm, one map for each row
+  std::vector<std::vector<Mark>> marks_;   ///< one list for each row
+  Scale scale_{-140.0, -80.0, false};
+};
+
+}  // namespace
+
+std::vector<FrameKind> sensing_frames() {
+  return {{"range-Doppler", {"range_doppler"}, make_frame<SensingPanel>, "sensing"}};
+}
+
+}  // namespace greatx::io

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/targets/tubes/far_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/phase.h"
+#include "core/units.h"
+
+namespace greatx::rf {
+
+double far_distance_m(const PosedTarget& target, double wavelength_m) {
+  // pi D^2/(4 lambda R) at each end.
+  return std::max(100.0 * target.size_m, 100.0 * target.size_m * target.size_m / wavelength_m);
+}
+
+ScatterMatrix far_field(TubeTargets& tubes, scene::GpuScene& scene, gpu::TickRing& ring,
+                        const PosedTarget& target, const Aspect& aspect, double carrier_hz) {
+  const double distance_m = far_distance_m(target, speed_of_light / carrier_hz);
+  const dvec3 source = target.centre + distance_m * aspect.to_source,
+              receiver = target.centre + distance_m * aspect.to_receiver;
+  const dquat world(1.0, 0.0, 0.0, 0.0);
+  EchoMotion motion;
+  motion.transmitter = [&](double) { return Pose{source, world}; };
+  motion.receiver = [&](double) { return Pose{receiver, world}; };
+  motion.body = [&](uint32_t body, double) { return target.bodies[body]; };
+  motion.slot_start_s = {0.0};
+  gpu::TickSlot& slot = ring.begin();
+  scene.record_update(slot, target.bodies);
+  const TubeTargets::Pending pending = tubes.record(slot, source, receiver, target.bodies);
+  ring.submit(slot);
+  ring.wait(slot);
+  ScatterMatrix s{};
+  const double there_and_back_s = 2.0 * distance_m / speed_of_light, at_rest[] = {0.0};
+  for (const TubeEcho& echo : tubes.collect(pending, motion, at_rest))
+    s[2 * echo.received + echo.sent] +=
+        echo.transfer * distance_m * distance_m *
+        unit_phasor(-turns_of(carrier_hz, echo.delay_s[0] - there_and_back_s));
+  return s;
+}
+
+}  // namespace greatx::rf
