@@ -352,8 +352,7 @@ TEST_F(ChannelTargets, ARadarAtTheSamePlaceAgrees) {
       "rows: 2, columns: 4}]",
       "rows: 2, columns: 4}, {name: radar, type: radar, rate_hz: 10, power_dbm: 30, waveform: {carrier_hz: "
       "28e9, bandwidth_hz: 100e6, samples: 128, chirps: 64, interval_s: 100.0e-6}, transmit: {pattern: "
-      "tr38901}, receive: {pattern: tr38901, columns: 4}, receiver: {noise_figure_db: 7}, echoes: "
-      "{target_tube_m: 0.02, target_budget: 20000}}]");
+      "tr38901}, receive: {pattern: tr38901, columns: 4}, receiver: {noise_figure_db: 7}}]");
   replace("tr38901: uav_large", "tubes: {width_m: 0.02, budget: 20000}");
   const KeptRun kept = run(yaml);
   const auto strongest = [&](const std::string& sensor, const std::string& prefix) {
