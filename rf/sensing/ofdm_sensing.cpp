@@ -22,6 +22,8 @@ constexpr double least_share = 0.1;
 constexpr double reach_bins = 2.0;
 /// A bin with less of its noise than this holds nothing that moves.
 constexpr double least_noise_left = 0.1;
+/// Bins beyond which a tone at rest leaves less than the sidelobes of every window.
+constexpr double farthest_rest = 32.0;
 
 /// Returns a radar whose beat signal over samples and chirps is conj(H) over subcarriers and symbols. Its
 /// ramps are symbols: N samples at the rate B, with the slope B times the spacing.
@@ -95,6 +97,7 @@ std::vector<double> noise_left_of(const Window& window, uint32_t bins, bool remo
   for (const float value : w) squares += double(value) * value;
   for (uint32_t bin = 0; bin < bins; ++bin) {
     const double turns = doppler_turns(bin, bins);
+    if (std::abs(turns) > farthest_rest) continue;
     const std::complex<double> rest = window.response(-turns);
     std::complex<double> both = 0.0;
     for (uint32_t n = 0; n < bins; ++n)

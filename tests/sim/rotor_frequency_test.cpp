@@ -234,9 +234,9 @@ std::vector<double> power_of_bar(const KeptRun& run) {
 /// instants and the same spectral lines, by ray tubes instead of mirror points.
 TEST(RotorBladeFrequency, IsTheSameInTheEchoesOfATarget) {
   const test::TemporaryFolder folder;
-  const KeptRun run =
-      keep_run(scenario(write_rotor(folder.path()),
-                        ", targets: [{nodes: drive, tubes: {width_m: 0.04, budget: 8000, max_bounces: 1}}]"));
+  const KeptRun run = keep_run(
+      scenario(write_rotor(folder.path()),
+               ", targets: [{nodes: drive, tubes: {width_m: 0.02, budget: 20000, max_bounces: 1}}]"));
   const std::vector<double> chirps = power_of_chirps(run), channel = power_of_bar(run);
   expect_instants(flashes_of_power(channel), 0.5 / sample_hz);
   const double line_hz = 0.01 / span_s;

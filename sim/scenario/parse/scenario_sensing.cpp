@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Parses the block `sensing` of a channel.
+#include <algorithm>
 #include <cmath>
 
 #include "sim/scenario/parse/scenario_parse.h"
@@ -35,11 +36,15 @@ void parse_sensing(const FieldMap& of_channel, ChannelConfig& channel) {
   const FieldMap map(*field, {"power_dbm", "noise_figure_db", "adc", "leakage", "clutter_removal",
                               "range_window", "doppler_window", "cfar", "outputs"});
   rf::SensingConfig& sensing = channel.sensing.emplace();
+  constexpr uint32_t most = 65536;  // as many as chirps and samples of a radar
   if (channel.time_samples < 4)
     field->fail("at least 4 time_samples of the channel, which are its symbols",
                 fmt::format("{}", channel.time_samples));
   if (channel.subcarriers < 4)
     field->fail("at least 4 subcarriers of the channel", fmt::format("{}", channel.subcarriers));
+  if (std::max(channel.time_samples, channel.subcarriers) > most)
+    field->fail(fmt::format("at most {} time_samples and as many subcarriers of the channel", most),
+                fmt::format("{} and {}", channel.time_samples, channel.subcarriers));
   const auto power = map.find("power_dbm");
   if (!power && !channel.power_dbm) field->fail("a 'power_dbm' here or of the channel", "none");
   const double power_dbm = power ? power->between(-200.0, 200.0) : *channel.power_dbm;
