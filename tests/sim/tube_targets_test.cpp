@@ -62,6 +62,13 @@ scene::Scene plate(double a) {
   return r.build();
 }
 
+scene::Scene lying_plate(double a) {
+  Reflector r;
+  const double h = 0.5 * a;
+  r.tiny.quad({-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0});
+  return r.build();
+}
+
 scene::Scene dihedral(double a) {
   Reflector r;
   r.tiny.quad({0, 0, 0}, {a, 0, 0}, {a, 0, a}, {0, 0, a}).quad({0, 0, 0}, {0, 0, a}, {0, a, a}, {0, a, 0});
@@ -172,6 +179,19 @@ class TubeReflectors : public ::testing::TestWithParam<double> {
     return decibels(4.0 * pi * std::pow(sizes_.a(), 4) * share * share / std::pow(sizes_.wavelength(), 2));
   }
 };
+
+/// The tubes have no pole where the target is.
+TEST_P(TubeReflectors, APlateFromStraightAboveAndBelow) {
+  const scene::Scene scene = lying_plate(sizes_.a());
+  for (const double elevation : {90.0, 88.0, 78.0, 60.0, -90.0}) {
+    const dvec3 from = direction(0.0, elevation);
+    const KeptRun run = run_of(scene, sizes_, from, from, tubes(0.1, 2000, 1));
+    const double off = radians(90.0 - std::abs(elevation));
+    const double share = std::cos(off) * sinc(sizes_.k() * sizes_.a() * std::sin(off));
+    EXPECT_NEAR(section_db(run, sizes_), aperture_db(share), 0.02) << elevation;
+    EXPECT_NEAR(section_db(run, sizes_, 1, 1), aperture_db(share), 0.02) << elevation;
+  }
+}
 
 TEST_P(TubeReflectors, APlate) {
   const scene::Scene scene = plate(sizes_.a());

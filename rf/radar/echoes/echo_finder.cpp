@@ -237,7 +237,7 @@ EchoFinder::Pending EchoFinder::record(gpu::TickSlot& slot, const Pose& transmit
   pending.body_poses.assign(body_poses.begin(), body_poses.end());
   if (!pass_) return pending;
   pose_world(body_poses);
-  pending.grid = std::make_shared<const RayGrid>(options_, transmitter);
+  pending.grid = std::make_shared<const RayGrid>(grid_at(transmitter));
   std::vector<vec3> directions(pending.grid->size());
   for (uint32_t tube = 0; tube < directions.size(); ++tube) directions[tube] = vec3(pending.grid->axis(tube));
   pending.rays = pass_->record(slot, rays_of(pending), directions);
@@ -301,7 +301,7 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   const EchoField field(world_, surfaces_, options_, transmitter, receiver, pending.receiver.position);
   const auto reflects = [&](uint32_t facet) { return field.reflects(facet); };
   const std::shared_ptr<const RayGrid> grid =
-      pending.grid ? pending.grid : std::make_shared<const RayGrid>(options_, pending.transmitter);
+      pending.grid ? pending.grid : std::make_shared<const RayGrid>(grid_at(pending.transmitter));
   const dvec3& source = pending.transmitter.position;
   EchoTracer::Answer traced;
   const auto last = [&](uint32_t first, uint32_t second) {

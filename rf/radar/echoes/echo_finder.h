@@ -62,10 +62,12 @@ class EchoFinder {
 
   const EchoOptions& options() const { return options_; }
   /// Sets the field of view and the number of tubes for the calls of record() and collect() that follow. Both
-  /// calls of one search need the same.
-  void set_view(const FieldOfView& view, uint32_t tubes) {
+  /// calls of one search need the same. The field of view is about the x axis of a frame that `turn` turns
+  /// from local coordinates, whatever the orientation of the transmitter.
+  void set_view(const FieldOfView& view, uint32_t tubes, const dquat& turn) {
     options_.field_of_view = view;
     options_.tubes = tubes;
+    turn_ = turn;
   }
 
  private:
@@ -77,6 +79,9 @@ class EchoFinder {
     return {pending.transmitter.position, pending.receiver.position, transmitter_.own_body,
             receiver_.own_body};
   }
+  RayGrid grid_at(const Pose& transmitter) const {
+    return RayGrid(options_, {transmitter.position, turn_.value_or(transmitter.orientation)});
+  }
   void pose_world(std::span<const Pose> body_poses);
   void check_antenna(const dvec3& at, const RayGrid& grid, std::span<const uint32_t> hits) const;
 
@@ -85,6 +90,7 @@ class EchoFinder {
   EchoEnd transmitter_, receiver_;
   bool monostatic_;
   EchoOptions options_;
+  std::optional<dquat> turn_;  ///< of the field of view; absent: that of the transmitter
   FacetWorld world_;
   FacetTrees trees_;
   EchoTracer tracer_;

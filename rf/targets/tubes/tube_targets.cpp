@@ -16,7 +16,6 @@ namespace {
 constexpr double margin = 0.05;
 /// Tubes beside the box. A surface in a tube is found by the tube's ray or by those of its neighbours.
 constexpr double tubes_beside = 3.0;
-constexpr double near_pole = 1.3;     ///< elevation, rad, beyond which the view has all azimuths
 constexpr double widest_tube = 0.25;  ///< rad
 constexpr uint32_t least_tubes = 100;
 
@@ -40,30 +39,31 @@ EchoOptions options_of(const TubeOptions& tubes) {
   return options;
 }
 
-/// Returns the azimuths and elevations of a box around a point, with a margin; the whole sphere from near by.
-FieldOfView view_of_box(const scene::Bounds& box, const Pose& pose, const dvec3& from, double tube_rad) {
+/// Returns the orientation of a frame whose x axis points along `direction`.
+dquat towards(const dvec3& direction) {
+  return orientation_from_yaw_pitch_roll(std::atan2(direction.y, direction.x),
+                                         -std::atan2(direction.z, std::hypot(direction.x, direction.y)), 0.0);
+}
+
+/// Returns the azimuths and elevations of a box in a frame at `from` that `turn` turns towards the box, with a
+/// margin; the whole sphere from near by.
+FieldOfView view_of_box(const scene::Bounds& box, const Pose& pose, const dvec3& from, const dquat& turn,
+                        double tube_rad) {
   constexpr FieldOfView everything{-pi, pi, -0.5 * pi, 0.5 * pi};
   const double radius = 0.5 * glm::length(box.size());
-  const dvec3 middle = pose.apply(box.center()) - from;
-  if (glm::length(middle) < 1.5 * radius) return everything;
-  const double azimuth = std::atan2(middle.y, middle.x);
-  double half = 0.0, low = 0.5 * pi, high = -0.5 * pi;
+  if (glm::length(pose.apply(box.center()) - from) < 1.5 * radius) return everything;
+  double wide = 0.0, high = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
     const dvec3 sign(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);
-    const dvec3 p = pose.apply(box.center() + sign * box.size()) - from;
-    const double elevation = std::atan2(p.z, std::hypot(p.x, p.y));
-    low = std::min(low, elevation), high = std::max(high, elevation);
-    half = std::max(half, std::abs(std::remainder(std::atan2(p.y, p.x) - azimuth, 2.0 * pi)));
+    const dvec3 p = glm::conjugate(turn) * (pose.apply(box.center() + sign * box.size()) - from);
+    wide = std::max(wide, std::abs(std::atan2(p.y, p.x)));
+    high = std::max(high, std::abs(std::atan2(p.z, std::hypot(p.x, p.y))));
   }
   // The edges of a box bulge beyond its corners by less than the sagitta of their span.
-  const double span = std::max(high - low, 2.0 * half), steepest = std::max(std::abs(low), std::abs(high));
-  const double room = std::max(margin * span, tubes_beside * tube_rad) +
-                      0.125 * span * span * std::tan(std::min(steepest, 1.4));
-  low -= room, high += room, half += room;
-  // Near a pole the azimuth carries no information, and the view has the pole in it.
-  if (steepest + room > near_pole || half >= pi)
-    return {-pi, pi, low < -near_pole ? -0.5 * pi : low, high > near_pole ? 0.5 * pi : high};
-  return {azimuth - half, azimuth + half, low, high};
+  const double span = 2.0 * std::max(wide, high);
+  const double room = std::max(margin * span, tubes_beside * tube_rad) + 0.125 * span * span * std::tan(high);
+  if (wide + room >= pi || high + room >= 0.5 * pi) return everything;
+  return {-wide - room, wide + room, -high - room, high + room};
 }
 
 }  // namespace
@@ -96,9 +96,10 @@ TubeTargets::Search TubeTargets::view_of(uint32_t target, const dvec3& transmitt
       std::max(glm::length(pose.apply(box.center()) - transmitter) - 0.5 * glm::length(box.size()), 1e-3);
   // The tubes widen until the view of the box and what is beside it has no more of them than allowed.
   Search search;
+  search.turn = towards(pose.apply(box.center()) - transmitter);
   double tube_rad = std::min(options_.tube_m / distance_m, widest_tube);
   while (true) {
-    search.view = view_of_box(box, pose, transmitter, tube_rad);
+    search.view = view_of_box(box, pose, transmitter, search.turn, tube_rad);
     const double solid_angle = (search.view.azimuth_max - search.view.azimuth_min) *
                                (std::sin(search.view.elevation_max) - std::sin(search.view.elevation_min));
     const double wanted = solid_angle / (tube_rad * tube_rad);
@@ -117,7 +118,7 @@ TubeTargets::Pending TubeTargets::record(gpu::TickSlot& slot, const dvec3& trans
   for (const uint32_t target : options_.instances) {
     Search search = view_of(target, transmitter, bodies);
     for (size_t i = 0; i < finders_.size(); ++i) {
-      finders_[i]->set_view(search.view, search.tubes);
+      finders_[i]->set_view(search.view, search.tubes, search.turn);
       search.rays[i] = finders_[i]->record(slot, {transmitter, world}, {receiver, world}, bodies);
     }
     pending.push_back(std::move(search));
@@ -131,7 +132,7 @@ std::vector<TubeEcho> TubeTargets::collect(const Pending& pending, const EchoMot
   std::vector<TubeEcho> found;
   for (size_t target = 0; target < pending.size(); ++target)
     for (uint32_t i = 0; i < finders_.size(); ++i) {
-      finders_[i]->set_view(pending[target].view, pending[target].tubes);
+      finders_[i]->set_view(pending[target].view, pending[target].tubes, pending[target].turn);
       const EchoList list = finders_[i]->collect(pending[target].rays[i], motion);
       for (const Echo& echo : list.echoes) {
         if (echo.instance == 0 || !belongs(echo.instance - 1, options_.instances[target])) continue;

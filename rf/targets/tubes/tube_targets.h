@@ -49,7 +49,8 @@ class TubeTargets {
 
   /// Holds the searches of one target.
   struct Search {
-    FieldOfView view;  ///< of the box of the target with its parts
+    FieldOfView view;                ///< of the box of the target with its parts
+    dquat turn{1.0, 0.0, 0.0, 0.0};  ///< local from the frame of the view, whose x axis points to the box
     uint32_t tubes = 0;
     std::array<EchoFinder::Pending, 4> rays;
   };
