@@ -3,8 +3,9 @@
 //
 // Finds the echoes of facets that are too small for the tubes of the grid. A ray of the grid may pass beside
 // such a facet. Each facet whose echo may stand above the noise therefore has a beam of its own, which is as
-// wide as the facet is seen from the transmitter. The beam is divided exactly at each bounce:
-// EchoTracer gathers all facets that it may meet, and find_visible clips them to it. No reflector is missed for its size.
+// wide as the facet is seen from the transmitter. The beam is divided exactly at each bounce: EchoTracer
+// gathers all facets that it may meet, and find_visible clips them to it. No reflector is missed for its
+// size.
 //
 // The facets with beams are divided from the others by the first surface of an echo: TubeEchoes leaves out
 // tubes that fall on them first.
@@ -62,8 +63,8 @@ class FacetEchoes {
   struct Job;
   static constexpr uint32_t chunk = 64;
   bool chosen(uint32_t facet, const PosedFacet* mirror) const;
-  /// Returns the outline of a piece in the coordinates of `beam`, and the largest distance of its corners along
-  /// the axis. Returns an empty polygon if the piece is seen edge on.
+  /// Returns the outline of a piece in the coordinates of `beam`, and the largest distance of its corners
+  /// along the axis. Returns an empty polygon if the piece is seen edge on.
   Polygon outline_of(uint32_t facet, uint32_t piece, const TubeBeam& beam, double& farthest) const;
   void solve(uint32_t facet, Job& job) const;
   void solve_over(const MirroredFacet& image, Job& job) const;

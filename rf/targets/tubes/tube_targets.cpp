@@ -45,8 +45,8 @@ dquat towards(const dvec3& direction) {
                                          -std::atan2(direction.z, std::hypot(direction.x, direction.y)), 0.0);
 }
 
-/// Returns the azimuths and elevations of a box in a frame at `from` that `turn` turns towards the box, with a
-/// margin; the whole sphere from near by.
+/// Returns the azimuths and elevations of a box in a frame at `from` that `turn` turns towards the box, with
+/// a margin; the whole sphere from near by.
 FieldOfView view_of_box(const scene::Bounds& box, const Pose& pose, const dvec3& from, const dquat& turn,
                         double tube_rad) {
   constexpr FieldOfView everything{-pi, pi, -0.5 * pi, 0.5 * pi};
