@@ -83,8 +83,13 @@ class EchoSender {
   template <typename Omitted>
   void send_back(BeamWay& way, uint32_t bounce, const Polygon& part, const Omitted& omitted) const {
     if (bounce > 0 && over_mirror(way, bounce, part)) return;
-    const Polygon piece = lit_piece(way, bounce, part, field_.receiver_at());
-    if (!piece.empty()) send_piece(way, bounce, piece, omitted(piece));
+    send_direct(way, bounce, part, omitted);
+  }
+  /// Adds the echoes of the currents on surface `last` of the way that reach the receiver directly.
+  template <typename Omitted>
+  void send_direct(BeamWay& way, uint32_t last, const Polygon& part, const Omitted& omitted) const {
+    const Polygon piece = lit_piece(way, last, part, field_.receiver_at());
+    if (!piece.empty()) send_piece(way, last, piece, omitted(piece));
   }
   /// Adds the echoes of the currents on surface `last` of the way that reach the receiver over `mirror`. If
   /// the opposite path is not searched for, it is added with this one.

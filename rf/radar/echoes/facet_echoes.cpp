@@ -17,6 +17,7 @@ constexpr double narrow_tubes = 3.0;    ///< width in tubes up to which a facet 
 constexpr double widest_beam = 0.3;     ///< rad about the axis
 constexpr double same_plane_m = 1e-6;   ///< distance behind a surface at which a facet does not lie behind it
 constexpr double same_distance = 1e-6;  ///< relative, between two computations of a distance
+constexpr double least_depth = 0.1;     ///< cosine to the axis down to which a view from the receiver reaches
 constexpr double smallest_part = 1e-9;  ///< fraction of the area of a beam; smaller parts are dropped
 
 }  // namespace
@@ -26,6 +27,9 @@ struct FacetEchoes::Job : BeamWay {
   double smallest = 0.0;  ///< area in the (u, v) plane; smaller parts are dropped
   std::vector<FacetPiece> pieces;
   std::array<std::vector<VisibleCell>, most_surfaces> cells;
+  std::vector<FacetPiece> hiding;            ///< what may hide a part from the receiver
+  std::vector<VisibleCell> seen, on_mirror;  ///< of the way to the receiver
+  std::vector<Polygon> sending;              ///< what the receiver sees of a part
   VisibleScratch scratch;
 };
 
@@ -141,10 +145,10 @@ void FacetEchoes::solve(uint32_t facet, Job& job) const {
     const EchoTracer::Met met =
         scene_.tracer.first(beams_, source_, glm::normalize(beam.along(outline.centroid())), ~0u);
     if (met.facet != facet && met.facet != ~0u && met.distance < farthest &&
-        covers(world, scene_.trees, beam, {}, outline, met.facet, job.scratch))
+        covers(world, scene_.trees, beam, {}, outline, met.facet, job.scratch, &world.facet(facet)))
       continue;
     job.smallest = smallest_part * outline.area();
-    gather(job, beam, {}, outline, farthest);
+    gather(beams_, beam, {}, outline, farthest, job.pieces);
     std::vector<VisibleCell>& cells = job.cells[0];
     find_visible(world, scene_.trees, beam, {}, outline, facet, job.pieces, job.smallest, job.scratch, cells);
     for (size_t i = 0; i < cells.size(); ++i)
@@ -170,13 +174,13 @@ void FacetEchoes::solve_over(const MirroredFacet& image, Job& job) const {
     double to = 0.0;  // the mirror is not farther away
     for (uint32_t i = 0; i < outline.size(); ++i) to = std::max(to, out.reach(mirror, out.along(outline[i])));
     std::vector<VisibleCell>&on_mirror = job.cells[0], &on_facet = job.cells[1];
-    gather(job, out, {}, outline, to * (1.0 + same_distance));
+    gather(beams_, out, {}, outline, to * (1.0 + same_distance), job.pieces);
     find_visible(world, scene_.trees, out, {}, outline, VisibleCell::nothing, job.pieces, job.smallest,
                  job.scratch, on_mirror);
     for (size_t i = 0; i < on_mirror.size(); ++i) {
       if (on_mirror[i].facet != image.mirror) continue;
       const Polygon part = on_mirror[i].part;
-      gather(job, beam, start, part, farthest);
+      gather(beams_, beam, start, part, farthest, job.pieces);
       find_visible(world, scene_.trees, beam, start, part, image.facet, job.pieces, job.smallest, job.scratch,
                    on_facet);
       job.chain[0] = image.mirror;
@@ -186,8 +190,8 @@ void FacetEchoes::solve_over(const MirroredFacet& image, Job& job) const {
   }
 }
 
-void FacetEchoes::gather(Job& job, const TubeBeam& beam, const BeamStart& start, const Polygon& part,
-                         double to) const {
+void FacetEchoes::gather(const EchoTracer::View& view, const TubeBeam& beam, const BeamStart& start,
+                         const Polygon& part, double to, std::vector<FacetPiece>& pieces) const {
   const PartBox box(part);
   const dvec2 middle = 0.5 * (box.low + box.high);
   EchoTracer::Cone cone{beam.source, beam.along(middle), 0.0, to, 0.5 * glm::length(box.high - box.low)};
@@ -199,8 +203,8 @@ void FacetEchoes::gather(Job& job, const TubeBeam& beam, const BeamStart& start,
   }
   const BeamSpaces spaces(beam, start, box);
   cone.sides = spaces.used();
-  job.pieces.clear();
-  scene_.tracer.gather(beams_, cone, job.pieces);
+  pieces.clear();
+  scene_.tracer.gather(view, cone, pieces);
 }
 
 void FacetEchoes::follow(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start) const {
@@ -228,7 +232,7 @@ uint32_t FacetEchoes::gather_next(Job& job, const TubeBeam& beam, const BeamStar
     for (uint32_t i = 0; i < part.size(); ++i)
       to = std::max(to, beam.reach(scene_.world.facet(wall), beam.along(part[i])));
   }
-  gather(job, beam, start, part, to);
+  gather(beams_, beam, start, part, to, job.pieces);
   return wall;
 }
 
@@ -300,37 +304,102 @@ void FacetEchoes::bounce_off(Job& job, uint32_t bounce, const Polygon& part, uin
 
 void FacetEchoes::send(Job& job, uint32_t bounce, const Polygon& part) const {
   const auto none = [](const Polygon&) { return 0u; };
+  const FacetWorld& world = scene_.world;
   const uint32_t facet = job.chain[bounce];
-  const PosedFacet& posed = scene_.world.facet(facet);
-  const TubeBeam& beam = job.beams[bounce];
-  const dvec3 along = beam.along(part.centroid());
-  const dvec3 at = beam.source + beam.reach(posed, along) * along;
-  const bool over = bounce > 0 && mirrors(scene_.world, job.chain[0], facet);
-  if (over && sender_.home() && (bounce == 1 || seen_over(posed, facet, at, job.chain[0])))
-    sender_.send_over(job, bounce, part, job.chain[0], EchoSender::Over::first, none);
+  const bool over_first = bounce > 0 && mirrors(world, job.chain[0], facet);
+  if (over_first && sender_.home()) {
+    // A beam that came over the mirror directly to this surface returns in the same way.
+    if (bounce > 1)
+      find_seen_over(job, bounce, part, job.chain[0]);
+    else
+      job.sending.assign(1, part);
+    for (const Polygon& sending : job.sending)
+      sender_.send_over(job, bounce, sending, job.chain[0], EchoSender::Over::first, none);
+  }
   // The opposite path of the second case is that of the smaller facet.
-  if (bounce >= options_.max_bounces || (over && bounce == 1)) return;
-  if ((bounce == 0 && monostatic_) || seen_from(posed, facet, at)) sender_.send_back(job, bounce, part, none);
+  if (bounce >= options_.max_bounces || (over_first && bounce == 1)) return;
+  if (bounce > 0 && mirrors(world, facet, job.chain[bounce - 1])) {
+    if (bounce > 1 && sender_.home() && facet == job.chain[0]) return;  // the surface before has sent it
+    find_seen_over(job, bounce - 1, part, facet);
+    for (const Polygon& sending : job.sending)
+      sender_.send_over(job, bounce - 1, sending, facet, EchoSender::Over::other, none);
+    return;
+  }
+  if (bounce == 0 && monostatic_)
+    job.sending.assign(1, part);
+  else
+    find_seen(job, bounce, part);
+  for (const Polygon& sending : job.sending) sender_.send_direct(job, bounce, sending, none);
 }
 
-bool FacetEchoes::seen_from(const PosedFacet& posed, uint32_t facet, const dvec3& at) const {
-  const double side = posed.distance(field_.receiver_at());
-  const dvec3 from = EchoTracer::lifted(at, side > 0.0 ? posed.normal : -posed.normal);
-  return scene_.tracer.clear(receiver_, from, field_.receiver_at(), facet);
+bool FacetEchoes::view_back(const Job& job, uint32_t last, const Polygon& part, const dvec3& from,
+                            BackView& view) const {
+  const PosedFacet& posed = scene_.world.facet(job.chain[last]);
+  const TubeBeam& beam = job.beams[last];
+  const auto at = [&](const dvec2& uv) {
+    const dvec3 along = beam.along(uv);
+    return beam.source + beam.reach(posed, along) * along;
+  };
+  view.beam = TubeBeam(from, glm::normalize(at(part.centroid()) - from));
+  view.farthest = 0.0;
+  std::array<dvec2, Polygon::capacity> points;
+  for (uint32_t i = 0; i < part.size(); ++i) {
+    const dvec3 corner = at(part[i]);
+    const double depth = glm::dot(corner - from, view.beam.axis);
+    if (!(depth > least_depth * glm::distance(corner, from))) return false;
+    points[i] = view.beam.uv(corner);
+    view.farthest = std::max(view.farthest, depth);
+  }
+  view.outline = Polygon(std::span<const dvec2>(points).first(part.size()));
+  return view.outline.area() > 0.0;
 }
 
-bool FacetEchoes::seen_over(const PosedFacet& posed, uint32_t facet, const dvec3& at, uint32_t mirror) const {
-  const PosedFacet& wall = scene_.world.facet(mirror);
-  const dvec3 image = field_.mirrored_receiver(mirror);
-  const double share = -wall.distance(at) / glm::dot(wall.normal, image - at);
-  if (!(share > 0.0 && share < 1.0)) return false;
-  const dvec3 over = at + share * (image - at);
-  if (!scene_.trees.contains(scene_.world, mirror, over)) return false;
-  const double side = posed.distance(image);
-  const dvec3 from = EchoTracer::lifted(at, side > 0.0 ? posed.normal : -posed.normal);
-  const dvec3 top = EchoTracer::lifted(over, wall.distance(at) > 0.0 ? wall.normal : -wall.normal);
-  return scene_.tracer.clear(receiver_, from, top, facet) &&
-         scene_.tracer.clear(receiver_, top, field_.receiver_at(), mirror);
+void FacetEchoes::keep_seen(Job& job, uint32_t last, const TubeBeam& back) const {
+  const PosedFacet& posed = scene_.world.facet(job.chain[last]);
+  std::array<dvec2, Polygon::capacity> points;
+  for (const VisibleCell& cell : job.seen) {
+    if (cell.facet != job.chain[last]) continue;
+    for (uint32_t i = 0; i < cell.part.size(); ++i) {
+      const dvec3 along = back.along(cell.part[i]);
+      points[i] = job.beams[last].uv(back.source + back.reach(posed, along) * along);
+    }
+    job.sending.emplace_back(std::span<const dvec2>(points).first(cell.part.size()));
+  }
+}
+
+void FacetEchoes::find_seen(Job& job, uint32_t last, const Polygon& part) const {
+  job.sending.clear();
+  BackView view;
+  if (!view_back(job, last, part, field_.receiver_at(), view)) return;
+  gather(receiver_, view.beam, {}, view.outline, view.farthest, job.hiding);
+  find_visible(scene_.world, scene_.trees, view.beam, {}, view.outline, job.chain[last], job.hiding,
+               smallest_part * view.outline.area(), job.scratch, job.seen);
+  keep_seen(job, last, view.beam);
+}
+
+void FacetEchoes::find_seen_over(Job& job, uint32_t last, const Polygon& part, uint32_t mirror) const {
+  const FacetWorld& world = scene_.world;
+  const PosedFacet& wall = world.facet(mirror);
+  const double side = wall.distance(field_.receiver_at());
+  job.sending.clear();
+  BackView view;
+  if (!view_back(job, last, part, field_.mirrored_receiver(mirror), view)) return;
+  const TubeBeam out = view.beam.mirrored(wall);
+  double to = 0.0;  // the mirror is not farther away
+  for (uint32_t i = 0; i < view.outline.size(); ++i)
+    to = std::max(to, out.reach(wall, out.along(view.outline[i])));
+  const double smallest = smallest_part * view.outline.area();
+  gather(receiver_, out, {}, view.outline, to * (1.0 + same_distance), job.hiding);
+  find_visible(world, scene_.trees, out, {}, view.outline, VisibleCell::nothing, job.hiding, smallest,
+               job.scratch, job.on_mirror);
+  const BeamStart start{&wall, mirror, side > 0.0 ? 1.0 : -1.0};
+  for (const VisibleCell& cell : job.on_mirror) {
+    if (cell.facet != mirror) continue;
+    gather(receiver_, view.beam, start, cell.part, view.farthest, job.hiding);
+    find_visible(world, scene_.trees, view.beam, start, cell.part, job.chain[last], job.hiding, smallest,
+                 job.scratch, job.seen);
+    keep_seen(job, last, view.beam);
+  }
 }
 
 }  // namespace greatx::rf

@@ -68,8 +68,9 @@ class FacetEchoes {
   Polygon outline_of(uint32_t facet, uint32_t piece, const TubeBeam& beam, double& farthest) const;
   void solve(uint32_t facet, Job& job) const;
   void solve_over(const MirroredFacet& image, Job& job) const;
-  /// Puts the pieces that a part of a beam may meet nearer than `to` into job.pieces.
-  void gather(Job& job, const TubeBeam& beam, const BeamStart& start, const Polygon& part, double to) const;
+  /// Replaces `pieces` by those that a part of a beam may meet nearer than `to`.
+  void gather(const EchoTracer::View& view, const TubeBeam& beam, const BeamStart& start, const Polygon& part,
+              double to, std::vector<FacetPiece>& pieces) const;
   void follow(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start) const;
   /// Gathers what a part of a beam that leaves a surface may meet. Returns a facet that covers all of the
   /// part, so that nothing behind it is seen, or VisibleCell::nothing.
@@ -81,11 +82,22 @@ class FacetEchoes {
   /// the floor.
   bool may_send(const Job& job, uint32_t bounce, const Polygon& part, uint32_t facet) const;
   void bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet) const;
-  /// Sends back from surface `bounce`, if the receiver sees it.
+  /// Sends back from what the receiver sees of surface `bounce`.
   void send(Job& job, uint32_t bounce, const Polygon& part) const;
-  /// Returns whether the receiver sees a point of the surface, directly or over `mirror`.
-  bool seen_from(const PosedFacet& posed, uint32_t facet, const dvec3& at) const;
-  bool seen_over(const PosedFacet& posed, uint32_t facet, const dvec3& at, uint32_t mirror) const;
+  /// Puts what the receiver sees of `part` of the beam on surface `last`, directly or over `mirror`, into
+  /// job.sending. Parts that are too wide for one view are not seen.
+  void find_seen(Job& job, uint32_t last, const Polygon& part) const;
+  void find_seen_over(Job& job, uint32_t last, const Polygon& part, uint32_t mirror) const;
+  /// Holds the view of a part from the receiver or from its image.
+  struct BackView {
+    TubeBeam beam;
+    Polygon outline;        ///< of the part, in the coordinates of `beam`
+    double farthest = 0.0;  ///< distance of its corners along the axis
+  };
+  /// Returns false if the part is too wide for one view, or seen edge on.
+  bool view_back(const Job& job, uint32_t last, const Polygon& part, const dvec3& from, BackView& view) const;
+  /// Adds the cells of job.seen on surface `last`, in the coordinates of the beam, to job.sending.
+  void keep_seen(Job& job, uint32_t last, const TubeBeam& back) const;
 
   const FacetScene& scene_;
   const RayGrid& grid_;

@@ -9,7 +9,8 @@
 namespace greatx::rf {
 namespace {
 
-constexpr double nearest_m = 1e-5;  ///< distance from the source below which nothing is seen
+constexpr double nearest_m = 1e-5;   ///< distance from the source below which nothing is seen
+constexpr double same_reach = 1e-9;  ///< relative difference below which two distances are the same
 
 /// Holds a piece after cuts by two planes, each of which adds at most one corner.
 struct SpaceCorners {
@@ -97,6 +98,47 @@ bool behind_plane(const FacetWorld& world, const TubeBeam& beam, std::span<const
                       [&](const dvec3& corner) { return side * posed.distance(corner) > posed.tolerance_m; });
 }
 
+/// Compares the distances of the planes of two facets along the rays of a beam. The reach of a plane is s/c(u,
+/// v) with c linear in u and v, so that the rays along which one plane is nearer fill a half-plane.
+class DistanceOrder {
+ public:
+  DistanceOrder(const TubeBeam& beam, const PosedFacet& facet, const PosedFacet& other)
+      : facet_(beam, facet), other_(beam, other) {}
+  /// Finds out whether the first facet is nearer or farther at corners of `part`.
+  void look(const Polygon& part) {
+    nearer_ = farther_ = false;
+    for (uint32_t i = 0; i < part.size(); ++i) {
+      const double reach = facet_.reach(part[i]), other = other_.reach(part[i]);
+      nearer_ = nearer_ || reach < other * (1.0 - same_reach);
+      farther_ = farther_ || other < reach * (1.0 - same_reach);
+    }
+  }
+  bool nearer() const { return nearer_; }    ///< somewhere
+  bool farther() const { return farther_; }  ///< somewhere
+  /// Returns where the first facet is nearer.
+  HalfPlane where() const {
+    return {other_.s * facet_.normal - facet_.s * other_.normal,
+            other_.s * facet_.offset - facet_.s * other_.offset};
+  }
+
+ private:
+  struct Plane {
+    double s, offset;
+    dvec2 normal;
+    Plane(const TubeBeam& beam, const PosedFacet& facet) {
+      const double away = -facet.distance(beam.source), sign = away < 0.0 ? -1.0 : 1.0;
+      s = sign * away, offset = sign * glm::dot(facet.normal, beam.axis);
+      normal = sign * dvec2(glm::dot(facet.normal, beam.e1), glm::dot(facet.normal, beam.e2));
+    }
+    double reach(const dvec2& at) const {
+      const double c = glm::dot(normal, at) + offset;
+      return c > 0.0 ? s / c : 1e300;
+    }
+  };
+  Plane facet_, other_;
+  bool nearer_ = false, farther_ = false;
+};
+
 /// Reduces a polygon to its overlap with a cover. `rest` receives the remainder as convex pieces.
 void divide(Polygon& part, const Cover& cover, uint32_t cuts, double smallest, std::vector<Polygon>& rest) {
   rest.clear();
@@ -163,7 +205,12 @@ Polygon overlap(const Polygon& part, const Polygon& outline) {
 }
 
 bool covers(const FacetWorld& world, const FacetTrees& trees, const TubeBeam& beam, const BeamStart& start,
-            const Polygon& part, uint32_t facet, VisibleScratch& scratch) {
+            const Polygon& part, uint32_t facet, VisibleScratch& scratch, const PosedFacet* covered) {
+  if (covered != nullptr) {
+    DistanceOrder order(beam, world.facet(facet), *covered);
+    order.look(part);
+    if (order.farther()) return false;
+  }
   const PartBox box(part);
   trees.find(world, facet, BeamSpaces(beam, start, box).used(), scratch.indices);
   std::array<dvec3, FacetTrees::most_corners> room;
@@ -210,13 +257,11 @@ void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBe
     const Polygon outline = seen(corners, beam, start, within);
     if (outline.empty()) continue;
     const PosedFacet& posed = world.facet(facet);
-    const auto nearer = [&](const dvec2& at, uint32_t than) {
+    const auto in_front = [&](const dvec2& at) {
       const dvec3 direction = beam.along(at);
       const double reach = beam.reach(posed, direction);
-      if (!(reach > 0.0)) return false;
-      if (start.facet != nullptr && reach <= beam.reach(*start.facet, direction) * (1.0 + 1e-12))
-        return false;
-      return than == VisibleCell::nothing || reach < beam.reach(world.facet(than), direction) * (1.0 - 1e-9);
+      return reach > 0.0 &&
+             (start.facet == nullptr || reach > beam.reach(*start.facet, direction) * (1.0 + 1e-12));
     };
     const Cover cover(outline);
     const PartBox around(outline);
@@ -230,7 +275,19 @@ void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBe
       if (!cuts) continue;
       Polygon overlap = cells[i].part;
       divide(overlap, cover, *cuts, smallest, scratch.rest);
-      if (!(overlap.area() > smallest) || !nearer(overlap.centroid(), behind)) continue;
+      if (!(overlap.area() > smallest) || !in_front(overlap.centroid())) continue;
+      if (behind != VisibleCell::nothing) {
+        DistanceOrder order(beam, posed, world.facet(behind));
+        order.look(overlap);
+        if (!order.nearer()) continue;
+        if (order.farther()) {  // the two facets pass through each other
+          const HalfPlane where = order.where();
+          const Polygon farther = overlap.clipped({-where.normal, -where.offset});
+          overlap = overlap.clipped(where);
+          if (!(overlap.area() > smallest)) continue;
+          if (farther.area() > smallest) scratch.rest.push_back(farther);
+        }
+      }
       cells[i].part = overlap, cells[i].facet = facet;
       scratch.boxes[i] = PartBox(overlap);
       for (const Polygon& rest : scratch.rest) add_cell(rest, behind);

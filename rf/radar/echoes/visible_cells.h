@@ -61,9 +61,11 @@ struct BeamSpaces {
   std::span<const KeptSide> used() const { return std::span(sides).first(count); }
 };
 
-/// Returns whether one convex piece of `facet` covers all of `part`.
+/// Returns whether one convex piece of `facet` covers all of `part` and is nowhere behind the plane of
+/// `covered`, if one is given.
 bool covers(const FacetWorld& world, const FacetTrees& trees, const TubeBeam& beam, const BeamStart& start,
-            const Polygon& part, uint32_t facet, VisibleScratch& scratch);
+            const Polygon& part, uint32_t facet, VisibleScratch& scratch,
+            const PosedFacet* covered = nullptr);
 
 /// Returns the part of a polygon inside a convex outline, or an empty polygon.
 Polygon overlap(const Polygon& part, const Polygon& outline);
@@ -75,8 +77,8 @@ Polygon seen(std::span<const dvec3> piece, const TubeBeam& beam, const BeamStart
 
 /// Divides `whole` (in the coordinates of the beam) into parts by the facets on which they fall. `facets` is
 /// ascending and without repetition. Parts that fall on none of the facets have `nothing`. Of two facets at
-/// the same distance the first one counts. Where two facets intersect each other, the centre of their overlap
-/// decides which one is nearer. Parts with an area smaller than `smallest` are dropped.
+/// the same distance the first one counts. Facets that pass through each other are divided where they meet.
+/// Parts with an area smaller than `smallest` are dropped.
 void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBeam& beam,
                   const BeamStart& start, const Polygon& whole, std::span<const uint32_t> facets,
                   double smallest, VisibleScratch& scratch, std::vector<VisibleCell>& cells);
