@@ -46,7 +46,7 @@ struct EchoOptions {
 
   /// Radar cross-section, m^2. Edges and corners of surfaces are left out, and counted, if their echo would
   /// be below that of a body with this cross-section even for a perfect conductor. 0: nothing is left out.
-  double border_floor_m2 = 1e-5;
+  double border_floor_m2 = 1e-7;
   /// Radar cross-section, m^2, below which the receiver's noise hides edges and corners
   /// (hidden_section_m2()), for a body 1 m away from both ends. It grows with the square of the distance to
   /// each end. 0: nothing is hidden.

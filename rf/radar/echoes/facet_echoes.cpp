@@ -23,6 +23,25 @@ constexpr double smallest_part = 1e-9;  ///< fraction of the area of a beam; sma
 }  // namespace
 
 struct FacetEchoes::Job : BeamWay {
+  /// Holds surfaces that a beam has met in turn.
+  struct Surfaces {
+    std::array<uint32_t, most_surfaces> chain{};
+    uint32_t count = 0;
+    bool operator==(const Surfaces& o) const {
+      return count == o.count && std::equal(chain.begin(), chain.begin() + count, o.chain.begin());
+    }
+  };
+  struct Lit {  ///< what a beam lights of the last surface
+    Surfaces surfaces;
+    Polygon part;
+  };
+  struct Shown {  ///< a mirror that some rays from the last surface meet
+    Surfaces surfaces;
+    uint32_t mirror = 0;
+    bool operator==(const Shown& o) const = default;
+  };
+  Surfaces met(uint32_t count) const { return {chain, count}; }
+
   uint32_t limit = 0;     ///< number of surfaces that the beam may meet
   double smallest = 0.0;  ///< area in the (u, v) plane; smaller parts are dropped
   std::vector<FacetPiece> pieces;
@@ -30,6 +49,8 @@ struct FacetEchoes::Job : BeamWay {
   std::vector<FacetPiece> hiding;            ///< what may hide a part from the receiver
   std::vector<VisibleCell> seen, on_mirror;  ///< of the way to the receiver
   std::vector<Polygon> sending;              ///< what the receiver sees of a part
+  std::vector<Lit> lit;                      ///< of the present beam
+  std::vector<Shown> shown;                  ///< without repetition
   VisibleScratch scratch;
 };
 
@@ -137,6 +158,7 @@ void FacetEchoes::solve(uint32_t facet, Job& job) const {
   const TubeBeam& beam = job.beams[0] =
       TubeBeam(source_, glm::normalize(world.facet(facet).centroid - source_));
   job.limit = options_.max_bounces;
+  job.lit.clear(), job.shown.clear();
   for (const uint32_t piece : scene_.trees.pieces(facet)) {
     double farthest = 0.0;
     const Polygon outline = outline_of(facet, piece, beam, farthest);
@@ -154,6 +176,7 @@ void FacetEchoes::solve(uint32_t facet, Job& job) const {
     for (size_t i = 0; i < cells.size(); ++i)
       if (cells[i].facet == facet) bounce_off(job, 0, cells[i].part, facet);
   }
+  send_over_shown(job);
 }
 
 void FacetEchoes::solve_over(const MirroredFacet& image, Job& job) const {
@@ -166,6 +189,7 @@ void FacetEchoes::solve_over(const MirroredFacet& image, Job& job) const {
   const TubeBeam& out = job.beams[0] = beam.mirrored(mirror);
   const BeamStart start{&mirror, image.mirror, side > 0.0 ? 1.0 : -1.0};
   job.limit = options_.max_bounces + 1;  // the mirror does not count
+  job.lit.clear(), job.shown.clear();
   for (const uint32_t piece : scene_.trees.pieces(image.facet)) {
     double farthest = 0.0;
     const Polygon outline = outline_of(image.facet, piece, beam, farthest);
@@ -188,6 +212,7 @@ void FacetEchoes::solve_over(const MirroredFacet& image, Job& job) const {
         if (on_facet[k].facet == image.facet) bounce_off(job, 1, on_facet[k].part, image.facet);
     }
   }
+  send_over_shown(job);
 }
 
 void FacetEchoes::gather(const EchoTracer::View& view, const TubeBeam& beam, const BeamStart& start,
@@ -214,6 +239,7 @@ void FacetEchoes::follow(Job& job, uint32_t bounce, const Polygon& part, const B
   const uint32_t wall = gather_next(job, beam, start, part);
   find_visible(scene_.world, scene_.trees, beam, start, part, wall, job.pieces, job.smallest, job.scratch,
                cells);
+  for (const VisibleCell& cell : cells) add_shown(job, bounce, cell.facet);
   for (size_t i = 0; i < cells.size(); ++i)
     if (cells[i].facet != VisibleCell::nothing) bounce_off(job, bounce, cells[i].part, cells[i].facet);
 }
@@ -249,40 +275,76 @@ void FacetEchoes::finish(Job& job, uint32_t bounce, const Polygon& part, const B
     const Polygon outline = seen(scene_.trees.corners(world, facet, piece, room), beam, start, within);
     if (outline.empty()) continue;
     const Polygon on = overlap(part, outline);
-    if (on.area() > job.smallest && may_send(job, bounce, on, facet)) senders.push_back({on, facet});
+    if (on.area() > job.smallest && (shows_before(job, bounce, facet) || may_send(job, bounce, on, facet)))
+      senders.push_back({on, facet});
   }
   for (size_t i = 0; i < senders.size(); ++i) {
     const uint32_t facet = senders[i].facet;
     find_visible(world, scene_.trees, beam, start, senders[i].part, facet, job.pieces, job.smallest,
                  job.scratch, cells);
-    job.chain[bounce] = facet, job.chain_at = ~0u;
-    for (const VisibleCell& cell : cells)
-      if (cell.facet == facet) send(job, bounce, cell.part);
+    for (const VisibleCell& cell : cells) {
+      if (cell.facet != facet) continue;
+      add_shown(job, bounce, facet);
+      job.chain[bounce] = facet, job.chain_at = ~0u;
+      if (may_send(job, bounce, cell.part, facet)) send(job, bounce, cell.part);
+    }
   }
   job.chain_at = ~0u;
 }
 
-bool FacetEchoes::may_send(const Job& job, uint32_t bounce, const Polygon& part, uint32_t facet) const {
-  const FacetWorld& world = scene_.world;
-  const auto sends = [&](uint32_t surface, const TubeBeam& beam, const dvec3& receiver) {
-    const PosedFacet& posed = world.facet(surface);
-    if (posed.distance(beam.source) * posed.distance(receiver) <= 0.0) return false;
-    const Polygon piece = on_facet(posed, beam, part);
-    if (piece.empty()) return false;
-    const PhasePlane plane = phase_plane(posed, beam.source, receiver, field_.wavenumber());
-    const dvec2 middle = piece.centroid();
-    const double out = glm::length(dvec3(middle, 0.0) - plane.source),
-                 home = glm::length(dvec3(middle, 0.0) - plane.receiver);
-    return most_of(plane, piece) >= sender_.floor_at(out, home);
-  };
-  const TubeBeam& beam = job.beams[bounce];
-  if (bounce > 0 && mirrors(world, job.chain[0], facet) &&
-      sends(facet, beam, field_.mirrored_receiver(job.chain[0])))
+bool FacetEchoes::shows_before(const Job& job, uint32_t bounce, uint32_t facet) const {
+  return bounce < options_.max_bounces && mirrors(scene_.world, facet, job.chain[bounce - 1]) &&
+         !(bounce > 1 && sender_.home() && facet == job.chain[0]);  // the surface before has sent it
+}
+
+void FacetEchoes::add_shown(Job& job, uint32_t bounce, uint32_t mirror) const {
+  if (mirror == VisibleCell::nothing || !field_.reflects(mirror) || !shows_before(job, bounce, mirror))
+    return;
+  const Job::Shown shown{job.met(bounce), mirror};
+  if (std::find(job.shown.begin(), job.shown.end(), shown) == job.shown.end()) job.shown.push_back(shown);
+}
+
+void FacetEchoes::send_over_shown(Job& job) const {
+  for (const Job::Shown& shown : job.shown) {
+    const uint32_t last = shown.surfaces.count - 1;
+    job.chain = shown.surfaces.chain;
+    for (uint32_t i = 0; i < last; ++i)
+      job.beams[i + 1] = job.beams[i].mirrored(scene_.world.facet(job.chain[i]));
+    for (const Job::Lit& lit : job.lit) {
+      if (!(lit.surfaces == shown.surfaces) ||
+          !may_send_from(job, last, lit.part, field_.mirrored_receiver(shown.mirror)))
+        continue;
+      find_seen_over(job, last, lit.part, shown.mirror);
+      for (const Polygon& sending : job.sending)
+        sender_.send_over(job, last, sending, shown.mirror, EchoSender::Over::other,
+                          [](const Polygon&) { return 0u; });
+    }
+  }
+  job.chain_at = ~0u;
+}
+
+bool FacetEchoes::may_send_from(const Job& job, uint32_t last, const Polygon& part,
+                                const dvec3& receiver) const {
+  const PosedFacet& posed = scene_.world.facet(job.chain[last]);
+  const TubeBeam& beam = job.beams[last];
+  if (posed.distance(beam.source) * posed.distance(receiver) <= 0.0) return false;
+  const Polygon piece = on_facet(posed, beam, part);
+  if (piece.empty()) return false;
+  const PhasePlane plane = phase_plane(posed, beam.source, receiver, field_.wavenumber());
+  const dvec2 middle = piece.centroid();
+  const double out = glm::length(dvec3(middle, 0.0) - plane.source),
+               home = glm::length(dvec3(middle, 0.0) - plane.receiver);
+  return most_of(plane, piece) >= sender_.floor_at(out, home);
+}
+
+bool FacetEchoes::may_send(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet) const {
+  job.chain[bounce] = facet;
+  if (bounce > 0 && mirrors(scene_.world, job.chain[0], facet) &&
+      may_send_from(job, bounce, part, field_.mirrored_receiver(job.chain[0])))
     return true;
   if (bounce >= options_.max_bounces) return false;
-  if (bounce > 0 && mirrors(world, facet, job.chain[bounce - 1]))
-    return sends(job.chain[bounce - 1], job.beams[bounce - 1], field_.mirrored_receiver(facet));
-  return sends(facet, beam, field_.receiver_at());
+  if (bounce > 0 && mirrors(scene_.world, facet, job.chain[bounce - 1])) return false;  // add_shown()
+  return may_send_from(job, bounce, part, field_.receiver_at());
 }
 
 void FacetEchoes::bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet) const {
@@ -297,6 +359,7 @@ void FacetEchoes::bounce_off(Job& job, uint32_t bounce, const Polygon& part, uin
   if (part.area() * length * length < sender_.floor_at(length, home)) return;
   if (may_send(job, bounce, part, facet)) send(job, bounce, part);
   if (bounce + 1 == job.limit) return;
+  job.lit.push_back({job.met(bounce + 1), part});
   job.beams[bounce + 1] = beam.mirrored(posed);
   follow(job, bounce + 1, part, {&posed, facet, posed.distance(beam.source) > 0.0 ? 1.0 : -1.0});
   job.chain_at = ~0u;
@@ -318,13 +381,7 @@ void FacetEchoes::send(Job& job, uint32_t bounce, const Polygon& part) const {
   }
   // The opposite path of the second case is that of the smaller facet.
   if (bounce >= options_.max_bounces || (over_first && bounce == 1)) return;
-  if (bounce > 0 && mirrors(world, facet, job.chain[bounce - 1])) {
-    if (bounce > 1 && sender_.home() && facet == job.chain[0]) return;  // the surface before has sent it
-    find_seen_over(job, bounce - 1, part, facet);
-    for (const Polygon& sending : job.sending)
-      sender_.send_over(job, bounce - 1, sending, facet, EchoSender::Over::other, none);
-    return;
-  }
+  if (bounce > 0 && mirrors(world, facet, job.chain[bounce - 1])) return;  // add_shown()
   if (bounce == 0 && monostatic_)
     job.sending.assign(1, part);
   else

@@ -78,9 +78,17 @@ class FacetEchoes {
   /// Sends back from the last surfaces that a beam may meet. Only facets that send more than the floor are
   /// looked at. An edge that another facet's shadow makes does not count for this.
   void finish(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start) const;
-  /// Returns whether `part` of the beam on `facet`, or what the surface before sends over it, may stand above
-  /// the floor.
-  bool may_send(const Job& job, uint32_t bounce, const Polygon& part, uint32_t facet) const;
+  /// Returns whether `part` of the beam on `facet` as its surface `bounce` may stand above the floor.
+  bool may_send(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet) const;
+  /// The same for the currents on surface `last`, and a receiver or its image.
+  bool may_send_from(const Job& job, uint32_t last, const Polygon& part, const dvec3& receiver) const;
+  /// Returns whether the facet is a mirror for the currents on the surface before.
+  bool shows_before(const Job& job, uint32_t bounce, uint32_t facet) const;
+  /// Notes that some rays of the beam meet a mirror next.
+  void add_shown(Job& job, uint32_t bounce, uint32_t mirror) const;
+  /// Sends over each such mirror what the beam lights of the surface before and the receiver sees over the
+  /// mirror, wherever the specular rays of that part go.
+  void send_over_shown(Job& job) const;
   void bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet) const;
   /// Sends back from what the receiver sees of surface `bounce`.
   void send(Job& job, uint32_t bounce, const Polygon& part) const;
