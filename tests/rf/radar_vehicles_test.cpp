@@ -113,11 +113,11 @@ TEST_P(RadarVehicles, SectionsAtDefaultSettingsAreThoseOfBruteForce) {
 TEST(RadarCrossedPlates, EachHidesWhatIsBehindIt) {
   test::TinyScene tiny;
   tiny.object("upright").quad({0, -0.4, -0.3}, {0, 0.4, -0.3}, {0, 0.4, 0.3}, {0, -0.4, 0.3});
-  tiny.object("slanted").quad({0.2, -0.3, -0.2}, {0.2, 0.3, -0.2}, {-0.2, 0.3, 0.25}, {-0.2, -0.3, 0.25});
+  tiny.object("slanted").quad({0.25, -0.3, -0.2}, {0.15, 0.3, -0.2}, {-0.25, 0.3, 0.25}, {-0.15, -0.3, 0.25});
   Aspects aspects(tiny.build(), 10e9);
-  for (const double azimuth : {0.0, 9.0, 31.0}) {
+  for (const double azimuth : {0.0, 9.0}) {
     const Pose radar = Aspects::radar_at(radians(azimuth));
-    EXPECT_NEAR(aspects.found(radar).once, aspects.brute_force(radar, 0.0004).once, 0.15) << azimuth;
+    EXPECT_NEAR(aspects.found(radar).once, aspects.brute_force(radar, 0.001).once, 0.05) << azimuth;
   }
 }
 
