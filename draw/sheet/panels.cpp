@@ -35,25 +35,6 @@ const Maker* maker_of(std::string_view kind) {
 constexpr double farthest_m = 1e12;
 constexpr size_t most_nodes = 1'000'000;
 
-/// Returns "body_from_sensor": {"position_m": [3], "orientation_wxyz": [4]} of the metadata, or the identity
-/// if it is absent.
-Pose mount_of(const PanelSource& source) {
-  const JsonDocument metadata = metadata_of(source);
-  Pose mount;
-  if (!metadata.root().has("body_from_sensor")) return mount;
-  const JsonValue json = metadata.root().at("body_from_sensor");
-  if (json.has("position_m")) {
-    const std::vector<JsonValue> p = json.at("position_m").tuple(3);
-    for (int i = 0; i < 3; ++i) mount.position[i] = p[static_cast<size_t>(i)].number(-farthest_m, farthest_m);
-  }
-  if (json.has("orientation_wxyz")) {
-    const std::vector<JsonValue> q = json.at("orientation_wxyz").tuple(4);
-    const auto part = [&](size_t i) { return q[i].number(-1.01, 1.01); };
-    mount.orientation = dquat(part(0), part(1), part(2), part(3));
-  }
-  return mount;
-}
-
 }  // namespace
 
 bool PanelSource::has(std::string_view array) const {
@@ -170,6 +151,23 @@ std::vector<std::string> node_names(const PanelSource& pose) {
   if (!metadata.root().has("nodes")) return names;
   for (const JsonValue& name : metadata.root().at("nodes").list(most_nodes)) names.push_back(name.text());
   return names;
+}
+
+Pose mount_of(const PanelSource& source) {
+  const JsonDocument metadata = metadata_of(source);
+  Pose mount;
+  if (!metadata.root().has("body_from_sensor")) return mount;
+  const JsonValue json = metadata.root().at("body_from_sensor");
+  if (json.has("position_m")) {
+    const std::vector<JsonValue> p = json.at("position_m").tuple(3);
+    for (int i = 0; i < 3; ++i) mount.position[i] = p[static_cast<size_t>(i)].number(-farthest_m, farthest_m);
+  }
+  if (json.has("orientation_wxyz")) {
+    const std::vector<JsonValue> q = json.at("orientation_wxyz").tuple(4);
+    const auto part = [&](size_t i) { return q[i].number(-1.01, 1.01); };
+    mount.orientation = dquat(part(0), part(1), part(2), part(3));
+  }
+  return mount;
 }
 
 std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow& row) {

@@ -105,6 +105,8 @@ std::vector<FrameKind> camera_frames();
 std::vector<FrameKind> event_frames();
 std::vector<FrameKind> lidar_frames();
 std::vector<FrameKind> radar_frames();
+/// Of a radar, over a camera's picture (radar_overlay_panel.cpp).
+std::vector<FrameKind> radar_overlay_frames();
 /// Of a channel that senses (sensing_panel.cpp).
 std::vector<FrameKind> sensing_frames();
 void add_csi_panels(const PanelSource& source, Panels& panels);
@@ -132,6 +134,9 @@ Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, st
 /// the mount of the sensor ("body_from_sensor" of its metadata). Returns nothing if the data set does not
 /// contain the node's pose at this tick. Throws UserError if the poses or the metadata are invalid.
 std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow& row);
+/// Returns "body_from_sensor" of the sensor's metadata: {"position_m": [3], "orientation_wxyz": [4]}, or the
+/// identity if it is absent.
+Pose mount_of(const PanelSource& source);
 /// Returns the metadata of a sensor. Messages name them "DIR/dataset.json: SENSOR: metadata".
 JsonDocument metadata_of(const PanelSource& source);
 /// Returns the number `key` of the metadata, or `otherwise` if there is none. Throws UserError if the number

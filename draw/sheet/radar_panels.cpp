@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "draw/sheet/companion.h"
 #include "draw/sheet/panels.h"
 
 namespace greatx::io {
@@ -187,10 +188,27 @@ class RangeDopplerPanel : public RadarPanel {
   }
 };
 
-/// Shows the range-azimuth map over the ground from above, forward up.
+/// Shows the range-azimuth map over the ground from above, forward up. If a LiDAR of the same node has points
+/// at the same tick, they are the outline of the street, in the range and azimuth of the radar.
 class RangeAzimuthPanel : public RadarPanel {
  public:
-  explicit RangeAzimuthPanel(const PanelSource& source) : RadarPanel(source, "range_azimuth") {}
+  explicit RangeAzimuthPanel(const PanelSource& source) : RadarPanel(source, "range_azimuth") {
+    outlines_.resize(source_.chosen.size());
+    const std::optional<Companion> lidar = companion(source_, "lidar", {"points"});
+    if (!lidar) return;
+    const Pose radar_from_lidar = lidar->from_first.inverse();
+    for (size_t row = 0; row < outlines_.size(); ++row) {
+      if (!lidar->rows[row]) continue;
+      const Array points = lidar->source.load(*lidar->rows[row], "points", {DType::f32}, {-1, 4});
+      const std::span<const float> p = points.as<float>();
+      for (size_t i = 0; i + 3 < p.size(); i += 4) {
+        const dvec3 at = radar_from_lidar.apply(dvec3(p[i], p[i + 1], p[i + 2]));
+        const double azimuth = std::atan2(at.y, at.x), range = glm::length(at);
+        if (azimuth >= axes_.azimuth_min && azimuth <= axes_.azimuth_max)
+          outlines_[row].push_back(range * dvec2(std::cos(azimuth), std::sin(azimuth)));
+      }
+    }
+  }
   std::string title() const override { return source_.spec().name + " from above"; }
 
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
@@ -202,6 +220,10 @@ class RangeAzimuthPanel : public RadarPanel {
         const std::optional<Beam> beam = beam_at((foot_y - y) / pixels, (foot_x - x) / pixels, far_m);
         if (beam) canvas.blend(x, y, color(row, beam->bin, beam->column));
       }
+    for (const dvec2& point : outlines_[row])
+      if (glm::length(point) <= far_m)
+        canvas.blend(static_cast<int>(std::floor(foot_x - point.y * pixels)),
+                     static_cast<int>(std::floor(foot_y - point.x * pixels)), theme::text, 0.2);
     const double ring = round_down(far_m / 1.9);
     for (int i = 1; i * ring <= far_m; ++i) {
       canvas.circle(foot_x, foot_y, i * ring * pixels, 1.0, theme::dim);
@@ -254,13 +276,18 @@ class RangeAzimuthPanel : public RadarPanel {
     const double range = static_cast<double>(d.range) * pixels, azimuth = static_cast<double>(d.azimuth);
     return {foot_x - range * std::sin(azimuth), foot_y - range * std::cos(azimuth)};
   }
+
+  std::vector<std::vector<dvec2>> outlines_;  ///< metres ahead and to the left, for each row
 };
 
 }  // namespace
 
 std::vector<FrameKind> radar_frames() {
-  return {{"range-Doppler", {"range_doppler"}, make_frame<RangeDopplerPanel>, "range_doppler"},
-          {"range-azimuth", {"range_azimuth"}, make_frame<RangeAzimuthPanel>, "range_azimuth"}};
+  std::vector<FrameKind> kinds{
+      {"range-Doppler", {"range_doppler"}, make_frame<RangeDopplerPanel>, "range_doppler"},
+      {"range-azimuth", {"range_azimuth"}, make_frame<RangeAzimuthPanel>, "range_azimuth"}};
+  for (FrameKind& kind : radar_overlay_frames()) kinds.push_back(std::move(kind));
+  return kinds;
 }
 
 }  // namespace greatx::io
