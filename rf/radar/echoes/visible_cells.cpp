@@ -98,8 +98,8 @@ bool behind_plane(const FacetWorld& world, const TubeBeam& beam, std::span<const
                       [&](const dvec3& corner) { return side * posed.distance(corner) > posed.tolerance_m; });
 }
 
-/// Compares the distances of the planes of two facets along the rays of a beam. The reach of a plane is s/c(u,
-/// v) with c linear in u and v, so that the rays along which one plane is nearer fill a half-plane.
+/// Compares the distances of the planes of two facets along the rays of a beam. The reach of a plane is s/c
+/// with c linear in u and v, so that the rays along which one plane is nearer fill a half-plane.
 class DistanceOrder {
  public:
   DistanceOrder(const TubeBeam& beam, const PosedFacet& facet, const PosedFacet& other)
