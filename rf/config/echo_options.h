@@ -58,6 +58,8 @@ struct EchoOptions {
 
   /// Attenuation by the air over the whole way of an echo, dB/km.
   double air_db_per_km = 0.0;
+  /// Edges send back the fields of their fringe currents (rf/radar/echoes/fringe.h).
+  bool edges = false;
   /// Coherent fields fall by Ament's factor of the materials' rms heights.
   bool roughness = false;
   /// Rough surfaces send back what their materials scatter (docs/clutter.md).

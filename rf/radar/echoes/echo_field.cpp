@@ -115,6 +115,28 @@ Complex EchoField::density(const EchoPoint& point) const {
          received(over.reflected, -over.out);
 }
 
+Complex EchoField::edge_density(const EdgePoint& point, const Fringe& strength) const {
+  const dvec3& in = point.departure;
+  const dvec3 arm = receiver_at_ - point.point;
+  const double distance = glm::length(arm);
+  const dvec3 out = arm / distance;
+  const double sine_in = glm::length(glm::cross(in, point.along)),
+               sine_out = glm::length(glm::cross(out, point.along));
+  const FieldVector field = field_towards(transmitter_, in);
+  const Complex electric = field.along(point.along), magnetic = crossed(in, field).along(point.along);
+  FieldVector sent;
+  const double share = 1.0 / (sine_in * sine_out * sine_out);
+  sent.add(strength.soft * share * electric, point.along - glm::dot(point.along, out) * out);
+  sent.add(strength.hard * share * magnetic, glm::cross(point.along, out));
+  const PosedFacet& facet = world_.facet(point.facet);
+  const double towards = glm::dot(in, facet.normal);
+  const ReflectionCoefficients fresnel =
+      surfaces_.reflect(facet.material, towards < 0.0, std::clamp(std::abs(towards), 1e-3, 1.0));
+  const double reflects = 0.5 * (std::abs(fresnel.r_te) + std::abs(fresnel.r_tm));
+  return reflects * surfaces_.wavelength_m() / (8.0 * pi * pi * point.length_m * distance) *
+         received(sent, -out);
+}
+
 Complex EchoField::direct(const dvec3& transmitter_at) const {
   const dvec3 arm = receiver_at_ - transmitter_at;
   const double distance = glm::length(arm);

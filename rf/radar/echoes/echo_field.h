@@ -12,6 +12,7 @@
 #include "rf/antenna/field_vector.h"
 #include "rf/config/echo_options.h"
 #include "rf/facets/facet_world.h"
+#include "rf/radar/echoes/fringe.h"
 #include "rf/surface/surfaces.h"
 
 namespace greatx::rf {
@@ -27,6 +28,15 @@ struct EchoPoint {
   uint32_t mirror = none;  ///< facet that reflects the way to the receiver
 };
 
+/// Describes a point of an edge.
+struct EdgePoint {
+  dvec3 departure{1, 0, 0};  ///< unit vector at the transmitter
+  double length_m = 0.0;     ///< from the transmitter to the point
+  dvec3 point{0.0};
+  dvec3 along{1, 0, 0};  ///< unit vector along the edge
+  uint32_t facet = 0;    ///< one of its faces
+};
+
 /// Computes fields by physical optics, with the time convention e^{+j omega t}. The currents on the lit side
 /// are J = n x (H_i + H_r) and M = (E_i + E_r) x n, where E_r follows from the Fresnel coefficients of the
 /// material at the local angle of incidence (C. A. Balanis, "Advanced Engineering Electromagnetics", 2nd ed.,
@@ -40,6 +50,10 @@ class EchoField {
   /// Returns the ratio of received to transmitted amplitude for 1 m^2 of the surface around the point,
   /// without the phase of the path. Returns 0 if the receiver is behind the surface.
   Complex density(const EchoPoint& point) const;
+  /// Returns the ratio for 1 m of an edge around the point, by its fringe currents. The coefficients are those
+  /// of a conductor; for another material they are multiplied by the mean of the magnitudes of both Fresnel
+  /// coefficients, an approximation.
+  Complex edge_density(const EdgePoint& point, const Fringe& strength) const;
   /// Returns the ratio for the line of sight: lambda/(4 pi d) F_r . F_t.
   Complex direct(const dvec3& transmitter_at) const;
 

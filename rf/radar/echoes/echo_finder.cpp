@@ -208,6 +208,7 @@ EchoFinder::EchoFinder(scene::GpuScene& scene, const RadioSurfaces& surfaces, co
   const bool over_mirrors = traced_ > options.max_bounces;
   if (!on_host) pass_.emplace(scene, traced_, monostatic_, transmitter.own_body != 0);
   if (over_mirrors) mirrors_.emplace(scene.scene(), world_, surfaces_);
+  if (options_.edges) edges_.emplace(scene.scene());
   if (options_.diffuse)
     clutter_.emplace(scene.scene(), surfaces_, options_, transmitter_, monostatic_ ? nullptr : &receiver_);
 }
@@ -281,10 +282,14 @@ RawEchoes EchoFinder::raw_echoes(const Pending& pending, const RayGrid& grid, co
     images =
         mirrors_->find(targets(pending.body_poses), world_, trees_, tracer_, source, transmitter_.own_body);
   const BeamedFacets beamed = small.choose(images);
-  std::array<RawEchoes, 2> parts{TubeEchoes(grid, hits, world_, trees_, field, scene_->scene(), source,
+  std::array<RawEchoes, 3> parts{TubeEchoes(grid, hits, world_, trees_, field, scene_->scene(), source,
                                             monostatic_, options_, clutter_ ? &*clutter_ : nullptr, beamed)
                                      .find(),
-                                 small.find(beamed)};
+                                 small.find(beamed), RawEchoes{}};
+  if (edges_)
+    parts[2] = edges_->find(world_, tracer_, field, EchoSender(world_, trees_, field, options_, monostatic_),
+                            {source, transmitter_.own_body, receiver_.own_body, monostatic_},
+                            options_.threads);
   statistics.tubes = grid.size();
   statistics.facets = static_cast<uint32_t>(beamed.facets.size());
   statistics.images = static_cast<uint32_t>(beamed.images.size());

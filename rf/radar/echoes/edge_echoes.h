@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Adds what edges send back beyond physical optics (fringe.h): plates seen from the side, blades of rotors,
+// corners of buildings. The edges are those that diffract in a channel, and the borders of thin plates.
+#pragma once
+
+#include <vector>
+
+#include "rf/radar/echoes/echo_sender.h"
+#include "rf/radar/echoes/echo_tracer.h"
+#include "scene/description/wedges.h"
+
+namespace greatx::rf {
+
+class EdgeEchoes {
+ public:
+  /// Finds the edges. Those that are nearly flat (within 0.5 rad) are seams of curved surfaces and left out.
+  explicit EdgeEchoes(const scene::Scene& scene);
+
+  /// Describes the ends of a search. The bodies are not seen; 0: none.
+  struct Ends {
+    dvec3 source{0.0};
+    uint32_t own_body = 0, receiver_body = 0;
+    bool monostatic = true;
+  };
+  /// Returns the echoes of all edges that both ends see and that may stand above the floor, with one bounce,
+  /// at the first of their two faces. Uses `threads` threads.
+  RawEchoes find(const FacetWorld& world, const EchoTracer& tracer, const EchoField& field,
+                 const EchoSender& sender, const Ends& ends, uint32_t threads) const;
+
+ private:
+  struct Look;
+  void solve(const scene::Wedge& wedge, const Look& look, RawEchoes& out) const;
+
+  std::vector<scene::Wedge> wedges_;
+};
+
+}  // namespace greatx::rf
