@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/phase.h"
+#include "rf/radar/signal/demultiplex.h"
 #include "rf/radar/signal/lanes.h"
 
 namespace greatx::rf {
@@ -145,6 +146,7 @@ std::vector<std::complex<float>> RadarMaps::spectrum(std::span<const std::comple
       Fft::scatter(line.data() + (chirps - half), half, below);
     }
   });
+  if (config_.waveform.bands() > 1) return demultiplexed(config_.waveform, result, threads);
   return result;
 }
 
