@@ -5,9 +5,9 @@
 // Marshall, W. McK. Palmer, "The distribution of raindrops with size", J. Meteorol. 5(4), 1948:
 //   N(D) = 8000 m^-3 mm^-1 e^{-4.1 mm^-1 R^{-0.21} D},   R in mm/h, D up to 7 mm.
 // Each scatters by Mie's series (C. F. Bohren, D. R. Huffman, "Absorption and Scattering of Light by Small
-// Particles", 1983, 4.88, 4.62 and section 4.6). A drop of D falls with 9.65 - 10.3 e^{-0.6 D/mm} m/s (D. Atlas,
-// R. C. Srivastava, R. S. Sekhon, "Doppler radar characteristics of precipitation at vertical incidence", Rev.
-// Geophys. 11(1), 1973).
+// Particles", 1983, 4.88, 4.62 and section 4.6). A drop of D falls with 9.65 - 10.3 e^{-0.6 D/mm} m/s (D.
+// Atlas, R. C. Srivastava, R. S. Sekhon, "Doppler radar characteristics of precipitation at vertical
+// incidence", Rev. Geophys. 11(1), 1973).
 #pragma once
 
 namespace greatx::rf {

@@ -63,8 +63,8 @@ PatchList rain_of(EchoScene& scene, const EchoOptions& options, uint64_t frame =
 }
 
 TEST(RadarRain, PowerIsThatOfTheWeatherRadarEquation) {
-  // For elements of gain 1: P_r/P_t = lambda^2 eta Omega/((4 pi)^3) (1/r_1 - 1/r_2), for all ranges of a solid
-  // angle. 3 degrees of elevation and more of the view stay the same.
+  // For elements of gain 1: P_r/P_t = lambda^2 eta Omega/((4 pi)^3) (1/r_1 - 1/r_2), for all ranges of a
+  // solid angle. 3 degrees of elevation and more of the view stay the same.
   const TinyScene tiny = empty_scene();
   EchoScene scene(tiny);
   const EchoOptions options = rain_options();

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests what raindrops send back against Rayleigh's limit, Fresnel's limit and the attenuation of ITU-R P.838.
+// Tests what raindrops send back against Rayleigh's limit, Fresnel's limit and the attenuation of ITU-R
+// P.838.
 #include "rf/atmosphere/rain_backscatter.h"
 
 #include <cmath>
@@ -42,8 +43,8 @@ TEST(RainBackscatter, SmallDropsScatterAsRayleigh) {
 }
 
 TEST(RainBackscatter, LargeSpheresReflectAsFresnelSays) {
-  // Absorbing spheres of many wavelengths: pi a^2 |r|^2 with the reflection at normal incidence, and twice the
-  // geometric cross-section in extinction.
+  // Absorbing spheres of many wavelengths: pi a^2 |r|^2 with the reflection at normal incidence, and twice
+  // the geometric cross-section in extinction.
   const double frequency_hz = 30e9, d = 1.0;
   const WaterPermittivity water = water_permittivity(frequency_hz, kelvin);
   const std::complex<double> index = std::sqrt(std::complex<double>(water.stored, -water.lost));
@@ -55,7 +56,8 @@ TEST(RainBackscatter, LargeSpheresReflectAsFresnelSays) {
 
 TEST(RainBackscatter, AtLowFrequenciesItIsTheReflectivityFactor) {
   // eta = pi^5 |K|^2 Z/lambda^4 with Z = sum N(D) D^6 of Marshall and Palmer's drops up to 7 mm. At 3 GHz a
-  // drop of 5 mm is half a wavelength of water wide: the difference is some per cent. At 77 GHz Rayleigh's formula is wrong by a factor of three and more.
+  // drop of 5 mm is half a wavelength of water wide: the difference is some per cent. At 77 GHz Rayleigh's
+  // formula is wrong by a factor of three and more.
   for (const double rain_mm_h : {1.0, 10.0, 50.0}) {
     double z = 0.0;  // m^6/m^3
     for (double d = 0.005; d < 7.0; d += 0.01)

@@ -3,11 +3,11 @@
 //
 // Adds what raindrops send back to the patches of a radar (docs/radar_rain.md).
 //
-// The field of view is divided into columns, four in each beam of the array. A column has one scatterer in each
-// range bin, at a random place within the volume dV between two ranges, with a circular Gaussian amplitude of
-// the mean power P_r/P_t = G_t G_r lambda^2 eta dV/((4 pi)^3 R^4) (R. J. Doviak, D. S. Zrnic, "Doppler Radar and
-// Weather Observations", 2nd ed., 4.4). A column ends where its ray meets the scene. Drops are spheres: they
-// send the polarization back that they receive.
+// The field of view is divided into columns, four in each beam of the array. A column has one scatterer in
+// each range bin, at a random place within the volume dV between two ranges, with a circular Gaussian
+// amplitude of the mean power P_r/P_t = G_t G_r lambda^2 eta dV/((4 pi)^3 R^4) (R. J. Doviak, D. S. Zrnic,
+// "Doppler Radar and Weather Observations", 2nd ed., 4.4). A column ends where its ray meets the scene. Drops
+// are spheres: they send the polarization back that they receive.
 #pragma once
 
 #include <cstdint>

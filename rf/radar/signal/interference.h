@@ -3,11 +3,11 @@
 //
 // Adds to the beat signal of a radar with ramps what other radars with ramps send towards it.
 //
-// The receiver mixes the ramp of another radar with its own, so that the difference of both frequencies sweeps
-// through the band of the receiver. What is within the band of its samples is a burst: a linear chirp of the
-// slope S - S_i, |S - S_i| = the difference of both slopes, that lasts f_s/|S - S_i| (G. M. Brooker, "Mutual
-// interference of millimeter-wave radar systems", IEEE Trans. Electromagn. Compat. 49(1), 2007). Ramps of equal
-// slopes give a tone as long as they overlap. Let phi_i be the phase of the other ramp; a sample at t is
+// The receiver mixes the ramp of another radar with its own, so that the difference of both frequencies
+// sweeps through the band of the receiver. What is within the band of its samples is a burst: a linear chirp
+// of the slope S - S_i that lasts f_s/|S - S_i| (G. M. Brooker, "Mutual interference of millimeter-wave radar
+// systems", IEEE Trans. Electromagn. Compat. 49(1), 2007). Ramps of equal slopes give a tone as long as they
+// overlap. Let phi_i be the phase of the other ramp; a sample at t is
 //   conj(a) sqrt(P_i) e^{j [phi(t) - phi_i(t - tau) + psi]}   while |f(t) - f_i(t - tau)| < f_s/2.
 // The filter before the converter is thus ideal for the signals of others. The phase psi between both
 // oscillators is drawn for each frame of the other radar.

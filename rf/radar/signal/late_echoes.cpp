@@ -24,6 +24,7 @@ class LateSlot {
         transform_(transform),
         seeds_(seeds),
         slot_(slot),
+        factors_(w_.samples),
         lines_(w_.samples),
         samples_(w_.samples) {}
 
@@ -40,45 +41,65 @@ class LateSlot {
       spectrum_ = symbols_.spectrum(seeds_, sent);
       for (uint32_t t = 0; t < w_.transmitters; ++t) {
         if (w_.loop() > 1 && t != sent % w_.transmitters) continue;
-        for (size_t r = 0; r < receive_leads.size(); ++r)
-          add(echo, at.delay_s - transmit_leads[t] - receive_leads[r], at.rate, static_cast<double>(before),
-              w_.band_turns(t, sent), row_of(r, signal));
+        const std::complex<double> amplitude = std::conj(echo.amplitude) *
+                                               std::sqrt(config_.transmit_power_w / w_.samples) *
+                                               unit_phasor(w_.band_turns(t, sent));
+        for (size_t r = 0; r < receive_leads.size(); r += Fft::lanes)
+          add(amplitude, at.delay_s - transmit_leads[t], std::span(receive_leads).subspan(r), at.rate,
+              double(before) * w_.interval_s, r, signal);
       }
     }
   }
 
  private:
-  std::span<std::complex<float>> row_of(size_t receiver, std::span<std::complex<float>> signal) const {
-    return signal.subspan(size_t{w_.row(static_cast<uint32_t>(receiver), slot_)} * w_.samples, w_.samples);
-  }
-
-  /// Adds what one transmitter sent `before` slots ago.
-  void add(const Echo& echo, double delay_s, double rate, double before, double band_turns,
-           std::span<std::complex<float>> row) {
+  /// Adds what one transmitter sent `earlier_s` before the slot to four receivers, or as many as there are.
+  void add(std::complex<double> amplitude, double delay_s, std::span<const double> leads, double rate,
+           double earlier_s, size_t first_receiver, std::span<std::complex<float>> signal) {
     const uint32_t count = w_.samples, middle = w_.middle_sample();
-    const double period_s = w_.sampled_s(), prefix_s = w_.latest_delay_s();
-    const double offset_s = delay_s - before * w_.interval_s;  // of the samples from the symbol's own
-    const std::complex<double> amplitude = std::conj(echo.amplitude) *
-                                           std::sqrt(config_.transmit_power_w / count) *
-                                           unit_phasor(turns_of(w_.carrier_hz, delay_s) + band_turns);
-    for (uint32_t q = 0; q < count; ++q) {
-      const uint32_t n = (q + middle) % count;
-      const std::complex<double> line =
-          amplitude * unit_phasor(fraction_of_turn((double(n) - middle) / period_s * offset_s)) *
-          std::conj(std::complex<double>(spectrum_[n]));
-      lines_[q] = {Four(static_cast<float>(line.real())), Four(static_cast<float>(line.imag()))};
+    const size_t used = std::min<size_t>(Fft::lanes, leads.size());
+    for (size_t lane = 0; lane < used; ++lane) {
+      const double own_s = delay_s - leads[lane];
+      // The lines turn by the delay from the symbol's own samples, from line to line by as much.
+      const double step = fraction_of_turn((own_s - earlier_s) / w_.sampled_s());
+      const std::complex<double> turn = unit_phasor(step);
+      std::complex<double> phasor =
+          amplitude * unit_phasor(turns_of(w_.carrier_hz, own_s) - fraction_of_turn(step * middle));
+      for (uint32_t n = 0; n < count; ++n, phasor = plain_product(phasor, turn)) {
+        const std::complex<double> line =
+            plain_product(phasor, std::conj(std::complex<double>(spectrum_[n])));
+        Fft::Value& value = lines_[(n + count - middle) % count];
+        Four re = value.real(), im = value.imag();
+        re.lane[lane] = static_cast<float>(line.real()), im.lane[lane] = static_cast<float>(line.imag());
+        value = {re, im};
+      }
     }
     transform_.transform(lines_.data(), samples_.data());
-    const double middle_s = 0.5 * (w_.averages - 1) * period_s + middle / w_.sample_rate_hz;
-    for (uint32_t i = 0; i < count; ++i) {
-      std::complex<double> factor = 0.0;
-      for (uint32_t a = 0; a < w_.averages; ++a) {
-        const double at_s = i / w_.sample_rate_hz + a * period_s, sent_s = at_s - offset_s;
-        if (sent_s < -prefix_s || sent_s >= w_.chirp_s - prefix_s) continue;  // another slot, or silence
-        factor += unit_phasor(fraction_of_turn(w_.carrier_hz * rate * (at_s - middle_s)));
+    for (size_t lane = 0; lane < used; ++lane) {
+      set_factors(delay_s - leads[lane] - earlier_s, rate);
+      std::complex<float>* const row =
+          signal.data() + size_t{w_.row(static_cast<uint32_t>(first_receiver + lane), slot_)} * w_.samples;
+      for (uint32_t i = 0; i < count; ++i)
+        row[i] += plain_product(
+            std::complex<float>(samples_[i].real().lane[lane], samples_[i].imag().lane[lane]), factors_[i]);
+    }
+  }
+
+  /// Sets the share of each sample that a symbol has which begins `offset_s` after the slot's own, with the
+  /// Doppler shift within the slot.
+  void set_factors(double offset_s, double rate) {
+    const double prefix_s = w_.latest_delay_s(), period_s = w_.sampled_s();
+    const double middle_s = 0.5 * (w_.averages - 1) * period_s + w_.middle_sample() / w_.sample_rate_hz;
+    const double doppler_hz = w_.carrier_hz * rate;
+    const std::complex<double> turn = unit_phasor(fraction_of_turn(doppler_hz / w_.sample_rate_hz));
+    std::fill(factors_.begin(), factors_.end(), std::complex<float>(0.0f));
+    for (uint32_t a = 0; a < w_.averages; ++a) {
+      std::complex<double> phasor =
+          unit_phasor(fraction_of_turn(doppler_hz * (a * period_s - middle_s))) / double(w_.averages);
+      for (uint32_t i = 0; i < w_.samples; ++i, phasor = plain_product(phasor, turn)) {
+        const double sent_s = i / w_.sample_rate_hz + a * period_s - offset_s;
+        // Outside, another slot is on its way, or silence.
+        if (sent_s >= -prefix_s && sent_s < w_.chirp_s - prefix_s) factors_[i] += std::complex<float>(phasor);
       }
-      row[i] += plain_product(std::complex<float>(samples_[i].real().lane[0], samples_[i].imag().lane[0]),
-                              std::complex<float>(factor / double(w_.averages)));
     }
   }
 
@@ -88,7 +109,7 @@ class LateSlot {
   const Fft& transform_;
   const RadarSeeds& seeds_;
   const uint32_t slot_;
-  std::vector<std::complex<float>> spectrum_;
+  std::vector<std::complex<float>> spectrum_, factors_;
   std::vector<Fft::Value> lines_, samples_;
 };
 
@@ -104,7 +125,7 @@ void add_late_echoes(const RadarSignalConfig& config, const Symbols& symbols, co
                      const RadarAttitude& attitude, const RadarSeeds& seeds, uint32_t threads,
                      std::span<std::complex<float>> signal) {
   if (list.echoes.empty()) return;
-  const Fft transform(config.waveform.samples, Fft::Direction::forward);
+  const Fft transform(config.waveform.samples, Fft::Direction::forward, Fft::Others::chirp);
   std::vector<std::vector<double>> transmit, receive;
   for (const Echo& echo : list.echoes) {
     transmit.push_back(transmitter_leads(config.arrays, attitude, echo));

@@ -70,7 +70,8 @@ RadarMaps::RadarMaps(const RadarSignalConfig& config)
     : config_(config),
       range_window_(config.processing.range_window, config.waveform.samples),
       doppler_window_(config.processing.doppler_window, config.waveform.chirps()),
-      range_transform_(config.waveform.samples, Fft::Direction::forward),
+      range_transform_(config.waveform.samples, Fft::Direction::forward,
+                       config.waveform.coded() ? Fft::Others::chirp : Fft::Others::factors),
       doppler_transform_(config.waveform.chirps(), Fft::Direction::forward),
       axes_(radar_axes(config)) {
   if (!config.processing.range_azimuth) return;

@@ -44,8 +44,8 @@ double symbol_gain(const RadarWaveform& w, double doppler_hz) {
 
 Symbols::Symbols(const RadarWaveform& waveform)
     : waveform_(waveform),
-      to_signal_(waveform.samples, Fft::Direction::forward),
-      to_lines_(waveform.samples, Fft::Direction::backward) {
+      to_signal_(waveform.samples, Fft::Direction::forward, Fft::Others::chirp),
+      to_lines_(waveform.samples, Fft::Direction::backward, Fft::Others::chirp) {
   GREATX_CHECK(waveform.coded(), "a waveform without symbols");
   if (waveform.modulation != RadarModulation::pmcw) return;
   const uint32_t count = waveform.samples, middle = waveform.middle_sample();
