@@ -100,11 +100,11 @@ void refine(sim::RadarConfig& config, double factor) {
   config.signal.processing.range_azimuth = config.signal.processing.detections = false;
 }
 
-/// Returns the noise power of a cell of the range-Doppler map, W: k T0 fs F ENBW_r ENBW_d/(N M)
+/// Returns the noise power of a cell of the range-Doppler map, W: k T0 B F ENBW_r ENBW_d/(N M)
 /// (docs/radar.md).
 double cell_noise_w(const rf::RadarSignalConfig& signal) {
   const rf::RadarWaveform& waveform = signal.waveform;
-  return rf::noise_power_w(waveform.sample_rate_hz, signal.receiver.noise_figure_db.value_or(0.0)) *
+  return rf::noise_power_w(waveform.noise_bandwidth_hz(), signal.receiver.noise_figure_db.value_or(0.0)) *
          rf::Window(signal.processing.range_window, waveform.samples).noise_bandwidth() *
          rf::Window(signal.processing.doppler_window, waveform.chirps()).noise_bandwidth() /
          (double(waveform.samples) * waveform.chirps());
@@ -128,10 +128,11 @@ class RadarBench {
     const auto no_clutter = [](sim::Scenario& s) { s.effects["radar_clutter"] = sim::Switch::off; };
     frame("without clutter", [=](auto&, auto& s) { no_clutter(s); });
     frame("no imperfections", [](auto& r, auto&) { r.signal.receiver = {}; });
-    frame("phase noise", [](auto& r, auto& s) {
-      if (!r.signal.receiver.phase_noise) r.signal.receiver.phase_noise.emplace();
-      s.effects["radar_phase_noise"] = sim::Switch::on;
-    });
+    if (radar_of(scenario_, place_).signal.waveform.modulation == rf::RadarModulation::fmcw)
+      frame("phase noise", [](auto& r, auto& s) {
+        if (!r.signal.receiver.phase_noise) r.signal.receiver.phase_noise.emplace();
+        s.effects["radar_phase_noise"] = sim::Switch::on;
+      });
     frame("range-Doppler map alone", [](auto& r, auto&) {
       r.outputs = {.cube = false, .range_doppler = true, .range_azimuth = false, .detections = false};
       r.signal.processing.range_doppler = true;

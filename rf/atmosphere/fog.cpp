@@ -3,6 +3,7 @@
 #include "rf/atmosphere/fog.h"
 
 #include "core/error.h"
+#include "rf/atmosphere/water.h"
 
 namespace greatx::rf {
 
@@ -12,16 +13,9 @@ double fog_coefficient(double frequency_hz, double temperature_k) {
         "fog attenuation: expected a frequency of at most 200 GHz (ITU-R P.840-8), found {:g} GHz",
         frequency_hz / 1e9);
   GREATX_CHECK(temperature_k > 0.0, "{} K", temperature_k);
-  const double f = frequency_hz / 1e9;
-  const double warm = 300.0 / temperature_k - 1.0;  // theta - 1
-  const double eps0 = 77.66 + 103.3 * warm, eps1 = 0.0671 * eps0, eps2 = 3.52;
-  // Principal and secondary relaxation frequency, GHz.
-  const double fp = 20.20 - 146.0 * warm + 316.0 * warm * warm, fs = 39.8 * fp;
-  const double x = f / fp, y = f / fs;
-  const double lost = x * (eps0 - eps1) / (1.0 + x * x) + y * (eps1 - eps2) / (1.0 + y * y);   // eps''
-  const double stored = (eps0 - eps1) / (1.0 + x * x) + (eps1 - eps2) / (1.0 + y * y) + eps2;  // eps'
+  const auto [stored, lost] = water_permittivity(frequency_hz, temperature_k);
   const double eta = (2.0 + stored) / lost;
-  return 0.819 * f / (lost * (1.0 + eta * eta));
+  return 0.819 * (frequency_hz / 1e9) / (lost * (1.0 + eta * eta));
 }
 
 double fog_db_per_km(double frequency_hz, double temperature_k, double fog_g_m3) {

@@ -29,6 +29,14 @@ enum class EchoTracing : uint8_t {
   host        ///< EchoTracer
 };
 
+/// Describes what the drops in a cubic metre of air send back, and how they move.
+struct RainEchoes {
+  double reflectivity_per_m = 0.0;  ///< eta: radar cross-section of a cubic metre, m^2/m^3; 0: no rain
+  double fall_m_s = 0.0;            ///< mean, weighted with the cross-sections
+  double fall_spread_m_s = 0.0;     ///< standard deviation
+  double turbulence_m_s = 0.0;      ///< standard deviation of the velocity along any direction
+};
+
 struct EchoOptions {
   FieldOfView field_of_view;
   uint32_t tubes = 6000;  ///< number of tubes over the field of view
@@ -66,8 +74,10 @@ struct EchoOptions {
   bool diffuse = false;
   /// Side of the squares with one scatterer each, metres. 0: half a range cell of `waveform`.
   double diffuse_patch_m = 0.0;
+  /// What raindrops send back. Only monostatic radars have it.
+  RainEchoes rain;
   uint64_t seed = 1;       ///< seed of the scatterers
-  RadarWaveform waveform;  ///< of the radar, if `diffuse`
+  RadarWaveform waveform;  ///< of the radar, if `diffuse` or in rain
 
   /// Tubes merge into one echo if they fall into one cell of delay, delay rate and direction at both ends.
   /// The size of a cell is `merge_share` times the resolution of an output: 1/bandwidth, wavelength/frame,

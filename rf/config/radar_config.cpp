@@ -21,58 +21,129 @@ Fault check_positive(const char* field, double value) {
   return RadarFault{field, fmt::format("expected a number above 0, found {}", value)};
 }
 
-Fault check_waveform(const RadarWaveform& w) {
-  for (const auto& [field, value] : {std::pair{"waveform.carrier_hz", w.carrier_hz},
-                                     {"waveform.slope_hz_per_s", w.slope_hz_per_s},
-                                     {"waveform.chirp_s", w.chirp_s},
-                                     {"waveform.interval_s", w.interval_s},
-                                     {"waveform.sample_rate_hz", w.sample_rate_hz}})
-    if (Fault fault = check_positive(field, value)) return fault;
-  if (!std::isfinite(w.adc_start_s) || w.adc_start_s < 0.0)
-    return RadarFault{"waveform.adc_start_s", fmt::format("expected 0 or more, found {} s", w.adc_start_s)};
-  if (w.samples < 16 || w.samples > 65536)
-    return RadarFault{"waveform.samples",
-                      fmt::format("expected 16 to 65536 samples a chirp, found {}", w.samples)};
-  if (w.transmitters == 0)
-    return RadarFault{"arrays.transmit_m", "expected at least one transmitter, found none"};
+/// Holds the names of a waveform's fields that several waveforms share under their own names.
+struct FieldNames {
+  const char *slope, *rate, *samples, *slots;
+};
+FieldNames names_of(const RadarWaveform& w) {
+  switch (w.modulation) {
+    case RadarModulation::fmcw:
+      return {"waveform.slope_hz_per_s", "waveform.sample_rate_hz", "waveform.samples", "waveform.chirps"};
+    case RadarModulation::stepped:
+      return {"waveform.step_hz", "waveform.step_s", "waveform.steps", "waveform.sweeps"};
+    case RadarModulation::ofdm:
+      return {"waveform.spacing_hz", "waveform.spacing_hz", "waveform.subcarriers", "waveform.symbols"};
+    case RadarModulation::pmcw:
+      break;
+  }
+  return {"waveform.chip_rate_hz", "waveform.chip_rate_hz", "waveform.chips", "waveform.blocks"};
+}
+
+/// Checks that the signal of a slot fits the slot.
+Fault check_times(const RadarWaveform& w, const FieldNames& names) {
+  const bool ramps = w.modulation == RadarModulation::fmcw;
+  if (!ramps && w.chirp_s > w.interval_s * rounding)
+    return RadarFault{
+        "waveform.interval_s",
+        fmt::format("expected at least the {} s that a slot takes, found {} s", w.chirp_s, w.interval_s)};
   if (w.chirp_s > w.interval_s * rounding)
     return RadarFault{
         "waveform.chirp_s",
         fmt::format("expected a chirp no longer than the interval from one to the next, {} s; found {} s",
                     w.interval_s, w.chirp_s)};
-  if (w.adc_start_s + w.sampled_s() > w.chirp_s * rounding)
+  if (ramps && w.adc_start_s + w.sampled_s() > w.chirp_s * rounding)
     return RadarFault{
-        "waveform.samples",
+        names.samples,
         fmt::format(
             "expected samples that fit the chirp of {} s; {} samples at {} Hz from {} s on end at {} s",
             w.chirp_s, w.samples, w.sample_rate_hz, w.adc_start_s, w.adc_start_s + w.sampled_s())};
-  // Beyond these bounds, bins and noise exceed the range of the numbers in files.
-  constexpr double least_bandwidth_hz = 1e-3, most_sample_rate_hz = 1e12;
-  if (w.sample_rate_hz > most_sample_rate_hz)
-    return RadarFault{"waveform.sample_rate_hz", fmt::format("expected at most {:g} Hz, found {} Hz",
-                                                             most_sample_rate_hz, w.sample_rate_hz)};
-  if (w.bandwidth_hz() < least_bandwidth_hz)
+  if (w.modulation == RadarModulation::stepped && !positive(w.integration_s))
+    return RadarFault{"waveform.settle_s",
+                      fmt::format("expected less than the {} s of a step, found {} s left to integrate",
+                                  1.0 / w.sample_rate_hz, w.integration_s)};
+  return {};
+}
+
+Fault check_slots(const RadarWaveform& w, const FieldNames& names) {
+  if (w.multiplexing == RadarMultiplexing::doppler) {
+    if (w.empty_bands == 0 || w.empty_bands > 64)
+      return RadarFault{"waveform.empty_bands",
+                        fmt::format("expected 1 to 64 empty Doppler bands, found {}", w.empty_bands)};
+    if (w.transmitters < 2)
+      return RadarFault{"waveform.multiplexing",
+                        fmt::format("expected two or more transmitters for ddm, found {}", w.transmitters)};
+    if (w.slots % w.bands() != 0 || w.slots / w.bands() < 4)
+      return RadarFault{
+          names.slots, fmt::format("expected a multiple of the {} Doppler bands ({} transmitters, {} empty), "
+                                   "4 times or more; found {}",
+                                   w.bands(), w.transmitters, w.empty_bands, w.slots)};
+  } else if (w.transmitters > w.slots) {
     return RadarFault{
-        "waveform.slope_hz_per_s",
-        fmt::format("expected a ramp that covers {:g} Hz at least while it is sampled, found {} Hz",
-                    least_bandwidth_hz, w.bandwidth_hz())};
-  if (w.bandwidth_hz() >= 2.0 * w.carrier_hz)
-    return RadarFault{"waveform.slope_hz_per_s",
-                      fmt::format("expected a ramp that stays above 0 Hz; it covers {} Hz about {} Hz",
-                                  w.bandwidth_hz(), w.carrier_hz)};
-  if (w.transmitters > w.slots)
-    return RadarFault{
-        "waveform.slots",
+        names.slots,
         fmt::format(
             "expected at least one slot for each of {} transmitters, which send one at a time; found {}",
             w.transmitters, w.slots)};
-  if (w.slots % w.transmitters != 0)
-    return RadarFault{"waveform.slots", fmt::format("expected a multiple of the {} transmitters, found {}",
-                                                    w.transmitters, w.slots)};
+  } else if (w.slots % w.transmitters != 0) {
+    return RadarFault{names.slots, fmt::format("expected a multiple of the {} transmitters, found {}",
+                                               w.transmitters, w.slots)};
+  }
   if (w.slots > 1u << 20)
-    return RadarFault{"waveform.slots",
-                      fmt::format("expected at most {} slots, found {}", 1u << 20, w.slots)};
+    return RadarFault{names.slots, fmt::format("expected at most {} slots, found {}", 1u << 20, w.slots)};
   return {};
+}
+
+Fault check_code(const RadarWaveform& w) {
+  if (w.modulation != RadarModulation::pmcw) return {};
+  if (w.averages == 0 || w.averages > 65536)
+    return RadarFault{"waveform.averages", fmt::format("expected 1 to 65536 averages, found {}", w.averages)};
+  if (!code_exists(w.code, w.samples))
+    return RadarFault{
+        "waveform.chips",
+        fmt::format("expected {}; found {}",
+                    w.code == RadarCode::m_sequence
+                        ? "2^k - 1 chips of an m_sequence, k from 5 to 16"
+                        : "2 (p + 1) chips of an apas code, p an odd prime, 16 to 65536 in all (16, 28, 64, "
+                          "124, 256, 1000, 1020, 2044 are some)",
+                    w.samples)};
+  return {};
+}
+
+Fault check_waveform(const RadarWaveform& w) {
+  const FieldNames names = names_of(w);
+  for (const auto& [field, value] : {std::pair{"waveform.carrier_hz", w.carrier_hz},
+                                     {names.slope, w.slope_hz_per_s},
+                                     {"waveform.chirp_s", w.chirp_s},
+                                     {"waveform.interval_s", w.interval_s},
+                                     {names.rate, w.sample_rate_hz}})
+    if (Fault fault = check_positive(field, value)) return fault;
+  if (!std::isfinite(w.adc_start_s) || w.adc_start_s < 0.0)
+    return RadarFault{"waveform.adc_start_s", fmt::format("expected 0 or more, found {} s", w.adc_start_s)};
+  if (w.samples < 16 || w.samples > 65536)
+    return RadarFault{names.samples, fmt::format("expected 16 to 65536 {}, found {}",
+                                                 w.modulation == RadarModulation::fmcw ? "samples a chirp"
+                                                                                       : names.samples + 9,
+                                                 w.samples)};
+  if (w.transmitters == 0)
+    return RadarFault{"arrays.transmit_m", "expected at least one transmitter, found none"};
+  if (Fault fault = check_times(w, names)) return fault;
+  // Beyond these bounds, bins and noise exceed the range of the numbers in files.
+  constexpr double least_bandwidth_hz = 1e-3, most_sample_rate_hz = 1e12;
+  if (w.sample_rate_hz > most_sample_rate_hz)
+    return RadarFault{names.rate, fmt::format("expected at most {:g} Hz, found {} Hz", most_sample_rate_hz,
+                                              w.sample_rate_hz)};
+  if (w.bandwidth_hz() < least_bandwidth_hz)
+    return RadarFault{
+        names.slope,
+        fmt::format("expected a {} that covers {:g} Hz at least while it is sampled, found {} Hz",
+                    w.modulation == RadarModulation::fmcw ? "ramp" : "slot", least_bandwidth_hz,
+                    w.bandwidth_hz())};
+  if (w.bandwidth_hz() >= 2.0 * w.carrier_hz)
+    return RadarFault{
+        names.slope,
+        fmt::format("expected a {} that stays above 0 Hz; it covers {} Hz about {} Hz",
+                    w.modulation == RadarModulation::fmcw ? "ramp" : "band", w.bandwidth_hz(), w.carrier_hz)};
+  if (Fault fault = check_code(w)) return fault;
+  return check_slots(w, names);
 }
 
 Fault check_arrays(const RadarSignalConfig& config) {
@@ -95,7 +166,23 @@ Fault check_arrays(const RadarSignalConfig& config) {
   return {};
 }
 
-Fault check_receiver(const RadarReceiver& receiver, double sample_rate_hz) {
+Fault check_receiver(const RadarReceiver& receiver, const RadarWaveform& waveform) {
+  const double sample_rate_hz = waveform.sample_rate_hz;
+  if (receiver.phase_noise && waveform.modulation != RadarModulation::fmcw)
+    return RadarFault{"receiver.phase_noise",
+                      "expected none: phase noise is modelled for waveform.type fmcw alone"};
+  if (receiver.adc && waveform.averages > 1)
+    return RadarFault{
+        "receiver.adc",
+        "expected none with waveform.averages above 1: the steps of a converter act before the mean"};
+  if (receiver.leakage) {
+    if (!(receiver.leakage->level_db >= -300.0 && receiver.leakage->level_db <= 0.0))
+      return RadarFault{"receiver.leakage.level_db",
+                        fmt::format("expected -300 to 0 dB, found {}", receiver.leakage->level_db)};
+    if (!(receiver.leakage->length_m >= 0.0 && receiver.leakage->length_m <= 1e6))
+      return RadarFault{"receiver.leakage.length_m",
+                        fmt::format("expected 0 to 1e6 m, found {}", receiver.leakage->length_m)};
+  }
   if (receiver.noise_figure_db && !(*receiver.noise_figure_db >= 0.0 && *receiver.noise_figure_db <= 200.0))
     return RadarFault{"receiver.noise_figure_db",
                       fmt::format("expected 0 to 200 dB, found {}", *receiver.noise_figure_db)};
@@ -148,11 +235,12 @@ Fault check_processing(const RadarSignalConfig& config) {
         "processing.cfar.train_range",
         fmt::format("expected guard and training cells within {} range bins, found {} on each side",
                     config.waveform.samples, range_reach)};
-  if (2 * doppler_reach + 1 > config.waveform.chirps())
+  const uint32_t bins = config.waveform.chirps() / config.waveform.bands();
+  if (2 * doppler_reach + 1 > bins)
     return RadarFault{
         "processing.cfar.train_doppler",
-        fmt::format("expected guard and training cells within {} Doppler bins, found {} on each side",
-                    config.waveform.chirps(), doppler_reach)};
+        fmt::format("expected guard and training cells within {} Doppler bins, found {} on each side", bins,
+                    doppler_reach)};
   return {};
 }
 
@@ -162,7 +250,7 @@ std::optional<RadarFault> check(const RadarSignalConfig& config) {
   if (Fault fault = check_waveform(config.waveform)) return fault;
   if (Fault fault = check_arrays(config)) return fault;
   if (Fault fault = check_positive("transmit_power_w", config.transmit_power_w)) return fault;
-  if (Fault fault = check_receiver(config.receiver, config.waveform.sample_rate_hz)) return fault;
+  if (Fault fault = check_receiver(config.receiver, config.waveform)) return fault;
   return check_processing(config);
 }
 

@@ -12,54 +12,9 @@
 
 #include "core/units.h"
 #include "core/vec.h"
+#include "rf/config/radar_waveform.h"
 
 namespace greatx::rf {
-
-/// Describes a train of equal linear ramps (frequency-modulated continuous wave). One transmitter sends at a
-/// time.
-///
-/// Slot s is the s-th ramp of a frame. Transmitter s % transmitters sends it as its own chirp s /
-/// transmitters (TDM). A frame begins at the start of the first ramp. Sample n of slot s is taken at
-///   t = s interval_s + adc_start_s + n / sample_rate_hz.
-/// The ramp passes `carrier_hz` at sample samples/2 (rounded down), the middle of the samples. This frequency
-/// is f_c in every formula and gives every wavelength.
-struct RadarWaveform {
-  double carrier_hz = 77e9;
-  double slope_hz_per_s = 20e12;  ///< S
-  double chirp_s = 50e-6;         ///< duration of a ramp
-  double interval_s = 60e-6;      ///< T_c, from the start of one ramp to the start of the next
-  double adc_start_s = 5e-6;      ///< from the start of a ramp to its first sample
-  double sample_rate_hz = 6e6;    ///< rate of complex samples (I and Q)
-  uint32_t samples = 256;         ///< N, samples of a chirp
-  uint32_t slots = 512;           ///< ramps of a frame, of all transmitters
-  uint32_t transmitters = 4;
-
-  double wavelength_m() const { return speed_of_light / carrier_hz; }
-  uint32_t chirps() const { return slots / transmitters; }              ///< M, of each transmitter
-  uint32_t middle_sample() const { return samples / 2; }                ///< where the ramp passes carrier_hz
-  double sampled_s() const { return samples / sample_rate_hz; }         ///< N/f_s
-  double bandwidth_hz() const { return slope_hz_per_s * sampled_s(); }  ///< B, of the sampled part
-  /// Returns c/2B: the distance of two ranges whose tones differ by one turn over the samples.
-  double range_bin_m() const { return speed_of_light / (2.0 * bandwidth_hz()); }
-  /// Returns N c/2B = f_s c/2S, which is R_max because samples are complex. Ranges are known up to multiples
-  /// of it.
-  double range_span_m() const { return samples * range_bin_m(); }
-  /// Returns the time T from one chirp of a transmitter to its next.
-  double repetition_s() const { return transmitters * interval_s; }
-  /// Returns lambda/(2 M T), T = repetition_s().
-  double velocity_bin_m_s() const { return wavelength_m() / (2.0 * chirps() * repetition_s()); }
-  /// Returns lambda/(2 T). Velocities are known up to multiples of it. Outputs lie in [-v_max, v_max) with
-  /// v_max half of it.
-  double velocity_span_m_s() const { return wavelength_m() / (2.0 * repetition_s()); }
-  double slot_start_s(uint32_t slot) const { return slot * interval_s; }
-  /// Returns the time of the sample at which the ramp of `slot` passes carrier_hz.
-  double slot_middle_s(uint32_t slot) const {
-    return slot_start_s(slot) + adc_start_s + middle_sample() / sample_rate_hz;
-  }
-  /// Returns the time halfway between the first and the last slot's middle, to which a detection's range
-  /// refers.
-  double frame_middle_s() const { return 0.5 * (slot_middle_s(0) + slot_middle_s(slots - 1)); }
-};
 
 /// Holds the positions of the elements' phase centres, metres, in the frame of their array: x forward, y
 /// left, z up.
@@ -84,12 +39,21 @@ struct AnalogToDigital {
   double full_scale_dbm = -30;
 };
 
+/// Describes what each receiver takes from each transmitter without the scene. It is an echo at rest whose
+/// delay and phase are the same for all pairs of elements.
+struct RadarLeakage {
+  double level_db = -40.0;  ///< relative to the power of the transmitter
+  double length_m = 0.0;    ///< the whole way, at the speed of light
+};
+
 /// Describes a receiver. An imperfection is on if its member has a value.
 struct RadarReceiver {
-  /// F. Every complex sample has the noise power k T_0 f_s F, T_0 = 290 K (IEEE).
+  /// F. Every complex sample has the noise power k T_0 B_n F, T_0 = 290 K (IEEE), with the bandwidth B_n =
+  /// RadarWaveform::noise_bandwidth_hz(): the sample rate f_s for ramps.
   std::optional<double> noise_figure_db;
   std::optional<PhaseNoise> phase_noise;
   std::optional<AnalogToDigital> adc;
+  std::optional<RadarLeakage> leakage;
 };
 
 enum class RadarWindow : uint32_t { rectangular, hann, hamming, blackman, taylor };
@@ -118,7 +82,7 @@ struct RadarProcessing {
 struct RadarSignalConfig {
   RadarWaveform waveform;
   RadarArrays arrays;
-  double transmit_power_w = 0.0158489319246111;  ///< 12 dBm, of the one transmitter that sends
+  double transmit_power_w = 0.0158489319246111;  ///< 12 dBm, of each transmitter while it sends
   /// Transmitter and receiver are at different places, and angles are those of arrival.
   bool bistatic = false;
   RadarReceiver receiver;
@@ -127,7 +91,8 @@ struct RadarSignalConfig {
 
 /// Describes a fault of a configuration; the scenario's parser adds the location.
 struct RadarFault {
-  std::string field;    ///< member of RadarSignalConfig, such as "waveform.chirp_s"
+  /// Member of RadarSignalConfig, such as "waveform.chirp_s", or of the scenario that it follows from.
+  std::string field;
   std::string message;  ///< the expected value and the found value
 };
 

@@ -68,7 +68,10 @@
   X(radar_air, true, none, "attenuation of echoes by gases, rain and fog") \
   X(radar_noise, true, none, "noise of the receiver") \
   X(radar_phase_noise, true, none, "phase noise of the oscillator") \
-  X(radar_quantisation, true, none, "steps of the converter")
+  X(radar_quantisation, true, none, "steps of the converter") \
+  X(radar_leakage, true, none, "what the receiver takes from its transmitters without the scene") \
+  X(radar_interference, true, none, "ramps of other radars in the receiver") \
+  X(radar_rain, true, none, "what raindrops send back to radars")
 
 #define GREATX_RADIO_EFFECTS(X) \
   X(channel, false, none, "channels") \

@@ -9,6 +9,7 @@
 #include "rf/atmosphere/fog.h"
 #include "rf/atmosphere/gas.h"
 #include "rf/atmosphere/path_attenuation.h"
+#include "rf/atmosphere/rain_backscatter.h"
 #include "rf/surface/roughness.h"
 #include "sim/plan/radio_plan.h"
 
@@ -20,7 +21,9 @@ namespace {
 struct RadarAsks {
   size_t radars = 0;
   double shortest_wavelength_m = 1e9;
-  bool noise = false, phase_noise = false, adc = false;
+  size_t disturbed = 0;  ///< radars that others disturb
+  size_t rained_on = 0;  ///< monostatic radars in rain whose model covers their carrier
+  bool noise = false, phase_noise = false, adc = false, leakage = false;
   double most_air_db = 0.0;  ///< out to the range span and back
 };
 
@@ -41,6 +44,12 @@ RadarAsks radar_asks(const Scenario& scenario) {
       asks.noise |= receiver.noise_figure_db.has_value();
       asks.phase_noise |= receiver.phase_noise.has_value();
       asks.adc |= receiver.adc.has_value();
+      asks.leakage |= receiver.leakage.has_value();
+      asks.disturbed += radar->interferers.empty() ? 0 : 1;
+      asks.rained_on += scenario.environment.rain_mm_h > 0.0 && !radar->signal.bistatic &&
+                                rf::rain_backscatter_covers(waveform.carrier_hz)
+                            ? 1
+                            : 0;
     }
   }
   return asks;
@@ -78,6 +87,32 @@ double radar_air_db_per_km(const Environment& environment, double carrier_hz) {
   return air.isotropic() + 0.5 * (air.rain_h + air.rain_v);
 }
 
+rf::RainEchoes radar_rain(const Environment& environment, double carrier_hz) {
+  if (!(environment.rain_mm_h > 0.0) || !rf::rain_backscatter_covers(carrier_hz)) return {};
+  const rf::RainBackscatter rain =
+      rf::rain_backscatter(carrier_hz, weather_of(environment).temperature_k, environment.rain_mm_h);
+  // Small cells near the ground: an assumption (docs/radar_rain.md).
+  constexpr double turbulence_m_s = 0.5;
+  return {rain.reflectivity_per_m, rain.fall_m_s, rain.fall_spread_m_s, turbulence_m_s};
+}
+
+namespace {
+
+/// Describes the reflectivity of the rain at the first monostatic radar that has it.
+std::string rain_bound(const Scenario& scenario) {
+  for (const NodeConfig& node : scenario.nodes)
+    for (const SensorConfig& sensor : node.sensors)
+      if (const auto* radar = std::get_if<RadarConfig>(&sensor.config); radar && !radar->signal.bistatic)
+        if (const double eta =
+                radar_rain(scenario.environment, radar->signal.waveform.carrier_hz).reflectivity_per_m;
+            eta > 0.0)
+          return fmt::format("{:.3g} dBsm/m^3 at {:g} GHz", 10.0 * std::log10(eta),
+                             1e-9 * radar->signal.waveform.carrier_hz);
+  return "";
+}
+
+}  // namespace
+
 void plan_radar(EffectPlan& plan, const Planner& planner, const Scenario& scenario,
                 const scene::Scene& scene) {
   const RadarAsks asks = radar_asks(scenario);
@@ -107,6 +142,14 @@ void plan_radar(EffectPlan& plan, const Planner& planner, const Scenario& scenar
   decide(plan.radar_noise, asks.noise, "a receiver has a noise figure", "no receiver has one");
   decide(plan.radar_phase_noise, asks.phase_noise, "an oscillator has phase noise", "no oscillator has any");
   decide(plan.radar_quantisation, asks.adc, "a converter has steps", "no converter is described");
+  decide(plan.radar_leakage, asks.leakage, "a receiver has a level of leakage", "no receiver has one");
+  decide(plan.radar_interference, asks.disturbed > 0,
+         fmt::format("{} of the radars asks for the ramps of others", asks.disturbed),
+         "no radar asks for those of others");
+  decide(plan.radar_rain, asks.rained_on > 0, "it rains on a monostatic radar",
+         scenario.environment.rain_mm_h > 0.0 ? "no monostatic radar has a carrier from 1 to 300 GHz"
+                                              : "it does not rain",
+         asks.rained_on > 0 ? rain_bound(scenario) : "");
 }
 
 }  // namespace greatx::sim

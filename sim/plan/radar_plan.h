@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "rf/config/echo_options.h"
 #include "sim/plan/effect_planner.h"
 
 namespace greatx::sim {
@@ -14,5 +15,8 @@ void plan_radar(EffectPlan& plan, const Planner& planner, const Scenario& scenar
 /// cover the carrier count nothing. Rain has the mean of both polarizations for horizontal paths: wrong by at
 /// most half of their difference (0.4 dB/km in 25 mm/h at 28 GHz).
 double radar_air_db_per_km(const Environment& environment, double carrier_hz);
+
+/// Returns what raindrops send back at a carrier (rf/atmosphere/rain_backscatter.h). Nothing without rain.
+rf::RainEchoes radar_rain(const Environment& environment, double carrier_hz);
 
 }  // namespace greatx::sim

@@ -26,6 +26,12 @@ struct RadarConfig {
   /// How often the scene is traced over a frame, at the beginnings of equal runs of chirps. Once is enough
   /// for bodies that hardly turn during a frame; rotors need more.
   uint32_t updates = 1;
+  /// "node/sensor" of the radars whose transmitters disturb this one; empty: none does.
+  std::vector<std::string> interferers;
+  struct Interference {
+    SourceLocation where;
+    bool all = false;  ///< all other radars, until resolve_interferers() has named them
+  } interference;
   bool see_own_body = false;
   struct Outputs {
     bool cube = false, range_doppler = true, range_azimuth = true, detections = true;

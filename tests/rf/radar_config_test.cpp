@@ -55,10 +55,10 @@ TEST(RadarConfig, FaultsNameFieldExpectationAndFinding) {
   EXPECT_THAT(fault_of([](auto& c) { c.waveform.samples = 128; }),
               HasSubstr("waveform.samples: expected samples that fit"));
   EXPECT_EQ(fault_of([](auto& c) { c.waveform.slots = 1; }),
-            "waveform.slots: expected at least one slot for each of 2 transmitters, which send one at a "
+            "waveform.chirps: expected at least one slot for each of 2 transmitters, which send one at a "
             "time; found 1");
   EXPECT_EQ(fault_of([](auto& c) { c.waveform.slots = 63; }),
-            "waveform.slots: expected a multiple of the 2 transmitters, found 63");
+            "waveform.chirps: expected a multiple of the 2 transmitters, found 63");
   EXPECT_THAT(fault_of([](auto& c) { c.waveform.carrier_hz = 0; }),
               HasSubstr("waveform.carrier_hz: expected a number above 0"));
   EXPECT_THAT(fault_of([](auto& c) { c.waveform.slope_hz_per_s = NAN; }),

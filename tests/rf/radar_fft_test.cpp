@@ -28,11 +28,14 @@ TEST_P(RadarFft, IsTheSumThatItStandsForInEachLane) {
     spectra[lane].resize(size);
     in[lane] = signals[lane].data(), out[lane] = spectra[lane].data();
   }
-  for (const auto direction : {Fft::Direction::forward, Fft::Direction::backward}) {
+  for (const auto& [direction, others] : {std::pair{Fft::Direction::forward, Fft::Others::factors},
+                                          {Fft::Direction::backward, Fft::Others::factors},
+                                          {Fft::Direction::forward, Fft::Others::chirp},
+                                          {Fft::Direction::backward, Fft::Others::chirp}}) {
     const double sign = direction == Fft::Direction::forward ? -1.0 : 1.0;
     std::vector<Fft::Value> values(size), turned(size);
     Fft::gather(in, size, values.data());
-    Fft(size, direction).transform(values.data(), turned.data());
+    Fft(size, direction, others).transform(values.data(), turned.data());
     Fft::scatter(turned.data(), size, out);
     for (uint32_t lane = 0; lane < Fft::lanes; ++lane)
       for (uint32_t k = 0; k < size; ++k) {
@@ -47,7 +50,8 @@ TEST_P(RadarFft, IsTheSumThatItStandsForInEachLane) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, RadarFft, ::testing::Values(1, 2, 3, 5, 12, 15, 49, 56, 97, 128, 250, 384),
+INSTANTIATE_TEST_SUITE_P(Sizes, RadarFft,
+                         ::testing::Values(1, 2, 3, 5, 12, 15, 49, 56, 97, 128, 250, 384, 511),
                          ::testing::PrintToStringParamName());
 
 }  // namespace

@@ -103,7 +103,13 @@ const char* const sensor_texts[] = {
     "      - {name: radar, type: radar, rate_hz: 10, waveform: {carrier_hz: 77e9, bandwidth_hz: 300e6, "
     "samples: 64, sample_rate_hz: 25e6, adc_start_s: 1.5e-6, chirp_s: 12e-6, interval_s: 13e-6, chirps: 32}, "
     "receiver: {noise_figure_db: 12, phase_noise: {level_dbc_hz: -95, pole_hz: 2e6}, "
-    "adc: {bits: 10, full_scale_dbm: -20}}}\n",
+    "adc: {bits: 10, full_scale_dbm: -20}, leakage: {level_db: -60, length_m: 0.1}}, interference: {radars: "
+    "[rig/other]}}\n"
+    "      - {name: other, type: radar, rate_hz: 10, mount: {position_m: [0.5, 0, 0.2]}, echoes: {tubes: "
+    "100}, "
+    "waveform: {carrier_hz: 77e9, bandwidth_hz: 100e6, samples: 64, sample_rate_hz: 25e6, adc_start_s: "
+    "1.5e-6, "
+    "chirp_s: 12e-6, interval_s: 13e-6, chirps: 32}, transmit: {columns: 1}, receive: {columns: 1}}\n",
     "", ""};
 
 /// Switches every effect that can be switched: on if it is in `on`, else off.
@@ -272,6 +278,9 @@ const std::map<std::string, Tried> tried{
     {"radar_noise", {radar_sensor, {}}},
     {"radar_phase_noise", {radar_sensor, {}}},
     {"radar_quantisation", {radar_sensor, {}}},
+    {"radar_leakage", {radar_sensor, {}}},
+    {"radar_interference", {radar_sensor, {}}},
+    {"radar_rain", {radar_sensor, {}}},
     {"line_of_sight", {channel_sensor, {"reflection"}}},
     {"reflection", {channel_sensor, {}}},
     {"moving_reflectors", {channel_sensor, {"reflection"}}},

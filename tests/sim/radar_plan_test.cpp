@@ -64,5 +64,28 @@ TEST(RadarPlan, AttenuationIsThatOfTheRecommendations) {
   EXPECT_EQ(radar_air_db_per_km(environment, 0.5e9), 0.0);
 }
 
+TEST(RadarPlan, RainSendsEchoesBackWhereItRains) {
+  const scene::Material concrete = testing::radio_material("concrete");
+  const EffectPlan dry = radar_plan(concrete), wet = radar_plan(concrete, "environment: {rain_mm_h: 10}\n");
+  EXPECT_FALSE(dry.radar_rain.on);
+  EXPECT_THAT(dry.radar_rain.reason, HasSubstr("it does not rain"));
+  EXPECT_TRUE(wet.radar_rain.on);
+  EXPECT_THAT(wet.radar_rain.bound, HasSubstr("dBsm/m^3 at 77 GHz"));
+  EXPECT_FALSE(
+      radar_plan(concrete, "environment: {rain_mm_h: 10}\neffects: {radar_rain: off}\n").radar_rain.on);
+  Environment environment;
+  EXPECT_EQ(radar_rain(environment, 77e9).reflectivity_per_m, 0.0);
+  environment.rain_mm_h = 10.0;
+  EXPECT_NEAR(10.0 * std::log10(radar_rain(environment, 77e9).reflectivity_per_m), -31.9, 0.3);
+  EXPECT_EQ(radar_rain(environment, 400e9).reflectivity_per_m, 0.0);
+}
+
+TEST(RadarPlan, LeakageAndInterferenceAreOffUnlessAskedFor) {
+  const EffectPlan plan = radar_plan(testing::radio_material("concrete"));
+  EXPECT_FALSE(plan.radar_leakage.on || plan.radar_interference.on);
+  EXPECT_THAT(plan.radar_leakage.reason, HasSubstr("no receiver has one"));
+  EXPECT_THAT(plan.radar_interference.reason, HasSubstr("no radar asks for those of others"));
+}
+
 }  // namespace
 }  // namespace greatx::sim

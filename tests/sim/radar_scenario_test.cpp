@@ -91,6 +91,113 @@ TEST(RadarScenario, EveryFieldIsRead) {
   EXPECT_FALSE(radar.outputs.range_doppler || s.processing.range_doppler);
 }
 
+TEST(RadarScenario, WaveformsAreRead) {
+  const rf::RadarWaveform ramps = radar_with("").signal.waveform;
+  EXPECT_EQ(ramps.modulation, rf::RadarModulation::fmcw);
+  EXPECT_EQ(ramps.multiplexing, rf::RadarMultiplexing::time);
+
+  const rf::RadarWaveform steps =
+      radar_with(
+          ", waveform: {type: stepped, carrier_hz: 24e9, bandwidth_hz: 200e6, step_s: 2e-6, "
+          "settle_s: 0.5e-6, steps: 100, interval_s: 250e-6, sweeps: 64}")
+          .signal.waveform;
+  EXPECT_EQ(steps.modulation, rf::RadarModulation::stepped);
+  EXPECT_NEAR(steps.bandwidth_hz(), 200e6, 1e-3);
+  EXPECT_NEAR(steps.range_span_m(), speed_of_light / (2 * 2e6), 1e-9);
+  EXPECT_NEAR(steps.integration_s, 1.5e-6, 1e-18);
+  EXPECT_NEAR(steps.latest_delay_s(), 0.5e-6, 1e-15);
+  EXPECT_EQ(steps.interval_s, 250e-6);
+  EXPECT_EQ(steps.slots, 4u * 64);
+
+  const rf::RadarWaveform symbols =
+      radar_with(
+          ", waveform: {type: ofdm, spacing_hz: 1e6, subcarriers: 300, prefix_s: 0.4e-6, symbols: 96, "
+          "multiplexing: ddm, empty_bands: 2}")
+          .signal.waveform;
+  EXPECT_EQ(symbols.modulation, rf::RadarModulation::ofdm);
+  EXPECT_NEAR(symbols.bandwidth_hz(), 300e6, 1e-3);
+  EXPECT_NEAR(symbols.interval_s, 1.4e-6, 1e-15);
+  EXPECT_NEAR(symbols.slot_middle_s(0), 0.9e-6, 1e-15);
+  EXPECT_NEAR(symbols.latest_delay_s(), 0.4e-6, 1e-15);
+  EXPECT_EQ(symbols.multiplexing, rf::RadarMultiplexing::doppler);
+  EXPECT_EQ(symbols.bands(), 6u);
+  EXPECT_EQ(symbols.slots, 96u);
+  EXPECT_NEAR(symbols.repetition_s(), 1.4e-6, 1e-15);
+
+  const rf::RadarWaveform code =
+      radar_with(
+          ", waveform: {type: pmcw, chip_rate_hz: 1e9, code: apas, chips: 256, averages: 4, blocks: 32}")
+          .signal.waveform;
+  EXPECT_EQ(code.modulation, rf::RadarModulation::pmcw);
+  EXPECT_EQ(code.code, rf::RadarCode::apas);
+  EXPECT_NEAR(code.range_bin_m(), speed_of_light / 2e9, 1e-12);
+  EXPECT_NEAR(code.interval_s, 5 * 256e-9, 1e-15);
+  EXPECT_NEAR(code.latest_delay_s(), 256e-9, 1e-15);
+  EXPECT_NEAR(code.noise_bandwidth_hz(), 0.25e9, 1e-3);
+  EXPECT_EQ(code.slots, 4u * 32);
+  EXPECT_EQ(radar_with(", waveform: {type: pmcw}").signal.waveform.samples, 511u);
+}
+
+TEST(RadarScenario, LeakageIsRead) {
+  const auto leakage =
+      radar_with(", receiver: {leakage: {level_db: -45, length_m: 0.3}}").signal.receiver.leakage;
+  ASSERT_TRUE(leakage.has_value());
+  EXPECT_EQ(leakage->level_db, -45.0);
+  EXPECT_EQ(leakage->length_m, 0.3);
+  EXPECT_FALSE(radar_with("").signal.receiver.leakage.has_value());
+}
+
+/// Returns a scenario with a radar on each of two nodes; the fields of the first begin in line 6.
+Scenario two_radars(const std::string& first, const std::string& second = "") {
+  return parse_scenario(R"(greatx: 1
+name: radars
+ticks: 2
+scene: {generate: {kind: room}}
+nodes:
+  - {name: a, trajectory: {type: static, position_m: [0, 0, 0]}, )"
+                        R"(sensors: [{name: radar, type: radar, rate_hz: 10)" +
+                            first + R"(}]}
+  - name: b
+    trajectory: {type: static, position_m: [9, 0, 0]}
+    sensors:
+      - {name: horn, type: antenna}
+      - {name: radar, type: radar, rate_hz: 10)" +
+                            second + "}\n",
+                        "radars.yaml", ".");
+}
+
+TEST(RadarScenario, InterferersAreNamed) {
+  const auto interferers = [](const Scenario& scenario) {
+    return std::get<RadarConfig>(scenario.nodes[0].sensors[0].config).interferers;
+  };
+  const std::vector<std::string> other{"b/radar"};
+  EXPECT_TRUE(interferers(two_radars("")).empty());
+  EXPECT_EQ(interferers(two_radars(", interference: {}")), other);
+  EXPECT_EQ(interferers(two_radars(", interference: {radars: [b/radar]}")), other);
+  const struct {
+    const char *first, *second, *message;
+  } cases[] = {
+      {", interference: {radars: [b/radio]}", "",
+       "radars.yaml:6: nodes[0].sensors[0].interference.radars: expected"},
+      {", interference: {radars: [b/horn]}", "", "found 'b/horn', which is none"},
+      {", interference: {radars: [a/radar]}", "", "found 'a/radar', which is the radar itself"},
+      {", interference: {}", ", waveform: {type: ofdm}", "found 'b/radar' with another waveform"},
+      {", interference: {}", ", illuminator: b/horn",
+       "found 'b/radar', which does not transmit: 'b/horn' does"},
+      {", waveform: {type: pmcw}, interference: {}", "",
+       "nodes[0].sensors[0].interference: interference is modelled for waveform.type fmcw alone"},
+      {", interference: {radars: []}", "", "interference.radars: expected a list of 1 or more radars"},
+  };
+  for (const auto& [first, second, message] : cases) {
+    try {
+      two_radars(first, second);
+      ADD_FAILURE() << first << second;
+    } catch (const UserError& error) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(message));
+    }
+  }
+}
+
 TEST(RadarScenario, AnotherNodesAntennaMayIlluminate) {
   const RadarConfig radar = radar_with(", illuminator: mast/horn");
   EXPECT_TRUE(radar.signal.bistatic);
@@ -130,6 +237,37 @@ TEST(RadarScenario, FaultsAreNamedWithTheirLine) {
        "processing.cfar.train_range: expected guard and training cells within"},
       {", processing: {cfar: {false_alarm: 0.5}}",
        "processing.cfar.false_alarm: expected above 0 and at most 0.1"},
+      {", waveform: {type: chirped}", "waveform.type: expected one of fmcw, stepped, ofdm, pmcw"},
+      {", waveform: {type: ofdm, chirp_s: 1e-6}", "nodes[1].sensors[0].waveform.chirp_s"},
+      {", waveform: {type: pmcw, slope_hz_per_s: 1e12}", "nodes[1].sensors[0].waveform.slope_hz_per_s"},
+      {", waveform: {steps: 64}", "nodes[1].sensors[0].waveform.steps"},
+      {", waveform: {type: stepped, bandwidth_hz: 1e8, step_hz: 1e6}",
+       "expected one of 'bandwidth_hz' and 'step_hz', found both"},
+      {", waveform: {type: stepped, step_s: 1e-6, settle_s: 1e-6}",
+       "radars.yaml:12: nodes[1].sensors[0].waveform.settle_s: expected less than the"},
+      {", waveform: {type: stepped, interval_s: 1e-5}",
+       "nodes[1].sensors[0].waveform.interval_s: expected at least the"},
+      {", waveform: {type: stepped, step_hz: 2e9}",
+       "waveform.step_hz: expected a band that stays above 0 Hz"},
+      {", waveform: {type: ofdm, subcarriers: 8}", "waveform.subcarriers: expected an integer from 16"},
+      {", waveform: {type: ofdm, interval_s: 2e-6}", "waveform.interval_s: expected at least the"},
+      {", waveform: {type: pmcw, chips: 512}", "waveform.chips: expected 2^k - 1 chips of an m_sequence"},
+      {", waveform: {type: pmcw, code: apas, chips: 512}",
+       "waveform.chips: expected 2 (p + 1) chips of an apas code"},
+      {", waveform: {type: pmcw, code: barker}", "waveform.code: expected one of m_sequence, apas"},
+      {", waveform: {multiplexing: cdm}", "waveform.multiplexing: expected one of tdm, ddm"},
+      {", waveform: {empty_bands: 2}", "waveform.empty_bands: only with multiplexing: ddm"},
+      {", waveform: {multiplexing: ddm}", "waveform.chirps: expected a multiple of the 5 Doppler bands"},
+      {", waveform: {type: ofdm, multiplexing: ddm}",
+       "waveform.symbols: expected a multiple of the 5 Doppler bands (4 transmitters, 1 empty)"},
+      {", waveform: {multiplexing: ddm, chirps: 128}, transmit: {columns: 1}",
+       "waveform.multiplexing: expected two or more transmitters for ddm, found 1"},
+      {", waveform: {type: ofdm}, receiver: {phase_noise: {}}",
+       "receiver.phase_noise: expected none: phase noise is modelled for waveform.type fmcw alone"},
+      {", waveform: {type: pmcw}, receiver: {adc: {}}",
+       "receiver.adc: expected none with waveform.averages above 1"},
+      {", receiver: {leakage: {length_m: 1}}", "receiver.leakage.level_db: expected a level"},
+      {", receiver: {leakage: {level_db: 3}}", "receiver.leakage.level_db: expected"},
       {", outputs: []", "nodes[1].sensors[0].outputs: expected a list of 1 or more outputs"},
       {", illuminator: mast/horn, transmit: {columns: 2}",
        "expected one of 'illuminator' and 'transmit', found both"},

@@ -13,6 +13,7 @@
 #include "rf/radar/echoes/echo_merge.h"
 #include "rf/radar/echoes/echo_tracks.h"
 #include "rf/radar/echoes/facet_echoes.h"
+#include "rf/radar/echoes/rain_patches.h"
 #include "rf/radar/echoes/tube_echoes.h"
 
 namespace greatx::rf {
@@ -298,6 +299,16 @@ RawEchoes EchoFinder::raw_echoes(const Pending& pending, const RayGrid& grid, co
   return all;
 }
 
+std::complex<double> EchoFinder::direct(const Pending& pending, const EchoEnd& other, const Pose& pose) {
+  pose_world(pending.body_poses);
+  const dvec3 &from = pose.position, &to = pending.receiver.position;
+  const EchoTracer::View view = tracer_.view(world_, receiver_.own_body, other.own_body);
+  if (!tracer_.clear(view, from, to, ~0u)) return 0.0;
+  const TurnedElement sender = turned(other, pose), receiver = turned(receiver_, pending.receiver);
+  const EchoField field(world_, surfaces_, options_, sender, receiver, to);
+  return field.direct(from) * amplitude(options_.air_db_per_km, glm::distance(from, to));
+}
+
 EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, EchoStatistics* statistics) {
   const scene::Scene& scene = scene_->scene();
   pose_world(pending.body_poses);
@@ -357,6 +368,11 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
     list.echoes.push_back(echo_of(echo, raw.echoes[echo.strongest], raw, scene, options_));
   add_tracks(movers, raw, merged, motion, cells.wavelength_m, options_.threads, list);
   list.patches = std::move(patches.list);
+  if (options_.rain.reflectivity_per_m > 0.0)
+    add_rain({options_, transmitter, receiver, pending.transmitter, transmitter_.own_body,
+              surfaces_.wavelength_m()},
+             world_, tracer_, motion, list.patches);
+  counted.patches = list.patches.size();
   if (statistics != nullptr) *statistics = counted;
   return list;
 }

@@ -60,6 +60,11 @@ class EchoFinder {
   /// surface is inside an antenna (EchoOptions::antenna_radius_m).
   EchoList collect(const Pending& pending, const EchoMotion& motion, EchoStatistics* statistics = nullptr);
 
+  /// Returns the ratio of the field at the receiver's port to that at the port of another radar's
+  /// transmitter at `pose`, without the phase of the way; 0 if something is between. `pending` says where
+  /// the receiver and the bodies are.
+  std::complex<double> direct(const Pending& pending, const EchoEnd& other, const Pose& pose);
+
   const EchoOptions& options() const { return options_; }
   /// Sets the field of view and the number of tubes for the calls of record() and collect() that follow. Both
   /// calls of one search need the same. The field of view is about the x axis of a frame that `turn` turns

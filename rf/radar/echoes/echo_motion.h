@@ -20,6 +20,7 @@ struct EchoMotion {
   /// which the scene was traced.
   std::function<Pose(uint32_t body, double time_s)> body;
   double traced_s = 0.0;
+  uint64_t frame = 0;  ///< number of the frame, for what is drawn afresh in each
   uint32_t first_slot = 0;
   std::vector<double> slot_start_s;  ///< [slots] start times of the slots of this list, ascending
   double slot_s = 0.0;               ///< length of the last slot

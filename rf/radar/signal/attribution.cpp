@@ -32,9 +32,7 @@ Attribution::Attribution(const RadarSignalConfig& config, const RadarMaps& maps,
         0.5 * (w.slot_middle_s(list.first_slot) + w.slot_middle_s(list.first_slot + list.slots - 1));
     for (const Echo& echo : list.echoes) {
       const DelayAt at = delay_at(list, echo.delay, w.interval_s, mid_s);
-      const auto doppler_hz = [&](double rate) {
-        return (w.carrier_hz - w.slope_hz_per_s * at.delay_s) * rate;
-      };
+      const auto doppler_hz = [&](double rate) { return w.doppler_hz(at.delay_s, rate); };
       Tone tone{echo.instance, 0.0, doppler_hz(at.rate) * frame_s, 0.0, {}};
       if (echo.delay.table >= 0) {
         double lowest = at.rate, highest = at.rate;
@@ -46,9 +44,9 @@ Attribution::Attribution(const RadarSignalConfig& config, const RadarMaps& maps,
         tone.doppler = doppler_hz(0.5 * (lowest + highest)) * frame_s;
         tone.doppler_spread = doppler_hz(0.5 * (highest - lowest)) * frame_s;
       }
-      tone.range = (w.slope_hz_per_s * at.delay_s + doppler_hz(at.rate)) * w.sampled_s();
+      tone.range = w.tone_hz(at.delay_s, at.rate) * w.sampled_s();
       const double turns =
-          turns_of(w.carrier_hz, at.delay_s) - 0.5 * w.slope_hz_per_s * at.delay_s * at.delay_s;
+          turns_of(w.carrier_hz, at.delay_s) - 0.5 * w.squared_slope() * at.delay_s * at.delay_s;
       tone.amplitude = share * std::sqrt(config.transmit_power_w) * std::conj(echo.amplitude) *
                        unit_phasor(fraction_of_turn(turns));
       tones_.push_back(tone);
@@ -70,8 +68,8 @@ void Attribution::add_patches(const RadarSignalConfig& config, std::span<const E
     all.reserve(all.size() + patches.size());
     for (size_t i = 0; i < patches.size(); ++i) {
       const double delay_s = patches.delay_s[middle + i];
-      const double doppler_hz = (w.carrier_hz - w.slope_hz_per_s * delay_s) * patches.rate[middle + i];
-      const double range = (w.slope_hz_per_s * delay_s + doppler_hz) * w.sampled_s();
+      const double doppler_hz = w.doppler_hz(delay_s, patches.rate[middle + i]);
+      const double range = w.tone_hz(delay_s, patches.rate[middle + i]) * w.sampled_s();
       const double power = patches.re[i] * patches.re[i] + patches.im[i] * patches.im[i];
       all.push_back({patches.instance[i], static_cast<float>(range - ranges_ * std::floor(range / ranges_)),
                      static_cast<float>(doppler_hz * frame_s),

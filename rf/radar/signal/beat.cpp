@@ -12,6 +12,7 @@
 #include "rf/radar/signal/fft.h"
 #include "rf/radar/signal/lanes.h"
 #include "rf/radar/signal/receiver.h"
+#include "rf/radar/signal/symbols.h"
 #include "rf/radar/signal/tones.h"
 
 namespace greatx::rf {
@@ -66,7 +67,7 @@ EchoColumns make_columns(const RadarSignalConfig& config, const SlotScales& scal
       const std::complex<double> amplitude = std::conj(echo.amplitude) * std::sqrt(config.transmit_power_w);
       for (size_t v = 0; v < antennas; ++v) {
         const double lead = tx[v % w.transmitters] + rx[v / w.transmitters];
-        const double turns = -w.carrier_hz * lead + w.slope_hz_per_s * lead * (tau - 0.5 * lead);
+        const double turns = -w.carrier_hz * lead + w.squared_slope() * lead * (tau - 0.5 * lead);
         float cosine, sine;
         cos_sin_of_turns(static_cast<float>(fraction_of_turn(turns)), cosine, sine);
         const std::complex<double> phasor = amplitude * std::complex<double>(cosine, sine);
@@ -81,8 +82,13 @@ EchoColumns make_columns(const RadarSignalConfig& config, const SlotScales& scal
 }
 
 SlotScales make_scales(const RadarWaveform& w, const ToneKernel& kernel) {
-  return {w.carrier_hz, w.slope_hz_per_s, kernel.grid() / w.sample_rate_hz,
-          0.5 * w.samples / w.sample_rate_hz, kernel.grid()};
+  return {w.carrier_hz,
+          w.slope_hz_per_s,
+          w.sweeps() ? 1.0 : 0.0,
+          w.squared_slope() > 0.0 ? 1.0 : 0.0,
+          kernel.grid() / w.sample_rate_hz,
+          0.5 * w.samples / w.sample_rate_hz,
+          kernel.grid()};
 }
 
 }  // namespace
@@ -109,7 +115,7 @@ class SlotSum {
  public:
   SlotSum(const RadarSignalConfig& config, const ToneKernel& kernel, const Fft& transform,
           const SlotScales& scales, uint32_t stride, const EchoList& list, const EchoColumns& columns,
-          const RadarAttitude& attitude, const PhaseWalk* walk)
+          const RadarAttitude& attitude, const PhaseWalk* walk, uint32_t term)
       : config_(config),
         w_(config.waveform),
         kernel_(kernel),
@@ -120,6 +126,7 @@ class SlotSum {
         columns_(columns),
         attitude_(attitude),
         walk_(walk),
+        term_(term),
         receivers_(config.arrays.receive_m.size()),
         cells_(kernel.grid()),
         samples_(kernel.grid()),
@@ -129,7 +136,9 @@ class SlotSum {
   BeatReport add(uint32_t slot, std::span<std::complex<float>> cube) {
     report_ = {};
     slot_ = slot;
-    transmitter_ = slot % w_.transmitters;
+    const bool all = w_.multiplexing == RadarMultiplexing::doppler;
+    first_transmitter_ = all ? 0 : slot % w_.transmitters;
+    last_transmitter_ = all ? w_.transmitters : first_transmitter_ + 1;
     nodes_.clear();
     bent_.clear();
     if (walk_)
@@ -180,6 +189,12 @@ class SlotSum {
         delays_.curvature_per_s[i] = at.curvature_per_s;
       }
     block_tones(scales_, delays_, columns_.mid_delay_s.data() + first, tones_);
+    if (w_.coded())
+      for (uint32_t i = 0; i < count; ++i) {
+        const float weight = symbol_weight(w_, delays_.rate[i], term_);
+        tones_.re[i] *= weight;
+        tones_.im[i] *= weight;
+      }
     for (uint32_t i = 0; i < count; ++i) {
       offset_[i] = static_cast<uint32_t>(node_index(first + i) * receivers_ * 2 * stride_);
       if (tones_.orders[i] > ToneKernel::orders) {
@@ -188,13 +203,25 @@ class SlotSum {
       }
     }
     report_.tones += count;
-    for (size_t r = 0; r < receivers_; ++r) {
-      const size_t column = (r * w_.transmitters + transmitter_) * columns_.padded + first;
-      block_taps(scales_, tones_, columns_.shift.data() + column, columns_.phasor_re.data() + column,
-                 columns_.phasor_im.data() + column, taps_[r]);
+    for (uint32_t t = first_transmitter_; t < last_transmitter_; ++t) {
+      for (size_t r = 0; r < receivers_; ++r) {
+        const size_t column = (r * w_.transmitters + t) * columns_.padded + first;
+        block_taps(scales_, tones_, columns_.shift.data() + column, columns_.phasor_re.data() + column,
+                   columns_.phasor_im.data() + column, taps_[r]);
+        if (w_.bands() > 1) turn(taps_[r], w_.band_turns(t, slot_));
+      }
+      spread(kernel_, tones_, taps_.data(), static_cast<uint32_t>(receivers_), offset_, count, stride_,
+             grids_.data());
     }
-    spread(kernel_, tones_, taps_.data(), static_cast<uint32_t>(receivers_), offset_, count, stride_,
-           grids_.data());
+  }
+
+  static void turn(BlockTaps& taps, double turns) {
+    const std::complex<float> phasor(unit_phasor(turns));
+    for (uint32_t i = 0; i < tone_block; ++i) {
+      const auto turned = plain_product({taps.re[i], taps.im[i]}, phasor);
+      taps.re[i] = turned.real();
+      taps.im[i] = turned.imag();
+    }
   }
 
   /// Transforms the grids to samples, four receivers at a time.
@@ -234,25 +261,27 @@ class SlotSum {
   }
 
   std::span<std::complex<float>> row_of(size_t receiver, std::span<std::complex<float>> cube) const {
-    return cube.subspan(
-        ((receiver * w_.transmitters + transmitter_) * w_.chirps() + slot_ / w_.transmitters) * w_.samples,
-        w_.samples);
+    return cube.subspan(size_t{w_.row(static_cast<uint32_t>(receiver), slot_)} * w_.samples, w_.samples);
   }
 
   /// Adds an echo that bends too much for the kernels, sample by sample.
   void add_bent(size_t e, size_t r, const std::vector<std::vector<float>>& turns,
                 std::span<std::complex<float>> row) {
     const Echo& echo = list_.echoes[e];
-    const double lead = transmitter_leads(config_.arrays, attitude_, echo)[transmitter_] +
-                        receiver_leads(config_.arrays, attitude_, echo)[r];
     const std::complex<double> amplitude = std::conj(echo.amplitude) * std::sqrt(config_.transmit_power_w);
-    for (uint32_t n = 0; n < w_.samples; ++n) {
-      const double u = (double(n) - w_.middle_sample()) / w_.sample_rate_hz;
-      const double tau =
-          delay_at(list_, echo.delay, w_.interval_s, w_.slot_middle_s(slot_) + u).delay_s - lead;
-      const double phase = w_.carrier_hz * tau + w_.slope_hz_per_s * tau * (u - 0.5 * tau);
-      const std::complex<float> sample(amplitude * unit_phasor(fraction_of_turn(phase)));
-      row[n] += walk_ ? turned_sample(sample, turns[node_index(e)][n]) : sample;
+    const double square = scales_.square;
+    for (uint32_t t = first_transmitter_; t < last_transmitter_; ++t) {
+      const double lead = transmitter_leads(config_.arrays, attitude_, echo)[t] +
+                          receiver_leads(config_.arrays, attitude_, echo)[r];
+      for (uint32_t n = 0; n < w_.samples; ++n) {
+        const double u = (double(n) - w_.middle_sample()) / w_.sample_rate_hz;
+        const double tau =
+            delay_at(list_, echo.delay, w_.interval_s, w_.slot_middle_s(slot_) + u).delay_s - lead;
+        const double phase = w_.carrier_hz * tau + w_.slope_hz_per_s * tau * (u - 0.5 * square * tau) +
+                             w_.band_turns(t, slot_);
+        const std::complex<float> sample(amplitude * unit_phasor(fraction_of_turn(phase)));
+        row[n] += walk_ ? turned_sample(sample, turns[node_index(e)][n]) : sample;
+      }
     }
   }
 
@@ -266,9 +295,10 @@ class SlotSum {
   const EchoColumns& columns_;
   const RadarAttitude& attitude_;
   const PhaseWalk* walk_;
+  const uint32_t term_;
   const size_t receivers_;
 
-  uint32_t slot_ = 0, transmitter_ = 0;
+  uint32_t slot_ = 0, first_transmitter_ = 0, last_transmitter_ = 0;
   BeatReport report_;
   std::vector<uint32_t> node_of_echo_, nodes_;
   std::vector<size_t> bent_;
@@ -288,7 +318,7 @@ BeatSynthesizer::BeatSynthesizer(const RadarSignalConfig& config)
 BeatSynthesizer::~BeatSynthesizer() = default;
 
 BeatReport BeatSynthesizer::add(const EchoList& list, const RadarAttitude& attitude, const PhaseWalk* walk,
-                                uint32_t threads, std::span<std::complex<float>> cube) const {
+                                uint32_t threads, std::span<std::complex<float>> cube, uint32_t term) const {
   const Shared& s = *shared_;
   const RadarWaveform& w = s.config.waveform;
   GREATX_CHECK(cube.size() == s.config.arrays.receive_m.size() * w.slots * w.samples, "{} samples",
@@ -305,7 +335,7 @@ BeatReport BeatSynthesizer::add(const EchoList& list, const RadarAttitude& attit
   const size_t tasks = (list.slots + slots_per_task - 1) / slots_per_task;
   std::vector<BeatReport> reports(tasks);
   parallel_for(tasks, threads, [&](size_t task) {
-    SlotSum slots(s.config, s.kernel, s.transform, s.scales, s.stride, list, columns, attitude, walk);
+    SlotSum slots(s.config, s.kernel, s.transform, s.scales, s.stride, list, columns, attitude, walk, term);
     for (size_t i = task * slots_per_task; i < std::min<size_t>(list.slots, (task + 1) * slots_per_task);
          ++i) {
       const BeatReport report = slots.add(list.first_slot + static_cast<uint32_t>(i), cube);

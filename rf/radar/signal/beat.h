@@ -7,7 +7,8 @@
 //   s(t) = conj(a) sqrt(P_t) e^{j[phi(t) - phi(t - tau)]}
 //        = conj(a) sqrt(P_t) e^{j 2 pi [f_c tau + S tau u - S tau^2/2]}
 // with tau = tau(t) at every sample (A. G. Stove, "Linear FMCW radar techniques", IEE Proc. F 139(5), 1992,
-// with the term in tau^2 kept). The phase of an echo that comes closer turns backwards from chirp to chirp.
+// with the term in tau^2 kept). Other waveforms have the same form (rf/config/radar_waveform.h). The phase of
+// an echo that comes closer turns backwards from chirp to chirp.
 // In the far field the delay between elements at d_tx and d_rx is tau - (departure . d_tx + arrival .
 // d_rx)/c. This delay enters the frequency of the tone as well as its phase.
 #pragma once
@@ -51,8 +52,9 @@ class BeatSynthesizer {
   /// Adds the echoes of `list` to `cube` over the slots of the list. `walk` is null or the phase noise of the
   /// oscillator. `threads`: 0 uses all there are; the bytes do not depend on it. Requires echoes that
   /// check_echoes() accepts.
+  /// `term` selects the term of a coded waveform (SymbolSynthesizer); waveforms that sweep have one.
   BeatReport add(const EchoList& list, const RadarAttitude& attitude, const PhaseWalk* walk, uint32_t threads,
-                 std::span<std::complex<float>> cube) const;
+                 std::span<std::complex<float>> cube, uint32_t term = 0) const;
 
  private:
   struct Shared;

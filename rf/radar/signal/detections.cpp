@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "core/phase.h"
 #include "rf/radar/signal/attribution.h"
+#include "rf/radar/signal/symbols.h"
 
 namespace greatx::rf {
 namespace {
@@ -60,7 +61,8 @@ DetectionMaker::Offsets DetectionMaker::offsets(const CfarPeak& peak, std::span<
 }
 
 size_t DetectionMaker::drop_sidelobes(std::vector<CfarPeak>& peaks, std::span<const float> map) const {
-  const uint32_t ranges = config_.waveform.samples, velocities = config_.waveform.chirps();
+  const uint32_t ranges = config_.waveform.samples;
+  const uint32_t velocities = config_.waveform.chirps() / config_.waveform.bands();
   std::vector<double> strength;  // power at the centre of the tone
   for (const CfarPeak& peak : peaks) {
     const Offsets at = offsets(peak, map);
@@ -74,7 +76,8 @@ size_t DetectionMaker::drop_sidelobes(std::vector<CfarPeak>& peaks, std::span<co
       if (other.power_w <= peaks[i].power_w) return false;
       return peaks[i].power_w <
              2.0 * strength[j] * range_envelope_[distance_on_circle(peaks[i].range, other.range, ranges)] *
-                 doppler_envelope_[distance_on_circle(peaks[i].velocity, other.velocity, velocities)];
+                 doppler_envelope_[distance_on_circle(peaks[i].velocity % velocities,
+                                                      other.velocity % velocities, velocities)];
     });
     if (!sidelobe) kept.push_back(peaks[i]);
   }
@@ -88,11 +91,13 @@ void DetectionMaker::place(RadarDetection& detection, const Offsets& at,
   const RadarWaveform& w = config_.waveform;
   const dvec3 unit = Direction{detection.azimuth, detection.elevation, 0.0}.unit();
   // The frequency of the tone is f_b = S tau + nu. The Doppler part nu = (f_c - S tau) dtau/dt turns the
-  // phase from chirp to chirp.
+  // phase from chirp to chirp. Waveforms whose samples are spectral lines have f_b = S tau.
   const double turns =
       wrapped(doppler_turns(detection.velocity_bin, w.chirps()) + at.velocity, -0.5 * w.chirps(), w.chirps());
   const double nu = turns / (w.chirps() * w.repetition_s());
-  double way = speed_of_light * ((detection.range_bin + at.range) / w.sampled_s() - nu) / w.slope_hz_per_s;
+  detection.power_w /= symbol_gain(w, nu);
+  double way = speed_of_light * ((detection.range_bin + at.range) / w.sampled_s() - (w.sweeps() ? nu : 0.0)) /
+               w.slope_hz_per_s;
   // Converts the path length between the centres of the elements to that between the origins.
   const auto middle = [](const std::vector<dvec3>& positions) {
     return std::accumulate(positions.begin(), positions.end(), dvec3(0.0)) / double(positions.size());
@@ -101,7 +106,7 @@ void DetectionMaker::place(RadarDetection& detection, const Offsets& at,
   way += glm::dot(unit, middle(config_.arrays.receive_m));
   detection.range_m = wrapped(0.5 * way, -0.5 * w.range_bin_m(), w.range_span_m());
   detection.velocity_m_s = 0.5 * speed_of_light * nu /
-                           (w.carrier_hz - 2.0 * w.slope_hz_per_s * detection.range_m / speed_of_light);
+                           (w.carrier_hz - 2.0 * w.squared_slope() * detection.range_m / speed_of_light);
   // The point on the ray of arrival at which the path from the transmitter to the receiver has this length.
   // It lies on a sphere (monostatic) or on an ellipsoid (bistatic).
   way = 2.0 * detection.range_m;

@@ -30,9 +30,10 @@ struct RadarDetection {
   double elevation = 0.0;     ///< rad
   dvec3 position_m{0.0};      ///< in the same frame, from the range and both angles
   double snr = 0.0;           ///< (power of the cell - noise)/noise, mean of the virtual antennas
-  double power_w = 0.0;       ///< received power of the beam, corrected for the windows' scalloping
-  double rcs_m2 = 0.0;        ///< by the radar equation with the gains of both arrays towards the target
-  uint32_t instance = 0;      ///< index + 1; 0: no instance sends an echo there (a false alarm)
+  /// Received power of the beam, corrected for the windows' scalloping and for symbol_gain().
+  double power_w = 0.0;
+  double rcs_m2 = 0.0;    ///< by the radar equation with the gains of both arrays towards the target
+  uint32_t instance = 0;  ///< index + 1; 0: no instance sends an echo there (a false alarm)
   uint32_t range_bin = 0, velocity_bin = 0;
 };
 
@@ -48,7 +49,8 @@ class DetectionMaker {
                  RadarGain receive_gain);
 
   /// Removes the peaks that are sidelobes of a stronger peak's windows: those below twice the highest
-  /// response of the windows within half a bin of their offset. Returns their number.
+  /// response of the windows within half a bin of their offset. With Doppler multiplexing the offset is that
+  /// between the places in their bands. Returns their number.
   size_t drop_sidelobes(std::vector<CfarPeak>& peaks, std::span<const float> map) const;
   /// Returns the detections, [peaks]. `spectrum` is [rx, tx, range, velocity].
   std::vector<RadarDetection> make(std::span<const CfarPeak> peaks, std::span<const float> map,

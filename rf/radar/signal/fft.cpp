@@ -41,15 +41,67 @@ bool has_template_radices(uint32_t size) {
   return size == 1;
 }
 
+/// Transforms `size` points by a convolution of at least 2 size - 1 points: with c_n = e^{-j pi n^2/size},
+///   X_k = c_k sum_n (x_n c_n) conj(c_{k - n}).
+class ChirpTransform {
+ public:
+  ChirpTransform(uint32_t size, bool backward)
+      : points_(points_for(size)), forward_(points_, false), backward_(points_, true), chirp_(size) {
+    std::vector<std::complex<Four>> kernel(points_), spectrum(points_);
+    for (uint32_t n = 0; n < size; ++n) {
+      // n^2 modulo 2 size keeps the phase exact.
+      const double turns = double(uint64_t{n} * n % (2 * uint64_t{size})) / (2.0 * size);
+      const double phase = (backward ? 2.0 : -2.0) * std::numbers::pi * turns;
+      chirp_[n] = {static_cast<float>(std::cos(phase)), static_cast<float>(std::sin(phase))};
+      const std::complex<Four> value(Four(chirp_[n].real()), Four(-chirp_[n].imag()));
+      kernel[n] = value;
+      if (n > 0) kernel[points_ - n] = value;
+    }
+    forward_.transform(kernel.data(), spectrum.data());
+    const float scale = 1.0f / static_cast<float>(points_);
+    for (const auto& value : spectrum)
+      kernel_.emplace_back(scale * value.real().lane[0], scale * value.imag().lane[0]);
+  }
+
+  void transform(const std::complex<Four>* in, std::complex<Four>* out) const {
+    std::vector<std::complex<Four>> a(points_), b(points_);
+    for (size_t n = 0; n < chirp_.size(); ++n) a[n] = turned(in[n], chirp_[n]);
+    forward_.transform(a.data(), b.data());
+    for (uint32_t i = 0; i < points_; ++i) b[i] = turned(b[i], kernel_[i]);
+    backward_.transform(b.data(), a.data());
+    for (size_t k = 0; k < chirp_.size(); ++k) out[k] = turned(a[k], chirp_[k]);
+  }
+
+ private:
+  static uint32_t points_for(uint32_t size) {
+    uint32_t points = 2 * size - 1;
+    while (!has_template_radices(points)) ++points;
+    return points;
+  }
+  static std::complex<Four> turned(const std::complex<Four>& value, const std::complex<float>& by) {
+    const Four re(by.real()), im(by.imag());
+    return {value.real() * re - value.imag() * im, value.real() * im + value.imag() * re};
+  }
+
+  uint32_t points_;
+  kissfft<Four> forward_, backward_;
+  std::vector<std::complex<float>> chirp_, kernel_;
+};
+
 }  // namespace
 
 struct Fft::Plan {
-  /// Null for sizes with other factors; `single` then transforms one signal after the other.
+  /// Null for sizes with other factors; `chirp` transforms these, or `single`, one signal after the other.
   std::unique_ptr<const kissfft<Four>> four;
+  std::unique_ptr<const ChirpTransform> chirp;
   kiss_fft_cfg single = nullptr;
-  Plan(uint32_t size, bool backward) {
+  Plan(uint32_t size, bool backward, Others others) {
     if (size > 1 && has_template_radices(size)) {
       four = std::make_unique<const kissfft<Four>>(size, backward);
+      return;
+    }
+    if (size > 1 && others == Others::chirp) {
+      chirp = std::make_unique<const ChirpTransform>(size, backward);
       return;
     }
     single = kiss_fft_alloc(static_cast<int>(size), backward, nullptr, nullptr);
@@ -60,8 +112,8 @@ struct Fft::Plan {
   Plan& operator=(const Plan&) = delete;
 };
 
-Fft::Fft(uint32_t size, Direction direction)
-    : size_(size), plan_(std::make_unique<Plan>(size, direction == Direction::backward)) {}
+Fft::Fft(uint32_t size, Direction direction, Others others)
+    : size_(size), plan_(std::make_unique<Plan>(size, direction == Direction::backward, others)) {}
 Fft::~Fft() = default;
 Fft::Fft(Fft&&) noexcept = default;
 Fft& Fft::operator=(Fft&&) noexcept = default;
@@ -69,6 +121,7 @@ Fft& Fft::operator=(Fft&&) noexcept = default;
 void Fft::transform(const Value* in, Value* out) const {
   GREATX_CHECK(in != out, "a transform in place");
   if (plan_->four) return plan_->four->transform(in, out);
+  if (plan_->chirp) return plan_->chirp->transform(in, out);
   std::vector<kiss_fft_cpx> one(size_), turned(size_);
   for (uint32_t lane = 0; lane < lanes; ++lane) {
     for (uint32_t n = 0; n < size_; ++n) one[n] = {in[n].real().lane[lane], in[n].imag().lane[lane]};

@@ -20,7 +20,11 @@ class Fft {
   static constexpr uint32_t lanes = 4;
 
   enum class Direction { forward, backward };
-  Fft(uint32_t size, Direction direction);
+  /// How a size with other factors than 2, 3 and 5 is transformed: by its own factors, one signal after the
+  /// other, or as a convolution with a chirp, four signals side by side (L. I. Bluestein, IEEE Trans. Audio
+  /// Electroacoust. 18(4), 1970), which is faster where a factor is large.
+  enum class Others { factors, chirp };
+  Fft(uint32_t size, Direction direction, Others others = Others::factors);
   ~Fft();
   Fft(Fft&&) noexcept;
   Fft& operator=(Fft&&) noexcept;

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/phase.h"
+#include "rf/radar/signal/demultiplex.h"
 #include "rf/radar/signal/lanes.h"
 
 namespace greatx::rf {
@@ -69,7 +70,8 @@ RadarMaps::RadarMaps(const RadarSignalConfig& config)
     : config_(config),
       range_window_(config.processing.range_window, config.waveform.samples),
       doppler_window_(config.processing.doppler_window, config.waveform.chirps()),
-      range_transform_(config.waveform.samples, Fft::Direction::forward),
+      range_transform_(config.waveform.samples, Fft::Direction::forward,
+                       config.waveform.coded() ? Fft::Others::chirp : Fft::Others::factors),
       doppler_transform_(config.waveform.chirps(), Fft::Direction::forward),
       axes_(radar_axes(config)) {
   if (!config.processing.range_azimuth) return;
@@ -145,6 +147,7 @@ std::vector<std::complex<float>> RadarMaps::spectrum(std::span<const std::comple
       Fft::scatter(line.data() + (chirps - half), half, below);
     }
   });
+  if (config_.waveform.bands() > 1) return demultiplexed(config_.waveform, result, threads);
   return result;
 }
 

@@ -41,7 +41,8 @@ class RadarMaps {
   const Window& doppler_window() const { return doppler_window_; }
   const RadarAxes& axes() const { return axes_; }
 
-  /// Returns the spectrum sqrt(W) [rx, tx, range, velocity] of cube [rx, tx, chirp, sample].
+  /// Returns the spectrum sqrt(W) [rx, tx, range, velocity] of cube [rx, tx, chirp, sample]. With Doppler
+  /// multiplexing the cube is [rx, 1, chirp, sample], and the spectrum is demultiplexed().
   std::vector<std::complex<float>> spectrum(std::span<const std::complex<float>> cube,
                                             uint32_t threads) const;
   /// Returns the mean of |spectrum|^2 over the virtual antennas: W [range, velocity].
@@ -69,6 +70,7 @@ class RadarMaps {
 
 /// Returns the turns by which TDM delays transmitter `transmitter` at `doppler` turns over the chirps.
 inline double tdm_turns(const RadarWaveform& waveform, uint32_t transmitter, double doppler) {
+  if (waveform.multiplexing == RadarMultiplexing::doppler) return 0.0;
   return doppler * transmitter / (double(waveform.chirps()) * waveform.transmitters);
 }
 

@@ -16,6 +16,7 @@
 #include "rf/radar/signal/lanes.h"
 #include "rf/radar/signal/patch_kernel.h"
 #include "rf/radar/signal/receiver.h"
+#include "rf/radar/signal/symbols.h"
 
 namespace greatx::rf {
 namespace {
@@ -76,13 +77,13 @@ struct PatchAxis {
 
 PatchBlock patch_block(const RadarWaveform& w, uint32_t first_slot, uint32_t slots, uint32_t blocks,
                        uint32_t block) {
-  const uint32_t first = first_slot / w.transmitters;
-  const uint64_t chirps = slots / w.transmitters;
+  const uint32_t first = first_slot / w.loop();
+  const uint64_t chirps = slots / w.loop();
   PatchBlock result;
   result.first = first + static_cast<uint32_t>(chirps * block / blocks);
   result.last = first + static_cast<uint32_t>(chirps * (block + 1) / blocks);
   const uint32_t middle = result.first + (result.last - result.first) / 2;
-  result.middle_s = w.slot_middle_s(middle * w.transmitters) + 0.5 * (w.transmitters - 1) * w.interval_s;
+  result.middle_s = w.slot_middle_s(middle * w.loop()) + 0.5 * (w.loop() - 1) * w.interval_s;
   return result;
 }
 
@@ -92,7 +93,7 @@ uint32_t patch_blocks(const RadarWaveform& w, uint32_t slots, double rate, doubl
   const double crossed = 0.5 * pi * w.bandwidth_hz() * rate * frame_s;
   const double bent = 0.25 * pi * w.carrier_hz * curvature_per_s * frame_s * frame_s;
   const double blocks = std::max(crossed / largest_patch_phase, std::sqrt(bent / largest_patch_phase));
-  const uint32_t most = std::max(1u, slots / w.transmitters);
+  const uint32_t most = std::max(1u, slots / w.loop());
   return blocks >= most ? most : std::max(1u, static_cast<uint32_t>(std::ceil(blocks)));
 }
 
@@ -117,7 +118,7 @@ class BlockSum {
  public:
   BlockSum(const RadarSignalConfig& config, const PatchAxis& range, const PatchAxis& doppler,
            const PatchList& patches, const PatchBlock& block, uint32_t index, const Leads& leads,
-           uint32_t threads)
+           uint32_t threads, uint32_t term)
       : config_(config),
         w_(config.waveform),
         range_(range),
@@ -128,6 +129,7 @@ class BlockSum {
         rate_(patches.rate.data() + index * patches.size()),
         leads_(leads),
         threads_(threads),
+        term_(term),
         antennas_(static_cast<uint32_t>(config.arrays.receive_m.size()) * w_.transmitters),
         groups_((antennas_ + Fft::lanes - 1) / Fft::lanes),
         rows_(range.kernel.grid()),
@@ -150,10 +152,8 @@ class BlockSum {
   }
 
  private:
-  double doppler_hz(uint32_t i) const { return (w_.carrier_hz - w_.slope_hz_per_s * delay_[i]) * rate_[i]; }
-  double range_turns(uint32_t i) const {
-    return (w_.slope_hz_per_s * delay_[i] + doppler_hz(i)) / w_.sample_rate_hz;
-  }
+  double doppler_hz(uint32_t i) const { return w_.doppler_hz(delay_[i], rate_[i]); }
+  double range_turns(uint32_t i) const { return w_.tone_hz(delay_[i], rate_[i]) / w_.sample_rate_hz; }
 
   static float turn_part(double turns) { return static_cast<float>(turns - nearest(turns)); }
 
@@ -180,21 +180,21 @@ class BlockSum {
   /// Computes the amplitudes of a patch at all virtual antennas.
   void amplitudes(uint32_t i, Room& room) const {
     const double tau = delay_[i], doppler = doppler_hz(i);
-    const double lead_hz = w_.slope_hz_per_s * tau - w_.carrier_hz;
+    const double square = w_.squared_slope(), lead_hz = square * tau - w_.carrier_hz;
+    const float scale = w_.coded() ? amplitude_scale_ * symbol_weight(w_, rate_[i], term_) : amplitude_scale_;
     const dvec3 out(patches_.departure[i]), in(patches_.arrival_of(i));
     const uint32_t transmitters = w_.transmitters, receivers = static_cast<uint32_t>(leads_.receive.size());
     float* turns = room.turns.data();
     const auto add = [&](double value) { *turns++ = turn_part(value); };
     const ExactProduct carrier = exact_product(w_.carrier_hz, tau);
-    add((carrier.value - nearest(carrier.value)) + carrier.error - 0.5 * w_.slope_hz_per_s * tau * tau);
+    add((carrier.value - nearest(carrier.value)) + carrier.error - 0.5 * square * tau * tau);
     for (uint32_t t = 0; t < transmitters; ++t)
       add(lead_hz * glm::dot(leads_.transmit[t], out) +
-          doppler * (t - 0.5 * (transmitters - 1)) * w_.interval_s);
+          (w_.loop() > 1 ? doppler * (t - 0.5 * (transmitters - 1)) * w_.interval_s : 0.0));
     for (uint32_t r = 0; r < receivers; ++r) add(lead_hz * glm::dot(leads_.receive[r], in));
     phasors_of(room.turns.data(), 1 + transmitters + receivers, room.re.data(), room.im.data());
     const auto phasor = [&](uint32_t at) { return std::complex<float>(room.re[at], room.im[at]); };
-    const std::complex<float> conjugate(amplitude_scale_ * patches_.re[i],
-                                        -amplitude_scale_ * patches_.im[i]),
+    const std::complex<float> conjugate(scale * patches_.re[i], -scale * patches_.im[i]),
         base = plain_product(conjugate, phasor(0));
     for (uint32_t t = 0; t < transmitters; ++t) {
       const std::complex<float> sent = plain_product(base, phasor(1 + t));
@@ -284,6 +284,7 @@ class BlockSum {
   }
   void add_line(uint32_t antenna, uint32_t chirp, const std::complex<float>* line,
                 std::span<const float> turns, std::span<std::complex<float>> cube) const {
+    if (w_.bands() > 1) return add_band(antenna, chirp, line, turns, cube);
     std::complex<float>* const to =
         cube.data() + (size_t{antenna} * w_.chirps() + block_.first + chirp) * w_.samples;
     if (turns.empty()) {
@@ -295,6 +296,17 @@ class BlockSum {
     for (uint32_t n = 0; n < w_.samples; ++n) to[n] += turned_sample(line[n], turn[n]);
   }
 
+  /// The same for a transmitter that sends together with the others.
+  void add_band(uint32_t antenna, uint32_t chirp, const std::complex<float>* line,
+                std::span<const float> turns, std::span<std::complex<float>> cube) const {
+    const uint32_t slot = block_.first + chirp;
+    std::complex<float>* const to =
+        cube.data() + size_t{w_.row(antenna / w_.transmitters, slot)} * w_.samples;
+    const float band = static_cast<float>(w_.band_turns(antenna % w_.transmitters, slot));
+    const float* const turn = turns.empty() ? nullptr : turns.data() + size_t{chirp} * w_.samples;
+    for (uint32_t n = 0; n < w_.samples; ++n) to[n] += turned_sample(line[n], turn ? turn[n] + band : band);
+  }
+
   const RadarSignalConfig& config_;
   const RadarWaveform& w_;
   const PatchAxis &range_, &doppler_;
@@ -302,7 +314,7 @@ class BlockSum {
   const PatchBlock block_;
   const double *delay_, *rate_;
   const Leads& leads_;
-  const uint32_t threads_, antennas_, groups_, rows_, columns_, stride_;
+  const uint32_t threads_, term_, antennas_, groups_, rows_, columns_, stride_;
   const float amplitude_scale_;
   std::vector<uint32_t> order_, first_;
   std::vector<Fft::Value>
@@ -312,7 +324,7 @@ class BlockSum {
 /// Returns the phases of the oscillator over the slots of a block for a node, [slots, samples] turns.
 std::vector<float> walk_turns(const PhaseWalk& walk, const RadarWaveform& w, const PatchBlock& block,
                               uint32_t node, uint32_t threads) {
-  const uint32_t first = block.first * w.transmitters, slots = (block.last - block.first) * w.transmitters;
+  const uint32_t first = block.first * w.loop(), slots = (block.last - block.first) * w.loop();
   std::vector<float> turns(size_t{slots} * w.samples);
   parallel_for(slots, threads, [&](size_t slot) {
     PhaseWalk::Ramp ramp = walk.ramp(first + static_cast<uint32_t>(slot));
@@ -330,19 +342,19 @@ PatchSynthesizer::PatchSynthesizer(PatchSynthesizer&&) noexcept = default;
 
 void PatchSynthesizer::add(const PatchList& patches, uint32_t first_slot, uint32_t slots,
                            const RadarAttitude& attitude, const PhaseWalk* walk, uint32_t threads,
-                           std::span<std::complex<float>> cube) const {
+                           std::span<std::complex<float>> cube, uint32_t term) const {
   const RadarSignalConfig& config = shared_->config;
   const RadarWaveform& w = config.waveform;
   if (patches.empty()) return;
   GREATX_CHECK(patches.delay_s.size() == patches.blocks * patches.size(), "{} delays of {} patches",
                patches.delay_s.size(), patches.size());
-  GREATX_CHECK(first_slot % w.transmitters == 0 && slots % w.transmitters == 0, "slots {} + {} of {}",
-               first_slot, slots, w.transmitters);
+  GREATX_CHECK(first_slot % w.loop() == 0 && slots % w.loop() == 0, "slots {} + {} of {}", first_slot, slots,
+               w.transmitters);
   const Leads leads(config.arrays, attitude);
   for (uint32_t index = 0; index < patches.blocks; ++index) {
     const PatchBlock block = patch_block(w, first_slot, slots, patches.blocks, index);
     BlockSum sum(config, shared_->axis(w.samples), shared_->axis(block.last - block.first), patches, block,
-                 index, leads, threads);
+                 index, leads, threads, term);
     std::vector<uint32_t> members(patches.size());
     std::iota(members.begin(), members.end(), 0u);
     if (walk == nullptr) {

@@ -9,6 +9,7 @@
 //   s(v, m, n) = sum conj(a) sqrt(P_t) e^{j 2 pi [f_c tau - S tau^2/2 + f_r u_n + nu t_m]},
 //   f_r = S tau + nu,   nu = (f_c - S tau) d tau/dt,
 // with tau at the middle of the block (beat.h has the signal of one echo; this is the same to first order).
+// The terms in S tau^2 and the nu of f_r are those of ramps (RadarWaveform).
 #pragma once
 
 #include <complex>
@@ -46,7 +47,7 @@ struct PatchBlock {
   double middle_s = 0.0;
 };
 /// Returns block `block` of `blocks` of the chirps of slots [first_slot, first_slot + slots), which begin and
-/// end with the first and the last transmitter.
+/// end with the first and the last transmitter (where these send in turn).
 PatchBlock patch_block(const RadarWaveform& waveform, uint32_t first_slot, uint32_t slots, uint32_t blocks,
                        uint32_t block);
 
@@ -69,9 +70,10 @@ class PatchSynthesizer {
   PatchSynthesizer(PatchSynthesizer&&) noexcept;
 
   /// Adds the patches of slots [first_slot, first_slot + slots) to the cube [receivers, transmitters, chirps,
-  /// samples]. `walk` may be null.
+  /// samples]. `walk` may be null. `term` is that of BeatSynthesizer::add().
   void add(const PatchList& patches, uint32_t first_slot, uint32_t slots, const RadarAttitude& attitude,
-           const PhaseWalk* walk, uint32_t threads, std::span<std::complex<float>> cube) const;
+           const PhaseWalk* walk, uint32_t threads, std::span<std::complex<float>> cube,
+           uint32_t term = 0) const;
 
  private:
   struct Shared;

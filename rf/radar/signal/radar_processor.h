@@ -15,9 +15,11 @@
 #include "rf/radar/signal/beat.h"
 #include "rf/radar/signal/cfar.h"
 #include "rf/radar/signal/detections.h"
+#include "rf/radar/signal/interference.h"
 #include "rf/radar/signal/maps.h"
 #include "rf/radar/signal/patches.h"
 #include "rf/radar/signal/receiver.h"
+#include "rf/radar/signal/symbols.h"
 
 namespace greatx::rf {
 
@@ -26,6 +28,7 @@ struct RadarFrameInput {
   std::span<const RadarAttitude> attitudes;  ///< one per list, or one for all
   dvec3 baseline_m{0.0};                     ///< from the receiver's origin to the transmitter's, world axes
   RadarSeeds seeds;
+  std::span<const Interferer> interferers = {};  ///< frames of other radars
 };
 
 struct RadarReport {
@@ -33,13 +36,15 @@ struct RadarReport {
   uint64_t patches = 0;  ///< number of patches of all lists
   BeatReport beat;
   uint64_t saturated_samples = 0;  ///< samples beyond the full scale of the converter
-  /// Echoes delayed beyond adc_start_s. In a real receiver their first samples belong to no ramp.
+  /// Echoes delayed beyond latest_delay_s(). In a real receiver their first samples belong to no slot.
   uint64_t late_echoes = 0;
-  uint64_t sidelobes = 0;  ///< peaks left out as sidelobes of a stronger peak's windows
+  uint32_t terms = 1;                            ///< terms of a coded waveform (Symbols)
+  std::vector<InterferenceReport> interference;  ///< of each of the interferers
+  uint64_t sidelobes = 0;                        ///< peaks left out as sidelobes of a stronger peak's windows
 };
 
 struct RadarFrame {
-  RadarCube cube;  ///< sqrt(W) [rx, tx, chirp, sample]
+  RadarCube cube;  ///< sqrt(W) [rx, tx, chirp, sample]; [rx, 1, chirp, sample] with Doppler multiplexing
   /// W [range, velocity], mean of the virtual antennas; empty if not requested.
   std::vector<float> range_doppler;
   std::vector<float> range_azimuth;        ///< W [range, azimuth]; empty if not requested
@@ -65,10 +70,20 @@ class RadarProcessor {
   RadarFrame process(const RadarFrameInput& input, uint32_t threads = 0) const;
 
  private:
+  /// Adds the echoes of `timely`, the patches and the leakage of a frame to a cube.
+  void add_echoes(const RadarFrameInput& input, std::span<const EchoList> timely, const PhaseWalk* walk,
+                  uint32_t term, uint32_t threads, std::span<std::complex<float>> cube,
+                  BeatReport& report) const;
+  /// Returns what the receiver takes in, without its noise: samples, or the signal of symbols.
+  RadarCube received(const RadarFrameInput& input, uint32_t threads, RadarReport& report) const;
+  void detect(const RadarFrameInput& input, std::span<const std::complex<float>> spectrum, uint32_t threads,
+              RadarFrame& frame) const;
+
   std::string name_;
   RadarSignalConfig config_;
   BeatSynthesizer synthesizer_;
   PatchSynthesizer patches_;
+  std::optional<Symbols> symbols_;
   RadarMaps maps_;
   std::optional<Cfar> cfar_;
   std::optional<DetectionMaker> maker_;

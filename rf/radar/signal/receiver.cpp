@@ -76,16 +76,17 @@ void complex_normals(const RadarSeeds& seeds, RadarDraw purpose, uint32_t part, 
   }
 }
 
-double noise_power_w(double sample_rate_hz, double noise_figure_db) {
-  return boltzmann_j_k * standard_temperature_k * sample_rate_hz * from_decibels(noise_figure_db);
+double noise_power_w(double bandwidth_hz, double noise_figure_db) {
+  return boltzmann_j_k * standard_temperature_k * bandwidth_hz * from_decibels(noise_figure_db);
 }
 
 double hidden_ratio(const RadarSignalConfig& config) {
   if (!config.receiver.noise_figure_db) return 0.0;
   constexpr double share = 0.01;
   const RadarWaveform& w = config.waveform;
-  const double added = double(w.samples) * w.slots * double(config.arrays.receive_m.size());
-  return share * noise_power_w(w.sample_rate_hz, *config.receiver.noise_figure_db) /
+  const double added =
+      double(w.samples) * w.chirps() * w.transmitters * double(config.arrays.receive_m.size());
+  return share * noise_power_w(w.noise_bandwidth_hz(), *config.receiver.noise_figure_db) /
          (added * config.transmit_power_w);
 }
 

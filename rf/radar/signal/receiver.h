@@ -22,7 +22,12 @@ struct RadarSeeds {
 };
 
 /// Selects the purpose of a draw: the fourth word of the counter.
-enum class RadarDraw : uint32_t { thermal = 0x72640000u, walk = 0x73000000u, bridge = 0x74000000u };
+enum class RadarDraw : uint32_t {
+  thermal = 0x72640000u,
+  walk = 0x73000000u,
+  bridge = 0x74000000u,
+  symbols = 0x75000000u
+};
 
 /// Fills `out` with complex normal numbers of variance 1 (1/2 in each part). out[i] is draw `first` + i of
 /// (seeds, purpose + part). The numbers are the Box-Muller transform of Philox words. Their radius ends at
@@ -30,8 +35,8 @@ enum class RadarDraw : uint32_t { thermal = 0x72640000u, walk = 0x73000000u, bri
 void complex_normals(const RadarSeeds& seeds, RadarDraw purpose, uint32_t part, uint32_t first,
                      std::span<std::complex<float>> out);
 
-/// Returns k T_0 f_s F, W: the noise power of a complex sample, as a power at the port of the receiver.
-double noise_power_w(double sample_rate_hz, double noise_figure_db);
+/// Returns k T_0 B F, W: the noise power of a complex sample, as a power at the port of the receiver.
+double noise_power_w(double bandwidth_hz, double noise_figure_db);
 
 /// Returns the ratio of received to transmitted power below which noise hides an echo: its power is a
 /// hundredth of the mean power of the noise when all samples and antennas of a frame are added up in phase.

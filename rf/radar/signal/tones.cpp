@@ -23,19 +23,20 @@ GREATX_LANES void block_delays(const TrackColumns& columns, size_t first, double
 GREATX_LANES void block_tones(const SlotScales& scales, const BlockDelays& delays, const double* mid_delay_s,
                               BlockTones& tones) {
   const double f = scales.carrier_hz, s = scales.slope_hz_per_s, half = scales.half_window_s;
+  const double sweeps = scales.sweeps, square = scales.square;
   const double grid = scales.grid, by_grid = 1.0 / grid, cells_per_hz = scales.cells_per_hz;
   double turns[tone_block], cells[tone_block];
   for (uint32_t i = 0; i < tone_block; ++i) {
-    // f_c tau + S tau u - S tau^2/2 with tau = tau_0 + rate u + curvature u^2/2, sorted by powers of u.
+    // f_c tau + S tau u - square S tau^2/2 with tau = tau_0 + rate u + curvature u^2/2, by powers of u.
     const double tau = delays.delay_s[i], rate = delays.rate[i], curvature = delays.curvature_per_s[i];
-    const double bend =
-        half * half * (0.5 * f * curvature + s * rate - 0.5 * s * (rate * rate + tau * curvature));
-    const double at_middle = (f - 0.5 * s * tau) * tau + 0.5 * bend;
+    const double bend = half * half * sweeps *
+                        (0.5 * f * curvature + s * rate - 0.5 * s * square * (rate * rate + tau * curvature));
+    const double at_middle = (f - 0.5 * s * square * tau) * tau + 0.5 * bend;
     turns[i] = at_middle - nearest(at_middle);
-    const double tone = (f * rate + s * tau * (1.0 - rate)) * cells_per_hz;
+    const double tone = (f * rate * sweeps + s * tau * (1.0 - square * rate)) * cells_per_hz;
     cells[i] = tone - grid * nearest(tone * by_grid);  // [-M/2, M/2]
     tones.bend[i] = static_cast<float>(2.0 * pi * bend);
-    tones.drift[i] = static_cast<float>(-2.0 * pi / cells_per_hz * (tau - mid_delay_s[i]));
+    tones.drift[i] = static_cast<float>(-2.0 * pi / cells_per_hz * square * (tau - mid_delay_s[i]));
   }
   for (uint32_t i = 0; i < tone_block; ++i) {
     // Truncation of a value above 0 gives the grid frequency below.

@@ -30,6 +30,8 @@ struct TrackColumns {
 /// Holds the values of a slot that all its tones share.
 struct SlotScales {
   double carrier_hz, slope_hz_per_s;
+  double sweeps;         ///< 1 if targets move while the samples are taken, or 0
+  double square;         ///< 1 if the phase has the term S tau^2/2, or 0
   double cells_per_hz;   ///< grid frequencies per hertz, M/f_s
   double half_window_s;  ///< N/2 samples
   uint32_t grid;         ///< M

@@ -301,6 +301,7 @@ std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rat
   }
   check_references(references, nodes);
   resolve_illuminators(nodes);
+  resolve_interferers(nodes);
   resolve_event_cameras(nodes);
   return nodes;
 }

@@ -58,8 +58,13 @@ LidarConfig parse_lidar(const FieldMap& map, const Rational& rate_hz);
 extern const Keys antenna_keys;
 AntennaConfig parse_antenna(const FieldMap& map, PatternFiles& loaded);
 RadarConfig parse_radar(const FieldMap& map, PatternFiles& patterns);
+/// Parses the waveform of a radar but for its transmitters. `chirps` is set if the number of its chirps,
+/// sweeps, symbols or blocks is given.
+rf::RadarWaveform parse_waveform(const Field& field, uint32_t& chirps);
 /// Gives bistatic radars the antennas that transmit for them.
 void resolve_illuminators(std::vector<NodeConfig>& nodes);
+/// Names the radars that disturb others, and checks that they can. Every radar is complete.
+void resolve_interferers(std::vector<NodeConfig>& nodes);
 /// Gives event cameras that share a camera's pixels its optics and mount.
 void resolve_event_cameras(std::vector<NodeConfig>& nodes);
 std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz);

@@ -11,22 +11,7 @@
 namespace greatx::sim {
 namespace {
 
-constexpr uint32_t most_chirps = 65536, most_tubes = 4'000'000, most_updates = 4096;
-
-void parse_waveform(const Field& field, rf::RadarWaveform& waveform, uint32_t& chirps) {
-  const FieldMap map(field, {"carrier_hz", "bandwidth_hz", "slope_hz_per_s", "chirp_s", "interval_s",
-                             "adc_start_s", "sample_rate_hz", "samples", "chirps"});
-  map.exclude("bandwidth_hz", "slope_hz_per_s");
-  if (const auto f = map.find("carrier_hz")) waveform.carrier_hz = f->positive();
-  if (const auto f = map.find("slope_hz_per_s")) waveform.slope_hz_per_s = f->positive();
-  if (const auto f = map.find("chirp_s")) waveform.chirp_s = f->positive();
-  if (const auto f = map.find("interval_s")) waveform.interval_s = f->positive();
-  if (const auto f = map.find("adc_start_s")) waveform.adc_start_s = f->non_negative();
-  if (const auto f = map.find("sample_rate_hz")) waveform.sample_rate_hz = f->positive();
-  if (const auto f = map.find("samples")) waveform.samples = f->integer32(4, 65536);
-  if (const auto f = map.find("chirps")) chirps = f->integer32(1, most_chirps);
-  if (const auto f = map.find("bandwidth_hz")) waveform.slope_hz_per_s = f->positive() / waveform.sampled_s();
-}
+constexpr uint32_t most_tubes = 4'000'000, most_updates = 4096;
 
 /// Parses an array. Each element is one port, since positions tell a radar's channels apart.
 AntennaConfig parse_radar_array(const Field& field, PatternFiles& patterns) {
@@ -69,7 +54,7 @@ void parse_echoes(const Field& field, RadarConfig& radar) {
 }
 
 void parse_receiver(const Field& field, rf::RadarReceiver& receiver) {
-  const FieldMap map(field, {"noise_figure_db", "phase_noise", "adc"});
+  const FieldMap map(field, {"noise_figure_db", "phase_noise", "adc", "leakage"});
   if (const auto f = map.find("noise_figure_db")) receiver.noise_figure_db = f->non_negative();
   if (const auto f = map.find("phase_noise")) {
     const FieldMap noise(*f, {"level_dbc_hz", "pole_hz"});
@@ -78,6 +63,24 @@ void parse_receiver(const Field& field, rf::RadarReceiver& receiver) {
     if (const auto g = noise.find("pole_hz")) receiver.phase_noise->pole_hz = g->positive();
   }
   if (const auto f = map.find("adc")) receiver.adc = parse_adc(*f);
+  if (const auto f = map.find("leakage")) {
+    const FieldMap leakage(*f, {"level_db", "length_m"});
+    receiver.leakage.emplace();
+    receiver.leakage->level_db =
+        leakage.require("level_db", "a level, dB of the transmitted power").between(-300.0, 0.0);
+    if (const auto g = leakage.find("length_m")) receiver.leakage->length_m = g->between(0.0, 1e6);
+  }
+}
+
+void parse_interference(const Field& field, RadarConfig& radar) {
+  const FieldMap map(field, {"radars"});
+  radar.interference = {field.where(), true};
+  if (radar.signal.waveform.modulation != rf::RadarModulation::fmcw)
+    field.refuse("interference is modelled for waveform.type fmcw alone");
+  const auto f = map.find("radars");
+  if (!f) return;
+  radar.interference.all = false;
+  for (const Field& item : f->list("radars as node/sensor", 1)) radar.interferers.push_back(item.text());
 }
 
 void parse_processing(const Field& field, rf::RadarProcessing& processing) {
@@ -124,7 +127,7 @@ void place_arrays(RadarConfig& radar, uint32_t chirps) {
   };
   signal.arrays = {positions(radar.transmit), positions(radar.receive)};
   signal.waveform.transmitters = static_cast<uint32_t>(signal.arrays.transmit_m.size());
-  signal.waveform.slots = chirps * signal.waveform.transmitters;
+  signal.waveform.slots = chirps * signal.waveform.loop();
 }
 
 /// Returns the antenna that a bistatic radar names.
@@ -194,6 +197,38 @@ void resolve_illuminators(std::vector<NodeConfig>& nodes) {
   }
 }
 
+void resolve_interferers(std::vector<NodeConfig>& nodes) {
+  for (size_t n = 0; n < nodes.size(); ++n) {
+    for (size_t s = 0; s < nodes[n].sensors.size(); ++s) {
+      auto* radar = std::get_if<RadarConfig>(&nodes[n].sensors[s].config);
+      if (radar == nullptr) continue;
+      const std::string own = nodes[n].name + "/" + nodes[n].sensors[s].name;
+      if (radar->interference.all)
+        for (const NodeConfig& node : nodes)
+          for (const SensorConfig& sensor : node.sensors)
+            if (std::holds_alternative<RadarConfig>(sensor.config) && node.name + "/" + sensor.name != own)
+              radar->interferers.push_back(node.name + "/" + sensor.name);
+      for (const std::string& name : radar->interferers) {
+        const auto fail = [&](const std::string& found) {
+          throw_user_error_at(radar->interference.where,
+                              "nodes[{}].sensors[{}].interference.radars: expected other radars with "
+                              "waveform.type fmcw, as node/sensor; found {}",
+                              n, s, found);
+        };
+        const std::optional<SensorPlace> place = find_sensor(nodes, name);
+        if (!place) fail(fmt::format("unknown '{}'", name));
+        const auto* other = std::get_if<RadarConfig>(&nodes[place->node].sensors[place->sensor].config);
+        if (other == nullptr) fail(fmt::format("'{}', which is none", name));
+        if (name == own) fail(fmt::format("'{}', which is the radar itself", name));
+        if (other->signal.waveform.modulation != rf::RadarModulation::fmcw)
+          fail(fmt::format("'{}' with another waveform", name));
+        if (other->signal.bistatic)
+          fail(fmt::format("'{}', which does not transmit: '{}' does", name, other->illuminator));
+      }
+    }
+  }
+}
+
 RadarConfig parse_radar(const FieldMap& map, PatternFiles& patterns) {
   RadarConfig radar;
   rf::RadarSignalConfig& signal = radar.signal;
@@ -203,7 +238,7 @@ RadarConfig parse_radar(const FieldMap& map, PatternFiles& patterns) {
   // With four receivers half a wavelength apart this makes a full row of sixteen.
   radar.transmit.column_spacing_wl = 2.0;
   map.exclude("illuminator", "transmit");
-  if (const auto f = map.find("waveform")) parse_waveform(*f, signal.waveform, chirps);
+  if (const auto f = map.find("waveform")) signal.waveform = parse_waveform(*f, chirps);
   if (const auto f = map.find("transmit")) radar.transmit = parse_radar_array(*f, patterns);
   if (const auto f = map.find("receive")) radar.receive = parse_radar_array(*f, patterns);
   if (const auto f = map.find("illuminator")) {
@@ -218,6 +253,7 @@ RadarConfig parse_radar(const FieldMap& map, PatternFiles& patterns) {
   if (const auto f = map.find("receiver")) parse_receiver(*f, signal.receiver);
   if (const auto f = map.find("processing")) parse_processing(*f, signal.processing);
   if (const auto f = map.find("outputs")) parse_outputs(*f, radar);
+  if (const auto f = map.find("interference")) parse_interference(*f, radar);
   if (const auto f = map.find("see_own_body")) radar.see_own_body = f->boolean();
   place_arrays(radar, chirps);
   if (const std::optional<rf::RadarFault> fault = rf::check(signal)) fail_at(map, *fault);

@@ -78,7 +78,7 @@ SensorParsers sensor_parsers() {
       }};
   parsers[sensor_kind_index<RadarConfig>()] = {
       fired + Keys{"waveform", "transmit", "receive", "illuminator", "power_dbm", "field_of_view", "echoes",
-                   "receiver", "processing", "outputs"},
+                   "receiver", "interference", "processing", "outputs"},
       [](const FieldMap& map, const SensorContext& context) -> SensorSettings {
         return parse_radar(map, context.patterns);
       }};

@@ -43,19 +43,60 @@ Array one_of(std::vector<int64_t> shape, const std::vector<float>& values) {
   return Array::of<float>(std::move(shape), std::span<const float>(values));
 }
 
+/// Returns the description of the cube.
+std::string cube_text(const rf::RadarWaveform& w) {
+  const std::string all = w.bands() > 1 ? ", of all transmitters together" : "";
+  switch (w.modulation) {
+    case rf::RadarModulation::fmcw:
+      return "[rx, tx, chirp, sample] beat signal at the receivers' ports" + all;
+    case rf::RadarModulation::stepped:
+      return "[rx, tx, sweep, step] samples of the frequency steps at the receivers' ports" + all;
+    case rf::RadarModulation::ofdm:
+      return "[rx, tx, symbol, subcarrier] conjugate of what is received, divided by the symbols" + all;
+    case rf::RadarModulation::pmcw:
+      break;
+  }
+  return "[rx, tx, block, line] spectral lines of the correlation with the code, conjugate" + all;
+}
+
+nlohmann::json waveform_metadata(const rf::RadarWaveform& w) {
+  constexpr const char* types[] = {"fmcw", "stepped", "ofdm", "pmcw"};
+  nlohmann::json json = {{"carrier_hz", w.carrier_hz},
+                         {"slope_hz_per_s", w.slope_hz_per_s},
+                         {"bandwidth_hz", w.bandwidth_hz()},
+                         {"chirp_s", w.chirp_s},
+                         {"interval_s", w.interval_s},
+                         {"adc_start_s", w.adc_start_s},
+                         {"sample_rate_hz", w.sample_rate_hz},
+                         {"samples", w.samples},
+                         {"chirps", w.chirps()},
+                         {"transmitters", w.transmitters},
+                         {"slot_order", "slot = chirp * transmitters + transmitter"}};
+  // What follows was added later. Radars with ramps in turn keep their metadata byte for byte.
+  if (w.modulation != rf::RadarModulation::fmcw) json["type"] = types[static_cast<size_t>(w.modulation)];
+  if (w.bands() > 1) {
+    json["multiplexing"] = "ddm";
+    json["empty_bands"] = w.empty_bands;
+    json["slot_order"] = "slot = chirp; transmitter t turns by t/(transmitters + empty_bands) a slot";
+  }
+  if (w.modulation == rf::RadarModulation::stepped) json["integration_s"] = w.integration_s;
+  if (w.modulation == rf::RadarModulation::pmcw) {
+    json["code"] = w.code == rf::RadarCode::apas ? "apas" : "m_sequence";
+    json["averages"] = w.averages;
+  }
+  return json;
+}
+
 }  // namespace
 
 void describe_radar(const RadarConfig& config, const rf::RadarProcessor& processor, SensorSpec& spec) {
   const rf::RadarSignalConfig& signal = config.signal;
-  const int64_t rx = std::ssize(signal.arrays.receive_m), tx = signal.waveform.transmitters,
+  const int64_t rx = std::ssize(signal.arrays.receive_m), tx = signal.waveform.loop(),
                 chirps = signal.waveform.chirps(), samples = signal.waveform.samples;
   const rf::RadarAxes& axes = processor.axes();
   if (config.outputs.cube) {
-    spec.arrays.push_back({"cube",
-                           DType::complex64,
-                           {rx, tx, chirps, samples},
-                           "sqrt(W)",
-                           "[rx, tx, chirp, sample] beat signal at the receivers' ports"});
+    spec.arrays.push_back(
+        {"cube", DType::complex64, {rx, tx, chirps, samples}, "sqrt(W)", cube_text(signal.waveform)});
     spec.outputs.push_back({"cube", FileFormat::npy_stack, {"cube"}});
   }
   if (config.outputs.range_doppler) {
@@ -98,7 +139,7 @@ std::vector<Array> radar_arrays(const RadarConfig& config, const rf::RadarProces
   std::vector<Array> arrays;
   if (config.outputs.cube)
     arrays.push_back(
-        Array::of<std::complex<float>>({std::ssize(signal.arrays.receive_m), signal.waveform.transmitters,
+        Array::of<std::complex<float>>({std::ssize(signal.arrays.receive_m), signal.waveform.loop(),
                                         signal.waveform.chirps(), signal.waveform.samples},
                                        std::span<const std::complex<float>>(frame.cube)));
   if (config.outputs.range_doppler)
@@ -129,17 +170,7 @@ nlohmann::json radar_metadata(const RadarConfig& config, const rf::RadarProcesso
   const rf::RadarWaveform& w = config.signal.waveform;
   const rf::RadarAxes& axes = processor.axes();
   nlohmann::json json;
-  json["waveform"] = {{"carrier_hz", w.carrier_hz},
-                      {"slope_hz_per_s", w.slope_hz_per_s},
-                      {"bandwidth_hz", w.bandwidth_hz()},
-                      {"chirp_s", w.chirp_s},
-                      {"interval_s", w.interval_s},
-                      {"adc_start_s", w.adc_start_s},
-                      {"sample_rate_hz", w.sample_rate_hz},
-                      {"samples", w.samples},
-                      {"chirps", w.chirps()},
-                      {"transmitters", w.transmitters},
-                      {"slot_order", "slot = chirp * transmitters + transmitter"}};
+  json["waveform"] = waveform_metadata(w);
   const auto positions = [](const std::vector<dvec3>& elements) {
     nlohmann::json list = nlohmann::json::array();
     for (const dvec3& at : elements) list.push_back({at.x, at.y, at.z});

@@ -9,6 +9,7 @@
 
 #include "core/hash.h"
 #include "core/units.h"
+#include "rf/radar/signal/delay.h"
 #include "sim/plan/radar_plan.h"
 #include "sim/sensors/radar/radar_arrays.h"
 #include "sim/sensors/sensor_metadata.h"
@@ -24,6 +25,8 @@ RadarConfig planned(RadarConfig config, const EffectPlan& plan) {
   if (!plan.radar_noise.on) receiver.noise_figure_db.reset();
   if (!plan.radar_phase_noise.on) receiver.phase_noise.reset();
   if (!plan.radar_quantisation.on) receiver.adc.reset();
+  if (!plan.radar_leakage.on) receiver.leakage.reset();
+  if (!plan.radar_interference.on) config.interferers.clear();
   return config;
 }
 
@@ -91,6 +94,7 @@ RadarSensor::RadarSensor(scene::GpuScene& gpu_scene, const Experiment& experimen
                   ? std::optional(receive_end())
                   : std::nullopt,
               echo_options(experiment)),
+      neighbours_(experiment, config_, name_),
       processor_(name_, config_.signal, gain_of(transmit_end()), gain_of(receive_end())) {
   describe(experiment.scenario.nodes[node].sensors[sensor]);
 }
@@ -119,6 +123,8 @@ rf::EchoOptions RadarSensor::echo_options(const Experiment& experiment) const {
   options.bandwidth_hz = config_.signal.waveform.bandwidth_hz();
   options.beam_rad = beam_of(config_.signal);
   options.hidden_ratio = rf::hidden_ratio(config_.signal);
+  if (experiment.plan.radar_rain.on && !config_.signal.bistatic)
+    options.rain = radar_rain(experiment.scenario.environment, config_.signal.waveform.carrier_hz);
   if (config_.signal.receiver.noise_figure_db)
     options.hidden_floor_m2 = rf::hidden_section_m2(config_.signal, largest_gain(gain_of(transmit_end())),
                                                     largest_gain(gain_of(receive_end())));
@@ -146,7 +152,7 @@ void RadarSensor::describe(const SensorConfig& sensor) {
 rf::EchoMotion RadarSensor::motion(const TickContext& context, uint32_t update) const {
   const rf::RadarWaveform& waveform = config_.signal.waveform;
   const auto first_slot = [&](uint32_t u) {
-    return waveform.transmitters * static_cast<uint32_t>(uint64_t{waveform.chirps()} * u / config_.updates);
+    return waveform.loop() * static_cast<uint32_t>(uint64_t{waveform.chirps()} * u / config_.updates);
   };
   rf::EchoMotion motion;
   // These functions outlive the context.
@@ -164,6 +170,7 @@ rf::EchoMotion RadarSensor::motion(const TickContext& context, uint32_t update) 
   for (uint32_t slot = motion.first_slot; slot < first_slot(update + 1); ++slot)
     motion.slot_start_s.push_back(waveform.slot_start_s(slot));
   motion.slot_s = waveform.interval_s;
+  motion.frame = static_cast<uint64_t>(context.tick);
   motion.traced_s = motion.slot_start_s.front();
   return motion;
 }
@@ -182,6 +189,7 @@ void RadarSensor::record(gpu::TickSlot& slot, const TickContext& context) {
       const Pose transmitter = update.motion.transmitter(at_s), receiver = update.motion.receiver(at_s);
       update.attitude = {transmitter.orientation, receiver.orientation};
       update.rays = finder_.record(slot, transmitter, receiver, bodies);
+      update.sent = neighbours_.record(context, update.motion);
       if (u == config_.updates / 2) frame.baseline_m = transmitter.position - receiver.position;
       frame.updates.push_back(std::move(update));
     }
@@ -192,7 +200,7 @@ std::vector<Array> RadarSensor::collect(const gpu::TickSlot& slot) { return proc
 
 RadarSensor::Echoes RadarSensor::find_echoes(const gpu::TickSlot& slot) {
   Frame& frame = frames_[slot.index];
-  Echoes echoes{{}, {}, frame.seeds, frame.baseline_m};
+  Echoes echoes{{}, {}, frame.seeds, frame.baseline_m, {}};
   for (const Update& update : frame.updates) {
     rf::EchoStatistics statistics;
     echoes.lists.push_back(finder_.collect(update.rays, update.motion, &statistics));
@@ -200,6 +208,9 @@ RadarSensor::Echoes RadarSensor::find_echoes(const gpu::TickSlot& slot) {
     tubes_ += statistics.tubes;
     beams_ += statistics.facets + statistics.images;
     echoes_ += echoes.lists.back().echoes.size();
+    watch_spans(echoes.lists.back());
+    for (const rf::Interferer& one : neighbours_.arrive(update.sent, finder_, update.rays))
+      echoes.interferers.push_back(one);
     echoes_left_out_ += statistics.left_out;
     patches_ += statistics.patches;
   }
@@ -207,8 +218,45 @@ RadarSensor::Echoes RadarSensor::find_echoes(const gpu::TickSlot& slot) {
   return echoes;
 }
 
+/// Notes which echoes lie beyond the spans of range and velocity.
+void RadarSensor::watch_spans(const rf::EchoList& list) {
+  const rf::RadarWaveform& w = config_.signal.waveform;
+  const double at_s = w.slot_middle_s(list.first_slot + list.slots / 2);
+  for (const rf::Echo& echo : list.echoes) {
+    const rf::DelayAt delay = rf::delay_at(list, echo.delay, w.interval_s, at_s);
+    const double range_m = 0.5 * speed_of_light * delay.delay_s,
+                 speed_m_s = 0.5 * speed_of_light * std::abs(delay.rate);
+    if (range_m > w.range_span_m()) ++echoes_beyond_span_;
+    if (speed_m_s > 0.5 * w.velocity_span_m_s()) ++echoes_beyond_speed_;
+    longest_range_m_ = std::max(longest_range_m_, range_m);
+    fastest_m_s_ = std::max(fastest_m_s_, speed_m_s);
+  }
+}
+
+void RadarSensor::warn(std::vector<std::string>& warnings) const {
+  const rf::RadarWaveform& w = config_.signal.waveform;
+  if (echoes_beyond_span_ > 0)
+    warnings.push_back(fmt::format(
+        "radar '{}': {} of {} echoes alias in range: the farthest is at {:.1f} m, and the range span of its "
+        "waveform is {:.1f} m",
+        name_, echoes_beyond_span_, echoes_, longest_range_m_, w.range_span_m()));
+  if (echoes_beyond_speed_ > 0)
+    warnings.push_back(
+        fmt::format("radar '{}': {} of {} echoes alias in velocity: the fastest has {:.2f} m/s, and v_max of "
+                    "its waveform "
+                    "is {:.2f} m/s",
+                    name_, echoes_beyond_speed_, echoes_, fastest_m_s_, 0.5 * w.velocity_span_m_s()));
+}
+
+void RadarSensor::note(std::vector<std::pair<std::string, std::string>>& notes) const {
+  neighbours_.note(name_, notes);
+}
+
 std::vector<Array> RadarSensor::process(const Echoes& echoes) {
-  frame_ = processor_.process({echoes.lists, echoes.attitudes, echoes.baseline_m, echoes.seeds});
+  frame_ = processor_.process(
+      {echoes.lists, echoes.attitudes, echoes.baseline_m, echoes.seeds, echoes.interferers});
+  if (!neighbours_.empty())
+    neighbours_.count(echoes.interferers, frame_.report.interference, frame_.cube.size());
   ++frames_done_;
   detections_ += frame_.detections.size();
   saturated_ += frame_.report.saturated_samples;

@@ -8,6 +8,7 @@
 #include "rf/radar/echoes/echo_finder.h"
 #include "rf/radar/signal/radar_processor.h"
 #include "sim/experiment/experiment.h"
+#include "sim/sensors/radar/radar_neighbours.h"
 #include "sim/sensors/sensor.h"
 
 namespace greatx::sim {
@@ -26,6 +27,8 @@ class RadarSensor : public Sensor {
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
   Evidence evidence() const override;
   void count(std::map<std::string, uint64_t>& counters) const override;
+  void warn(std::vector<std::string>& warnings) const override;
+  void note(std::vector<std::pair<std::string, std::string>>& notes) const override;
 
   /// Holds the echoes of a frame over time; collect() makes a record of them.
   struct Echoes {
@@ -33,6 +36,7 @@ class RadarSensor : public Sensor {
     std::vector<rf::RadarAttitude> attitudes;
     rf::RadarSeeds seeds;
     dvec3 baseline_m{0.0};
+    std::vector<rf::Interferer> interferers;
   };
   /// The two halves of collect(), for callers that measure the cost of each.
   Echoes find_echoes(const gpu::TickSlot& slot);
@@ -52,6 +56,7 @@ class RadarSensor : public Sensor {
     rf::EchoFinder::Pending rays;
     rf::EchoMotion motion;
     rf::RadarAttitude attitude;
+    std::vector<RadarNeighbours::Sent> sent;
   };
   struct Frame {
     std::vector<Update> updates;
@@ -66,6 +71,7 @@ class RadarSensor : public Sensor {
   rf::EchoOptions echo_options(const Experiment& experiment) const;
   rf::EchoMotion motion(const TickContext& context, uint32_t update) const;
   void describe(const SensorConfig& sensor);
+  void watch_spans(const rf::EchoList& list);
 
   scene::GpuScene& gpu_scene_;
   const World& world_;
@@ -76,12 +82,15 @@ class RadarSensor : public Sensor {
   Pose mount_;
   Carrier transmitter_, receiver_;
   rf::EchoFinder finder_;
+  RadarNeighbours neighbours_;
   rf::RadarProcessor processor_;
   SensorSpec spec_;
   std::array<Frame, slots_in_flight> frames_;
   rf::RadarFrame frame_;
   uint64_t frames_done_ = 0, tubes_ = 0, beams_ = 0, echoes_ = 0, echoes_left_out_ = 0, patches_ = 0;
   uint64_t detections_ = 0, saturated_ = 0, late_echoes_ = 0;
+  uint64_t echoes_beyond_span_ = 0, echoes_beyond_speed_ = 0;
+  double longest_range_m_ = 0.0, fastest_m_s_ = 0.0;
 };
 
 }  // namespace greatx::sim
