@@ -139,6 +139,7 @@ void plan_radar(EffectPlan& plan, const Planner& planner, const Scenario& scenar
   const bool air = asks.most_air_db > scenario.tolerance_db;
   decide(plan.radar_air, air, "more than the tolerance", "within the tolerance",
          radar ? fmt::format("at most {:.3g} dB out to the range span and back", asks.most_air_db) : "");
+  decide(plan.radar_edges, true, "edges send back more than physical optics has", "");
   decide(plan.radar_noise, asks.noise, "a receiver has a noise figure", "no receiver has one");
   decide(plan.radar_phase_noise, asks.phase_noise, "an oscillator has phase noise", "no oscillator has any");
   decide(plan.radar_quantisation, asks.adc, "a converter has steps", "no converter is described");

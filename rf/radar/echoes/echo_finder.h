@@ -20,6 +20,7 @@
 #include "rf/config/echo_options.h"
 #include "rf/facets/facet_world.h"
 #include "rf/radar/echoes/clutter_patches.h"
+#include "rf/radar/echoes/edge_echoes.h"
 #include "rf/radar/echoes/echo_field.h"
 #include "rf/radar/echoes/echo_motion.h"
 #include "rf/radar/echoes/echo_pass.h"
@@ -102,6 +103,7 @@ class EchoFinder {
   uint32_t traced_;               ///< number of surfaces that a ray may meet
   std::optional<EchoPass> pass_;  ///< empty if the host traces
   std::optional<MirrorFinder> mirrors_;
+  std::optional<EdgeEchoes> edges_;        ///< present if edges are asked for
   std::optional<ClutterPatches> clutter_;  ///< present if rough surfaces are asked for
 };
 

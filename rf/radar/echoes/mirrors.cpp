@@ -10,7 +10,7 @@ namespace greatx::rf {
 namespace {
 
 /// Relative tolerance between two computations of the distance to a mirror.
-constexpr double same_distance = 1e-6;
+constexpr double same_on_mirror = 1e-6;
 
 /// Describes a target that is searched for over mirrors.
 struct Sought {
@@ -96,7 +96,7 @@ std::vector<MirroredFacet> MirrorFinder::find(std::span<const TargetBox> targets
         if (!trees.contains(world, mirror.facet, over)) return false;
         const dvec3 out = over - radar, on = point - over;
         const EchoTracer::Met met = tracer.first(view, radar, glm::normalize(out), ~0u);
-        if (met.facet != mirror.facet && met.distance < glm::length(out) * (1.0 - same_distance))
+        if (met.facet != mirror.facet && met.distance < glm::length(out) * (1.0 - same_on_mirror))
           return false;
         const EchoTracer::Met next = tracer.first(view, over, glm::normalize(on), mirror.facet);
         return next.distance >= glm::length(on) || is_target(next.facet);
