@@ -108,8 +108,13 @@ double ordered_statistic_mean(uint32_t cells, uint32_t rank, uint32_t looks) {
   return statistic_mean(cells, rank, looks, quantiles_of(looks));
 }
 
-Cfar::Cfar(const RadarCfar& config, const Window& range_window, const Window& doppler_window, uint32_t looks)
-    : config_(config), ranges_(range_window.size()), velocities_(doppler_window.size()), looks_(looks) {
+Cfar::Cfar(const RadarCfar& config, const Window& range_window, const Window& doppler_window, uint32_t looks,
+           double rise)
+    : config_(config),
+      ranges_(range_window.size()),
+      velocities_(doppler_window.size()),
+      looks_(looks),
+      rise_(rise) {
   // The square of a sum of four cosines correlates bins that are up to six apart.
   constexpr uint32_t farthest = 6;
   for (const auto& [window, correlation] :
@@ -194,7 +199,7 @@ Cfar::Row Cfar::row(std::span<const float> map, uint32_t range) const {
       add(around[0].data() + i);
       if (i < config_.train_doppler || i > reach_d + guard_d) add(around[1].data() + i);
     }
-    for (double& noise : result.noise_w) noise /= cells;
+    for (double& noise : result.noise_w) noise = noise / cells / rise_;
     return result;
   }
   std::vector<float> cells;
@@ -205,7 +210,7 @@ Cfar::Row Cfar::row(std::span<const float> map, uint32_t range) const {
         if (!guarded(r) || i < config_.train_doppler || i > reach_d + guard_d)
           cells.push_back(map[size_t{r} * velocities_ + (d + velocities_ + i - reach_d) % velocities_]);
     std::nth_element(cells.begin(), cells.begin() + (f.rank - 1), cells.end());
-    result.noise_w[d] = cells[f.rank - 1] / f.bias;
+    result.noise_w[d] = cells[f.rank - 1] / f.bias / rise_;
   }
   return result;
 }

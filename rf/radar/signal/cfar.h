@@ -48,8 +48,10 @@ struct CfarPeak {
 /// proportional rank; its false-alarm rate is then lower than requested (docs/radar.md).
 class Cfar {
  public:
-  /// `looks` is the number of virtual antennas.
-  Cfar(const RadarCfar& config, const Window& range_window, const Window& doppler_window, uint32_t looks);
+  /// `looks` is the number of virtual antennas. `rise` is the mean of the map's cells where there is noise
+  /// alone, relative to the mean power of the noise (noise_rise() of a folded map).
+  Cfar(const RadarCfar& config, const Window& range_window, const Window& doppler_window, uint32_t looks,
+       double rise = 1.0);
 
   /// Returns the peaks in the order of range, then velocity. `map` is W [range, velocity].
   std::vector<CfarPeak> peaks(std::span<const float> map, uint32_t threads) const;
@@ -70,6 +72,7 @@ class Cfar {
 
   RadarCfar config_;
   uint32_t ranges_, velocities_, looks_;
+  double rise_;
   std::vector<double> range_correlation_, doppler_correlation_;  ///< |rho|^2 by distance in bins
   std::vector<double> quantiles_;  ///< quantiles of a noise cell, for the ordered statistic
   std::vector<Factor> factors_;    ///< [ranges]

@@ -3,8 +3,10 @@
 #include "rf/radar/signal/demultiplex.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/parallel.h"
+#include "core/random.h"
 
 namespace greatx::rf {
 namespace {
@@ -59,6 +61,22 @@ std::vector<float> folded_map(const RadarWaveform& w, std::span<const float> map
       cell = std::max(cell, map[range * bins + k]);
     }
   return folded;
+}
+
+double noise_rise(const RadarWaveform& w, size_t receivers) {
+  constexpr int draws = 8192;
+  RandomStream random(1, 2);
+  std::vector<double> powers(w.bands());
+  double sum = 0.0;
+  for (int draw = 0; draw < draws; ++draw) {
+    for (double& power : powers) {
+      power = 0.0;
+      for (size_t r = 0; r < receivers; ++r) power -= std::log(1.0 - random.uniform());
+    }
+    const uint32_t first = strongest_run(powers, w.transmitters);
+    for (uint32_t t = 0; t < w.transmitters; ++t) sum += powers[(first + t) % w.bands()];
+  }
+  return sum / (double(draws) * w.transmitters * double(receivers));
 }
 
 void unfold(const RadarWaveform& w, std::span<const float> map, std::vector<CfarPeak>& peaks) {

@@ -29,6 +29,11 @@ std::vector<std::complex<float>> demultiplexed(const RadarWaveform& waveform,
 /// Returns the map [range, velocity modulo M/K] of the velocities that were taken.
 std::vector<float> folded_map(const RadarWaveform& waveform, std::span<const float> map);
 
+/// Returns the mean of a folded map's cells where there is noise alone, relative to the mean power of the
+/// noise: the largest of several sums is above their mean. To half a per cent, by random draws that are
+/// always the same.
+double noise_rise(const RadarWaveform& waveform, size_t receivers);
+
 /// Moves the peaks of a folded map to their velocities in `map`.
 void unfold(const RadarWaveform& waveform, std::span<const float> map, std::vector<CfarPeak>& peaks);
 

@@ -49,7 +49,8 @@ Cfar detector_of(const RadarSignalConfig& config, const RadarMaps& maps) {
   RadarCfar cfar = config.processing.cfar;
   cfar.false_alarm /= bands;
   return {cfar, maps.range_window(),
-          Window(config.processing.doppler_window, config.waveform.chirps() / bands), antennas};
+          Window(config.processing.doppler_window, config.waveform.chirps() / bands), antennas,
+          noise_rise(config.waveform, config.arrays.receive_m.size())};
 }
 
 }  // namespace
