@@ -68,6 +68,8 @@ struct EchoOptions {
   double air_db_per_km = 0.0;
   /// Edges send back the fields of their fringe currents (rf/radar/echoes/fringe.h).
   bool edges = false;
+  /// Targets are seen through foliage and thin panes (rf/radar/echoes/veils.h).
+  bool transmission = false;
   /// Coherent fields fall by Ament's factor of the materials' rms heights.
   bool roughness = false;
   /// Rough surfaces send back what their materials scatter (docs/clutter.md).

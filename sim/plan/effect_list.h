@@ -66,6 +66,7 @@
   X(radar_roughness, true, none, "roughness of materials weakens echoes") \
   X(radar_clutter, true, none, "what rough surfaces and foliage send back to radars") \
   X(radar_air, true, none, "attenuation of echoes by gases, rain and fog") \
+  X(radar_transmission, true, none, "what stands behind foliage and thin panes sends back") \
   X(radar_edges, true, none, "what edges send back beyond physical optics") \
   X(radar_noise, true, none, "noise of the receiver") \
   X(radar_phase_noise, true, none, "phase noise of the oscillator") \

@@ -61,6 +61,7 @@ struct RadarOffers {
   std::string roughest;
   bool scattering = false;
   std::string clutter;  ///< a material with a model of its clutter; empty: none
+  std::string veil;     ///< foliage, or a material that ends in a layer with a thickness; empty: none
 };
 
 RadarOffers radar_offers(const scene::Scene& scene) {
@@ -70,6 +71,10 @@ RadarOffers radar_offers(const scene::Scene& scene) {
     if (!material.radio) continue;
     offers.scattering |= material.radio->scattering_coefficient > 0.0;
     if (offers.clutter.empty() && material.radio->clutter) offers.clutter = material.name;
+    const std::vector<scene::RadioLayer>& layers = material.radio->layers;
+    if (offers.veil.empty() &&
+        (material.radio->foliage || (!layers.empty() && layers.back().thickness_m > 0.0)))
+      offers.veil = material.name;
     if (material.radio->roughness_m <= offers.roughness_m) continue;
     offers.roughness_m = material.radio->roughness_m;
     offers.roughest = material.name;
@@ -139,6 +144,9 @@ void plan_radar(EffectPlan& plan, const Planner& planner, const Scenario& scenar
   const bool air = asks.most_air_db > scenario.tolerance_db;
   decide(plan.radar_air, air, "more than the tolerance", "within the tolerance",
          radar ? fmt::format("at most {:.3g} dB out to the range span and back", asks.most_air_db) : "");
+  decide(plan.radar_transmission, !offers.veil.empty(),
+         fmt::format("waves pass through materials: {} is one", offers.veil),
+         "waves pass through no material");
   decide(plan.radar_edges, true, "edges send back more than physical optics has", "");
   decide(plan.radar_noise, asks.noise, "a receiver has a noise figure", "no receiver has one");
   decide(plan.radar_phase_noise, asks.phase_noise, "an oscillator has phase noise", "no oscillator has any");

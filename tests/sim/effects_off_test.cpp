@@ -275,6 +275,7 @@ const std::map<std::string, Tried> tried{
     {"radar_roughness", {radar_sensor, {}}},
     {"radar_clutter", {radar_sensor, {}}},
     {"radar_air", {radar_sensor, {}}},
+    {"radar_transmission", {radar_sensor, {}}},
     {"radar_edges", {radar_sensor, {}}},
     {"radar_noise", {radar_sensor, {}}},
     {"radar_phase_noise", {radar_sensor, {}}},

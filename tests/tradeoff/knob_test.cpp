@@ -48,13 +48,25 @@ TEST(Knobs, AloneLeavesTheSensorsOfOneModality) {
     return kinds;
   };
   EXPECT_EQ(kinds(Modality::camera), (std::multiset<size_t>{0, 4, 4}));
-  EXPECT_EQ(kinds(Modality::events), (std::multiset<size_t>{0, 1, 4, 4}));  // with the camera of its pixels
+  EXPECT_EQ(kinds(Modality::events), (std::multiset<size_t>{1, 4, 4}));
   EXPECT_EQ(kinds(Modality::lidar), (std::multiset<size_t>{2, 4, 4}));
   EXPECT_EQ(kinds(Modality::radar), (std::multiset<size_t>{3, 4, 4}));
   EXPECT_EQ(kinds(Modality::csi), (std::multiset<size_t>{4, 4}));
   EXPECT_EQ(alone(city, Modality::csi, {})->channels.size(), 1u);
   EXPECT_TRUE(alone(city, Modality::radar, {})->channels.empty());
   EXPECT_FALSE(alone(embedded("canyon"), Modality::radar, {}).has_value());
+}
+
+TEST(Knobs, AloneKeepsTheCameraWhosePixelsAnEventCameraHas) {
+  std::string text(std::ranges::find(embedded_scenarios(), "city", &EmbeddedScenario::name)->text);
+  const size_t begin = text.find("{name: events, "), end = text.find("}}", begin) + 2;
+  ASSERT_NE(begin, text.npos);
+  text.replace(begin, end - begin, "{name: events, type: event_camera, rate_hz: 10, camera: front}");
+  const Scenario scenario = alone(parse_scenario(text, "city.yaml", "."), Modality::events, {}).value();
+  std::multiset<size_t> kinds;
+  for (const NodeConfig& node : scenario.nodes)
+    for (const SensorConfig& sensor : node.sensors) kinds.insert(sensor.config.index());
+  EXPECT_EQ(kinds, (std::multiset<size_t>{0, 1, 4, 4}));
 }
 
 TEST(Knobs, EverySettingOfEveryScenarioParses) {

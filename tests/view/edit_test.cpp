@@ -99,7 +99,7 @@ TEST_F(EditFiles, SavesWhatTheParserReads) {
   const sim::Scenario read = sim::load_scenario(file);
   EXPECT_EQ(read.effects.at("diffraction"), sim::Switch::on);
   EXPECT_EQ(contents(file), document.text());
-  EXPECT_THAT(contents(file), HasSubstr("# The camera's own pixels")) << "comments stay";
+  EXPECT_THAT(contents(file), HasSubstr("# The pixels of a DAVIS346")) << "comments stay";
 }
 
 TEST_F(EditFiles, FilesKeepTheirPlaceInAnotherFolder) {

@@ -65,7 +65,7 @@ io::DatasetInfo info() {
           {"box_instance", DType::u32, {-1}, "1", ""},
           {"box_amodal", DType::f32, {-1, 4}, "pixel", ""},
           {"box_visibility", DType::f32, {-1}, "1", ""}},
-         R"({"width": 8, "height": 6, "non_finite": ["flow"]})");
+         R"({"width": 8, "height": 6, "fx": 4, "fy": 4, "cx": 4, "cy": 3, "non_finite": ["flow"]})");
   sensor("uav/events", "event_camera",
          {{"t", DType::i64, {-1}, "ns", ""},
           {"x", DType::u16, {-1}, "1", ""},
@@ -279,10 +279,10 @@ TEST(PanelChoices, ListWhatTheSensorsDeliver) {
                           "uav/cam: material", "uav/cam: normals", "uav/cam: flow", "uav/cam: boxes",
                           "uav/cam: luminance", "uav/events: events", "uav/events: time surface",
                           "uav/lidar: from above", "uav/lidar: range image", "uav/radar: range-Doppler",
-                          "uav/radar: range-azimuth", "csi: delay over time", "csi: |H| over frequency",
-                          "csi: |H| over frequency and time", "csi: arrivals", "csi: departures",
-                          "csi: delay and gain of paths", "csi: amplitudes of paths", "csi: link",
-                          "poses: speeds", "poses: heights"));
+                          "uav/radar: range-azimuth", "uav/radar: over the picture", "csi: delay over time",
+                          "csi: |H| over frequency", "csi: |H| over frequency and time", "csi: arrivals",
+                          "csi: departures", "csi: delay and gain of paths", "csi: amplitudes of paths",
+                          "csi: link", "poses: speeds", "poses: heights"));
   EXPECT_TRUE(panels_of({}).empty());
 }
 

@@ -210,6 +210,10 @@ EchoFinder::EchoFinder(scene::GpuScene& scene, const RadioSurfaces& surfaces, co
   if (!on_host) pass_.emplace(scene, traced_, monostatic_, transmitter.own_body != 0);
   if (over_mirrors) mirrors_.emplace(scene.scene(), world_, surfaces_);
   if (options_.edges) edges_.emplace(scene.scene());
+  if (options_.transmission) {
+    veils_.emplace(scene.scene(), trees_, world_, surfaces_);
+    if (veils_->none()) veils_.reset();
+  }
   if (options_.diffuse)
     clutter_.emplace(scene.scene(), surfaces_, options_, transmitter_, monostatic_ ? nullptr : &receiver_);
 }
@@ -283,14 +287,15 @@ RawEchoes EchoFinder::raw_echoes(const Pending& pending, const RayGrid& grid, co
     images =
         mirrors_->find(targets(pending.body_poses), world_, trees_, tracer_, source, transmitter_.own_body);
   const BeamedFacets beamed = small.choose(images);
-  std::array<RawEchoes, 3> parts{TubeEchoes(grid, hits, world_, trees_, field, scene_->scene(), source,
+  std::array<RawEchoes, 4> parts{TubeEchoes(grid, hits, world_, trees_, field, scene_->scene(), source,
                                             monostatic_, options_, clutter_ ? &*clutter_ : nullptr, beamed)
                                      .find(),
-                                 small.find(beamed), RawEchoes{}};
+                                 small.find(beamed)};
   if (edges_)
-    parts[2] = edges_->find(world_, tracer_, field, EchoSender(world_, trees_, field, options_, monostatic_),
-                            {source, transmitter_.own_body, receiver_.own_body, monostatic_},
-                            options_.threads);
+    parts[2] =
+        edges_->find(world_, tracer_, field, EchoSender(world_, trees_, field, options_, monostatic_),
+                     {source, transmitter_.own_body, receiver_.own_body, monostatic_}, options_.threads);
+  if (veils_) parts[3] = veiled_echoes(beamed, grid, field, source);
   statistics.tubes = grid.size();
   statistics.facets = static_cast<uint32_t>(beamed.facets.size());
   statistics.images = static_cast<uint32_t>(beamed.images.size());
@@ -307,6 +312,18 @@ std::complex<double> EchoFinder::direct(const Pending& pending, const EchoEnd& o
   const TurnedElement sender = turned(other, pose), receiver = turned(receiver_, pending.receiver);
   const EchoField field(world_, surfaces_, options_, sender, receiver, to);
   return field.direct(from) * amplitude(options_.air_db_per_km, glm::distance(from, to));
+}
+
+RawEchoes EchoFinder::veiled_echoes(const BeamedFacets& beamed, const RayGrid& grid, const EchoField& field,
+                                    const dvec3& source) const {
+  const Veils::Ends ends{source, field.receiver_at(), transmitter_.own_body, receiver_.own_body};
+  BeamedFacets behind = beamed;
+  behind.facets = veils_->behind(beamed.facets, ends, options_.threads);
+  behind.images.clear();
+  const FacetScene scene{world_, trees_, veils_->sight(), &*veils_};
+  return FacetEchoes(scene, grid, field, options_, source, monostatic_, transmitter_.own_body,
+                     receiver_.own_body)
+      .find(behind);
 }
 
 EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, EchoStatistics* statistics) {

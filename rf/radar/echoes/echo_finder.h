@@ -20,16 +20,18 @@
 #include "rf/config/echo_options.h"
 #include "rf/facets/facet_world.h"
 #include "rf/radar/echoes/clutter_patches.h"
-#include "rf/radar/echoes/edge_echoes.h"
 #include "rf/radar/echoes/echo_field.h"
 #include "rf/radar/echoes/echo_motion.h"
 #include "rf/radar/echoes/echo_pass.h"
 #include "rf/radar/echoes/echo_sender.h"
 #include "rf/radar/echoes/echo_tracer.h"
+#include "rf/radar/echoes/edge_echoes.h"
+#include "rf/radar/echoes/facet_echoes.h"
 #include "rf/radar/echoes/facet_trees.h"
 #include "rf/radar/echoes/mirrors.h"
 #include "rf/radar/echoes/ray_grid.h"
 #include "rf/radar/echoes/ray_hits.h"
+#include "rf/radar/echoes/veils.h"
 #include "rf/radar/signal/echo.h"
 #include "rf/surface/surfaces.h"
 #include "scene/device/gpu_scene.h"
@@ -81,6 +83,9 @@ class EchoFinder {
   /// Returns the echoes of tubes and of small facets. world_ must already be in its poses.
   RawEchoes raw_echoes(const Pending& pending, const RayGrid& grid, const RayHits& hits,
                        const EchoField& field, EchoStatistics& statistics) const;
+  /// Returns the echoes of the facets with beams that are seen through veils.
+  RawEchoes veiled_echoes(const BeamedFacets& beamed, const RayGrid& grid, const EchoField& field,
+                          const dvec3& source) const;
   EchoRays rays_of(const Pending& pending) const {
     return {pending.transmitter.position, pending.receiver.position, transmitter_.own_body,
             receiver_.own_body};
@@ -103,6 +108,7 @@ class EchoFinder {
   uint32_t traced_;               ///< number of surfaces that a ray may meet
   std::optional<EchoPass> pass_;  ///< empty if the host traces
   std::optional<MirrorFinder> mirrors_;
+  std::optional<Veils> veils_;             ///< present if transmission is asked for and there are any
   std::optional<EdgeEchoes> edges_;        ///< present if edges are asked for
   std::optional<ClutterPatches> clutter_;  ///< present if rough surfaces are asked for
 };

@@ -71,12 +71,13 @@ EchoTracer::Piece EchoTracer::piece_of(const scene::Facet& facet, FacetPiece ind
   return piece;
 }
 
-EchoTracer::EchoTracer(const scene::Scene& scene, const FacetTrees& trees) {
+EchoTracer::EchoTracer(const scene::Scene& scene, const FacetTrees& trees,
+                       const std::function<bool(uint32_t facet)>& takes) {
   for (uint32_t body = 0; body < scene.bodies.size(); ++body) {
     Build work;
     Tree tree{0, body, scene.owner_of(body), {}};
     for (uint32_t facet = 0; facet < scene.facets.size(); ++facet) {
-      if (scene.facets[facet].body != body) continue;
+      if (scene.facets[facet].body != body || (takes && !takes(facet))) continue;
       for (const uint32_t index : trees.pieces(facet)) {
         const std::span<const dvec3> corners = trees.corners(index);
         scene::Bounds bounds;

@@ -25,7 +25,9 @@ namespace greatx::rf {
 
 class EchoTracer {
  public:
-  EchoTracer(const scene::Scene& scene, const FacetTrees& trees);
+  /// Takes the facets that `takes` accepts, or all of them.
+  EchoTracer(const scene::Scene& scene, const FacetTrees& trees,
+             const std::function<bool(uint32_t facet)>& takes = nullptr);
 
   struct Answer {
     std::vector<uint32_t> words;  ///< [max_bounces * tubes], as EchoPass::collect returns

@@ -66,7 +66,10 @@ FacetEchoes::FacetEchoes(const FacetScene& scene, const RayGrid& grid, const Ech
       own_body_(own_body),
       sender_(scene.world, scene.trees, field, options, monostatic),
       beams_(scene.tracer.view(scene.world, own_body)),
-      receiver_(scene.tracer.view(scene.world, own_body, receiver_body)) {}
+      receiver_(scene.tracer.view(scene.world, own_body, receiver_body)),
+      ends_{source, field.receiver_at(), own_body, receiver_body} {
+  if (scene.veils != nullptr) veil_views_ = scene.veils->views(ends_);
+}
 
 bool FacetEchoes::chosen(uint32_t facet, const PosedFacet* mirror) const {
   const FacetWorld& world = scene_.world;
@@ -170,13 +173,37 @@ void FacetEchoes::solve(uint32_t facet, Job& job) const {
         covers(world, scene_.trees, beam, {}, outline, met.facet, job.scratch, &world.facet(facet)))
       continue;
     job.smallest = smallest_part * outline.area();
-    gather(beams_, beam, {}, outline, farthest, job.pieces);
+    gather(scene_.tracer, beams_, beam, {}, outline, farthest, job.pieces);
     std::vector<VisibleCell>& cells = job.cells[0];
     find_visible(world, scene_.trees, beam, {}, outline, facet, job.pieces, job.smallest, job.scratch, cells);
     for (size_t i = 0; i < cells.size(); ++i)
-      if (cells[i].facet == facet) bounce_off(job, 0, cells[i].part, facet);
+      if (cells[i].facet == facet) {
+        if (scene_.veils == nullptr)
+          bounce_off(job, 0, cells[i].part, facet);
+        else
+          solve_behind(facet, Polygon(cells[i].part), farthest, job);
+      }
   }
-  send_over_shown(job);
+  if (scene_.veils == nullptr) send_over_shown(job);
+}
+
+void FacetEchoes::solve_behind(uint32_t facet, const Polygon& part, double farthest, Job& job) const {
+  const TubeBeam& beam = job.beams[0];
+  gather(scene_.veils->tracer(), veil_views_.out, beam, {}, part, farthest, job.hiding);
+  std::vector<VisibleCell> behind;
+  find_visible(scene_.world, scene_.trees, beam, {}, part, facet, job.hiding, job.smallest, job.scratch,
+               behind);
+  for (const VisibleCell& cell : behind) {
+    if (cell.facet == facet) continue;  // no veil is before it
+    const dvec3 along = beam.along(cell.part.centroid());
+    const dvec3 at = beam.source + beam.reach(scene_.world.facet(facet), along) * along;
+    const size_t first = job.out->echoes.size();
+    job.lit.clear(), job.shown.clear();
+    bounce_off(job, 0, cell.part, facet);
+    send_over_shown(job);
+    scene_.veils->weaken(*job.out, first, scene_.veils->leg(veil_views_.out, source_, at), veil_views_, ends_,
+                         monostatic_);
+  }
 }
 
 void FacetEchoes::solve_over(const MirroredFacet& image, Job& job) const {
@@ -198,13 +225,13 @@ void FacetEchoes::solve_over(const MirroredFacet& image, Job& job) const {
     double to = 0.0;  // the mirror is not farther away
     for (uint32_t i = 0; i < outline.size(); ++i) to = std::max(to, out.reach(mirror, out.along(outline[i])));
     std::vector<VisibleCell>&on_mirror = job.cells[0], &on_facet = job.cells[1];
-    gather(beams_, out, {}, outline, to * (1.0 + same_distance), job.pieces);
+    gather(scene_.tracer, beams_, out, {}, outline, to * (1.0 + same_distance), job.pieces);
     find_visible(world, scene_.trees, out, {}, outline, VisibleCell::nothing, job.pieces, job.smallest,
                  job.scratch, on_mirror);
     for (size_t i = 0; i < on_mirror.size(); ++i) {
       if (on_mirror[i].facet != image.mirror) continue;
       const Polygon part = on_mirror[i].part;
-      gather(beams_, beam, start, part, farthest, job.pieces);
+      gather(scene_.tracer, beams_, beam, start, part, farthest, job.pieces);
       find_visible(world, scene_.trees, beam, start, part, image.facet, job.pieces, job.smallest, job.scratch,
                    on_facet);
       job.chain[0] = image.mirror;
@@ -215,8 +242,9 @@ void FacetEchoes::solve_over(const MirroredFacet& image, Job& job) const {
   send_over_shown(job);
 }
 
-void FacetEchoes::gather(const EchoTracer::View& view, const TubeBeam& beam, const BeamStart& start,
-                         const Polygon& part, double to, std::vector<FacetPiece>& pieces) const {
+void FacetEchoes::gather(const EchoTracer& tracer, const EchoTracer::View& view, const TubeBeam& beam,
+                         const BeamStart& start, const Polygon& part, double to,
+                         std::vector<FacetPiece>& pieces) const {
   const PartBox box(part);
   const dvec2 middle = 0.5 * (box.low + box.high);
   EchoTracer::Cone cone{beam.source, beam.along(middle), 0.0, to, 0.5 * glm::length(box.high - box.low)};
@@ -229,7 +257,7 @@ void FacetEchoes::gather(const EchoTracer::View& view, const TubeBeam& beam, con
   const BeamSpaces spaces(beam, start, box);
   cone.sides = spaces.used();
   pieces.clear();
-  scene_.tracer.gather(view, cone, pieces);
+  tracer.gather(view, cone, pieces);
 }
 
 void FacetEchoes::follow(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start) const {
@@ -258,7 +286,7 @@ uint32_t FacetEchoes::gather_next(Job& job, const TubeBeam& beam, const BeamStar
     for (uint32_t i = 0; i < part.size(); ++i)
       to = std::max(to, beam.reach(scene_.world.facet(wall), beam.along(part[i])));
   }
-  gather(beams_, beam, start, part, to, job.pieces);
+  gather(scene_.tracer, beams_, beam, start, part, to, job.pieces);
   return wall;
 }
 
@@ -428,7 +456,7 @@ void FacetEchoes::find_seen(Job& job, uint32_t last, const Polygon& part) const 
   job.sending.clear();
   BackView view;
   if (!view_back(job, last, part, field_.receiver_at(), view)) return;
-  gather(receiver_, view.beam, {}, view.outline, view.farthest, job.hiding);
+  gather(scene_.tracer, receiver_, view.beam, {}, view.outline, view.farthest, job.hiding);
   find_visible(scene_.world, scene_.trees, view.beam, {}, view.outline, job.chain[last], job.hiding,
                smallest_part * view.outline.area(), job.scratch, job.seen);
   keep_seen(job, last, view.beam);
@@ -446,13 +474,13 @@ void FacetEchoes::find_seen_over(Job& job, uint32_t last, const Polygon& part, u
   for (uint32_t i = 0; i < view.outline.size(); ++i)
     to = std::max(to, out.reach(wall, out.along(view.outline[i])));
   const double smallest = smallest_part * view.outline.area();
-  gather(receiver_, out, {}, view.outline, to * (1.0 + same_distance), job.hiding);
+  gather(scene_.tracer, receiver_, out, {}, view.outline, to * (1.0 + same_distance), job.hiding);
   find_visible(world, scene_.trees, out, {}, view.outline, VisibleCell::nothing, job.hiding, smallest,
                job.scratch, job.on_mirror);
   const BeamStart start{&wall, mirror, side > 0.0 ? 1.0 : -1.0};
   for (const VisibleCell& cell : job.on_mirror) {
     if (cell.facet != mirror) continue;
-    gather(receiver_, view.beam, start, cell.part, view.farthest, job.hiding);
+    gather(scene_.tracer, receiver_, view.beam, start, cell.part, view.farthest, job.hiding);
     find_visible(world, scene_.trees, view.beam, start, cell.part, job.chain[last], job.hiding, smallest,
                  job.scratch, job.seen);
     keep_seen(job, last, view.beam);

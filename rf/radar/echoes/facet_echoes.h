@@ -20,6 +20,7 @@
 #include "rf/radar/echoes/echo_tracer.h"
 #include "rf/radar/echoes/mirrors.h"
 #include "rf/radar/echoes/ray_grid.h"
+#include "rf/radar/echoes/veils.h"
 #include "rf/radar/echoes/visible_cells.h"
 
 namespace greatx::rf {
@@ -44,6 +45,8 @@ struct FacetScene {
   const FacetWorld& world;
   const FacetTrees& trees;
   const EchoTracer& tracer;
+  /// Null, or the veils through which `tracer` sees: only echoes of what is behind them are found then.
+  const Veils* veils = nullptr;
 };
 
 class FacetEchoes {
@@ -68,9 +71,11 @@ class FacetEchoes {
   Polygon outline_of(uint32_t facet, uint32_t piece, const TubeBeam& beam, double& farthest) const;
   void solve(uint32_t facet, Job& job) const;
   void solve_over(const MirroredFacet& image, Job& job) const;
+  /// Sends back from what is behind veils of a part that the source sees of a facet.
+  void solve_behind(uint32_t facet, const Polygon& part, double farthest, Job& job) const;
   /// Replaces `pieces` by those that a part of a beam may meet nearer than `to`.
-  void gather(const EchoTracer::View& view, const TubeBeam& beam, const BeamStart& start, const Polygon& part,
-              double to, std::vector<FacetPiece>& pieces) const;
+  void gather(const EchoTracer& tracer, const EchoTracer::View& view, const TubeBeam& beam,
+              const BeamStart& start, const Polygon& part, double to, std::vector<FacetPiece>& pieces) const;
   void follow(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start) const;
   /// Gathers what a part of a beam that leaves a surface may meet. Returns a facet that covers all of the
   /// part, so that nothing behind it is seen, or VisibleCell::nothing.
@@ -116,6 +121,8 @@ class FacetEchoes {
   uint32_t own_body_;
   EchoSender sender_;
   EchoTracer::View beams_, receiver_;
+  Veils::Ends ends_;
+  Veils::Views veil_views_;
 };
 
 }  // namespace greatx::rf

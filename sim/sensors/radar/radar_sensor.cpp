@@ -116,6 +116,7 @@ rf::EchoOptions RadarSensor::echo_options(const Experiment& experiment) const {
   options.roughness = experiment.plan.radar_roughness.on;
   options.diffuse = experiment.plan.radar_clutter.on;
   options.edges = experiment.plan.radar_edges.on;
+  options.transmission = experiment.plan.radar_transmission.on;
   if (experiment.plan.radar_air.on)
     options.air_db_per_km =
         radar_air_db_per_km(experiment.scenario.environment, config_.signal.waveform.carrier_hz);

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Checks that a plate behind a thin pane or a crown of foliage is seen through it, weaker by what the models
+// of both take twice.
+#include <gtest/gtest.h>
+
+#include "rf/atmosphere/foliage.h"
+#include "tests/rf/radar_reflectors.h"
+
+namespace greatx::rf {
+namespace {
+
+using namespace rf::testing;
+
+constexpr double plate_m = 40.0;
+
+/// Adds a plate of 0.1 m that faces the radar at the origin.
+void add_plate(TinyScene& tiny) {
+  const double h = 0.5 * a;
+  tiny.object("plate").quad({plate_m, h, -h}, {plate_m, -h, -h}, {plate_m, -h, h}, {plate_m, h, h});
+}
+
+/// Returns the echo of the plate, and the number of echoes of everything.
+struct Seen {
+  double section_db = -300.0;
+  size_t echoes = 0;
+};
+Seen seen(const TinyScene& tiny, std::vector<RadioSurface> surfaces, bool transmission) {
+  EchoScene scene(tiny, std::move(surfaces));
+  EchoOptions options;
+  options.merge_share = 0.0;
+  options.transmission = transmission;
+  const EchoList list = scene.find(options, Pose{});
+  EchoList plate;
+  for (const Echo& echo : list.echoes)
+    if (echo.point.x > plate_m - 0.5) plate.echoes.push_back(echo);
+  return {section_db(field_of(plate), plate_m, plate_m), list.echoes.size()};
+}
+
+class RadarVeils : public ::testing::Test {
+ protected:
+  RadarVeils() {
+    TinyScene tiny;
+    add_plate(tiny);
+    open_db_ = seen(tiny, {}, true).section_db;
+  }
+  double open_db_;
+};
+
+TEST_F(RadarVeils, APaneTakesItsTransmissionTwice) {
+  const scene::RadioMaterial glass{.layers = {{.itu = "glass", .thickness_m = 0.005}}};
+  for (const double turn : {0.0, 0.5}) {
+    TinyScene tiny;
+    const uint32_t pane = tiny.material("pane", 0.1f);
+    const double c = std::cos(turn), s = std::sin(turn);
+    tiny.object("pane", 0, pane).quad({20 - s, -c, -1}, {20 + s, c, -1}, {20 + s, c, 1}, {20 - s, -c, 1});
+    add_plate(tiny);
+    const std::vector<RadioSurface> surfaces{conductor(), radio_surface(glass, radar_carrier_hz, "glass")};
+    const RadioSurfaces walls(surfaces, radar_carrier_hz);
+    const SheetTransmission t = walls.transmit(1, true, c);
+    // The radar is vertical, so that the field is across the plane of incidence of a pane turned about z.
+    const double through = decibels(std::norm(0.5 * (t.te + t.tm)));
+    EXPECT_NEAR(decibels(std::norm(t.te)), through, turn == 0.0 ? 1e-9 : 1.5);
+    const Seen with = seen(tiny, surfaces, true), without = seen(tiny, surfaces, false);
+    EXPECT_NEAR(with.section_db, open_db_ + 2.0 * through, 0.05) << turn;
+    EXPECT_LT(without.section_db, open_db_ - 40.0) << turn;
+    EXPECT_GT(without.echoes, 0u);  // the pane itself
+  }
+}
+
+TEST_F(RadarVeils, ACrownTakesItsDepthOutAndHome) {
+  TinyScene tiny;
+  scene::Material leaves;
+  leaves.name = "leaves";
+  leaves.radio.emplace().foliage.emplace();
+  const uint32_t material = tiny.material_as(leaves);
+  tiny.object("crown", 0, material).box({20, -2, -2}, {23, 2, 2});
+  add_plate(tiny);
+  RadioSurface volume;
+  volume.foliage = true;
+  const std::vector<RadioSurface> surfaces{conductor(), volume};
+  const double depth_db = foliage_db({}, radar_carrier_hz, 3.0);
+  EXPECT_GT(depth_db, 4.0);
+  EXPECT_NEAR(seen(tiny, surfaces, true).section_db, open_db_ - 2.0 * depth_db, 0.05);
+  EXPECT_EQ(seen(tiny, surfaces, false).echoes, 0u);
+}
+
+TEST_F(RadarVeils, APlateHalfBehindACrownIsSeenOnceAndNotTwice) {
+  TinyScene tiny;
+  scene::Material leaves;
+  leaves.name = "leaves";
+  leaves.radio.emplace().foliage = scene::Foliage{.attenuation_db_per_m = 0.0};
+  const uint32_t material = tiny.material_as(leaves);
+  // A crown that takes nothing hides half of the plate: the sum is the whole plate.
+  tiny.object("crown", 0, material).box({20, 0, -2}, {23, 2, 2});
+  add_plate(tiny);
+  RadioSurface volume;
+  volume.foliage = true;
+  EXPECT_NEAR(seen(tiny, {conductor(), volume}, true).section_db, open_db_, 0.1);
+}
+
+}  // namespace
+}  // namespace greatx::rf
