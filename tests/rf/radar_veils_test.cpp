@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "rf/atmosphere/foliage.h"
+#include "scene/material/material.h"
 #include "tests/rf/radar_reflectors.h"
 
 namespace greatx::rf {
@@ -49,7 +50,8 @@ class RadarVeils : public ::testing::Test {
 };
 
 TEST_F(RadarVeils, APaneTakesItsTransmissionTwice) {
-  const scene::RadioMaterial glass{.layers = {{.itu = "glass", .thickness_m = 0.005}}};
+  scene::RadioMaterial glass;
+  glass.layers = {{*scene::itu_medium("glass"), 0.005}};
   for (const double turn : {0.0, 0.5}) {
     TinyScene tiny;
     const uint32_t pane = tiny.material("pane", 0.1f);
