@@ -92,14 +92,14 @@ Count most_of_a_tick(const std::string& scenario) {
 TEST(Allocations, TickOfTheDefaultScenarioStaysWithinItsNumber) {
   const Count most = most_of_a_tick(default_scenario());
   EXPECT_GT(most.allocations, 0u);  // the records themselves
-  EXPECT_LE(most.allocations, 28'000u);
-  EXPECT_LE(most.bytes, 112'000'000u);
+  EXPECT_LE(most.allocations, 34'500u);
+  EXPECT_LE(most.bytes, 132'000'000u);
 }
 
 TEST(Allocations, TickWithoutRadarStaysWithinItsNumber) {
   const Count most = most_of_a_tick(without_radar());
   EXPECT_GT(most.allocations, 0u);
-  EXPECT_LE(most.allocations, 7'500u);
+  EXPECT_LE(most.allocations, 10'700u);
   EXPECT_LE(most.bytes, 29'000'000u);
 }
 

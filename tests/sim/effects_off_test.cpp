@@ -46,7 +46,7 @@ scene::Material surface(const std::string& name, const std::string& itu, double 
 }
 
 /// Returns a yard with a ground that is textured, bumpy, rough and scatters, a wall, a pane, a fence with
-/// holes, a sign that glows, a lamp, the crown of a tree, and body 1, a van.
+/// holes, a sign that glows, a lamp, the crown of a tree with a plate behind it, and body 1, a van.
 scene::Scene yard() {
   TinyScene tiny;
   scene::Material ground = surface("ground", "concrete");
@@ -79,6 +79,7 @@ scene::Scene yard() {
   tiny.object("pane", 0, p).quad({5, -9, 0}, {5, -14, 0}, {5, -14, 4}, {5, -9, 4});
   tiny.object("sign", 0, s).quad({15, 2, 6}, {15, -2, 6}, {15, -2, 9}, {15, 2, 9});
   tiny.object("crown", 0, l).box({-2, -0.6, 1.0}, {2, 1.2, 3.2});
+  tiny.object("plate", 0, v).quad({8, 0.6, 1.6}, {8, 0.1, 1.6}, {8, 0.1, 2.1}, {8, 0.6, 2.1});
   tiny.object("van", van, v).box({-1, -2, 0}, {1, 2, 5});
   scene::Scene scene = tiny.build();
   for (vec4& tangent : scene.tangents) tangent = vec4(1, 0, 0, 1);

@@ -50,9 +50,9 @@ class EchoField {
   /// Returns the ratio of received to transmitted amplitude for 1 m^2 of the surface around the point,
   /// without the phase of the path. Returns 0 if the receiver is behind the surface.
   Complex density(const EchoPoint& point) const;
-  /// Returns the ratio for 1 m of an edge around the point, by its fringe currents. The coefficients are those
-  /// of a conductor; for another material they are multiplied by the mean of the magnitudes of both Fresnel
-  /// coefficients, an approximation.
+  /// Returns the ratio for 1 m of an edge around the point, by its fringe currents. The coefficients are
+  /// those of a conductor; for another material they are multiplied by the mean of the magnitudes of both
+  /// Fresnel coefficients, an approximation.
   Complex edge_density(const EdgePoint& point, const Fringe& strength) const;
   /// Returns the ratio for the line of sight: lambda/(4 pi d) F_r . F_t.
   Complex direct(const dvec3& transmitter_at) const;

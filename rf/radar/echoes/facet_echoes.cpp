@@ -48,6 +48,7 @@ struct FacetEchoes::Job : BeamWay {
   std::array<std::vector<VisibleCell>, most_surfaces> cells;
   std::vector<FacetPiece> hiding;            ///< what may hide a part from the receiver
   std::vector<VisibleCell> seen, on_mirror;  ///< of the way to the receiver
+  std::vector<VisibleCell> behind;           ///< veils
   std::vector<Polygon> sending;              ///< what the receiver sees of a part
   std::vector<Lit> lit;                      ///< of the present beam
   std::vector<Shown> shown;                  ///< without repetition
@@ -190,10 +191,11 @@ void FacetEchoes::solve(uint32_t facet, Job& job) const {
 void FacetEchoes::solve_behind(uint32_t facet, const Polygon& part, double farthest, Job& job) const {
   const TubeBeam& beam = job.beams[0];
   gather(scene_.veils->tracer(), veil_views_.out, beam, {}, part, farthest, job.hiding);
-  std::vector<VisibleCell> behind;
+  std::vector<VisibleCell>& behind = job.behind;
   find_visible(scene_.world, scene_.trees, beam, {}, part, facet, job.hiding, job.smallest, job.scratch,
                behind);
-  for (const VisibleCell& cell : behind) {
+  for (size_t i = 0; i < behind.size(); ++i) {
+    const VisibleCell& cell = behind[i];
     if (cell.facet == facet) continue;  // no veil is before it
     const dvec3 along = beam.along(cell.part.centroid());
     const dvec3 at = beam.source + beam.reach(scene_.world.facet(facet), along) * along;
