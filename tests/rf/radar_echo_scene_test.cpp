@@ -281,6 +281,7 @@ TEST(RadarEchoScene, HardCase63ThreadsChangeNoByte) {
   EchoScene scene(ball_at({15, 0, 0}, 0.3, wall_alone()));
   EchoOptions options = sector(60.0, 8.0, 4000);
   options.targets = {1};
+  options.edges = true;
   std::vector<EchoList> lists;
   for (const uint32_t threads : {1u, 2u, 16u}) {
     options.threads = threads;

@@ -88,6 +88,37 @@ TEST_F(RadarVeils, ACrownTakesItsDepthOutAndHome) {
   EXPECT_EQ(seen(tiny, surfaces, false).echoes, 0u);
 }
 
+TEST_F(RadarVeils, ThreadsChangeNoByte) {
+  TinyScene tiny;
+  scene::Material leaves;
+  leaves.name = "leaves";
+  leaves.radio.emplace().foliage.emplace();
+  const uint32_t material = tiny.material_as(leaves);
+  tiny.object("crown", 0, material).box({20, -3, -2}, {22, 3, 2});
+  for (int i = 0; i < 300; ++i) {
+    const double x = 30.0 + 0.1 * i, y = 0.03 * (i % 17) - 0.2, z = 0.05 * (i % 11) - 0.3;
+    tiny.object("plate").quad({x, y + 0.04, z}, {x, y, z}, {x, y, z + 0.04}, {x, y + 0.04, z + 0.04});
+  }
+  RadioSurface volume;
+  volume.foliage = true;
+  EchoScene scene(tiny, {conductor(), volume});
+  std::vector<EchoList> lists;
+  for (const uint32_t threads : {1u, 2u, 7u}) {
+    EchoOptions options;
+    options.transmission = options.edges = true;
+    options.threads = threads;
+    lists.push_back(scene.find(options, Pose{}));
+  }
+  ASSERT_GT(lists[0].echoes.size(), 50u);
+  for (const EchoList& list : lists) {
+    ASSERT_EQ(list.echoes.size(), lists[0].echoes.size());
+    for (size_t i = 0; i < list.echoes.size(); ++i) {
+      EXPECT_EQ(list.echoes[i].amplitude, lists[0].echoes[i].amplitude);
+      EXPECT_EQ(list.echoes[i].point, lists[0].echoes[i].point);
+    }
+  }
+}
+
 TEST_F(RadarVeils, APlateHalfBehindACrownIsSeenOnceAndNotTwice) {
   TinyScene tiny;
   scene::Material leaves;
