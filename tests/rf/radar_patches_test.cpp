@@ -4,6 +4,8 @@
 // Compares the two-dimensional transform of patches with the sum of their echoes, one by one.
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "core/random.h"
 #include "rf/radar/signal/patch_kernel.h"
 #include "tests/rf/radar_support.h"
