@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Holds the working memory of FacetEchoes while it follows the beam of one facet (facet_echoes.cpp), and sends
+// Holds the working memory of FacetEchoes while it follows the beam of one facet (facet_echoes.cpp) and sends
 // back from what the beam lights (facet_echoes_home.cpp).
 #pragma once
 
