@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests of the range-azimuth map of sensing: the power and the place of a target, the noise, and the whole map
-// against its definition.
+// Tests of the range-azimuth map of sensing: the power and the place of a target, the noise, and the whole
+// map against its definition.
 #include <algorithm>
 #include <cmath>
 

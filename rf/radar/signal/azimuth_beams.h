@@ -34,8 +34,8 @@ class AzimuthBeams {
   size_t places() const { return places_.size(); }
   size_t azimuths() const { return azimuths_; }
   size_t table_bytes() const { return steering_.size() * sizeof(float); }
-  /// Adds to out[k] the power of all beams at azimuth k, summed over `count` values of each place. `re`, `im`:
-  /// [places, count]. Rounding errors may leave a sum slightly below 0.
+  /// Adds to out[k] the power of all beams at azimuth k, summed over `count` values of each place (a multiple
+  /// of `lanes`). `re`, `im`: [places, count]. Rounding errors may leave a sum slightly below 0.
   void add_powers(const float* re, const float* im, uint32_t count, float* out) const;
 
  private:
