@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -21,6 +23,7 @@
 #include "rf/targets/tubes/far_field.h"
 #include "scene/description/scene.h"
 #include "scene/device/gpu_scene.h"
+#include "sim/scenario/parse/rcs_csv.h"
 #include "sim/world/world.h"
 
 namespace greatx::apps {
@@ -33,6 +36,7 @@ struct RcsCommand {
   std::string node, output = "rcs.csv";
   double carrier_hz = 28e9, step_deg = 5.0, width_m = 0.03;
   uint32_t budget = 16384, bounces = 3;
+  bool bistatic = false;
 };
 
 /// Returns the world of one node at the origin, its model a body of its own as that of a channel's target.
@@ -69,6 +73,57 @@ rf::PosedTarget posed(const scene::Scene& scene, uint32_t body) {
   return target;
 }
 
+/// A direction of the table, away from the target.
+struct TableDirection {
+  double theta_deg, phi_deg;
+  dvec3 unit;
+};
+
+std::vector<TableDirection> directions_of(const RcsCommand& command) {
+  const auto zeniths = static_cast<int>(std::lround(180.0 / command.step_deg));
+  std::vector<TableDirection> directions;
+  for (int i = 0; i <= zeniths; ++i)
+    for (int j = 0; j < 2 * zeniths; ++j) {
+      // A pole has the basis of its azimuth, so that entries are smooth towards it.
+      const double theta = std::clamp(radians(i * command.step_deg), 1e-6, pi - 1e-6),
+                   phi = radians(j * command.step_deg);
+      directions.push_back(
+          {i * command.step_deg,
+           j * command.step_deg,
+           {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)}});
+    }
+  return directions;
+}
+
+std::string text_of(std::initializer_list<rf::Complex> entries) {
+  std::string text;
+  for (const rf::Complex& entry : entries) text += fmt::format(",{:.7g},{:.7g}", entry.real(), entry.imag());
+  return text + "\n";
+}
+
+template <typename Matrix>
+void add_monostatic(const std::vector<TableDirection>& directions, const Matrix& matrix, std::string& text) {
+  text += "theta_deg,phi_deg,s_tt_re,s_tt_im,s_tp_re,s_tp_im,s_pp_re,s_pp_im\n";
+  for (const TableDirection& d : directions) {
+    const rf::ScatterMatrix s = matrix(d, d);
+    const rf::Complex cross = 0.5 * (s[1] + s[2]);  // equal by reciprocity, but for the tubes
+    text += fmt::format("{:g},{:g}", d.theta_deg, d.phi_deg) + text_of({s[0], cross, s[3]});
+  }
+}
+
+template <typename Matrix>
+void add_bistatic(const std::vector<TableDirection>& directions, const Matrix& matrix, std::string& text) {
+  text +=
+      "theta_in_deg,phi_in_deg,theta_out_deg,phi_out_deg,"
+      "s_tt_re,s_tt_im,s_tp_re,s_tp_im,s_pt_re,s_pt_im,s_pp_re,s_pp_im\n";
+  for (const TableDirection& in : directions)
+    for (const TableDirection& out : directions) {
+      const rf::ScatterMatrix s = matrix(in, out);
+      text += fmt::format("{:g},{:g},{:g},{:g}", in.theta_deg, in.phi_deg, out.theta_deg, out.phi_deg) +
+              text_of({s[0], s[1], s[2], s[3]});
+    }
+}
+
 std::string table_of(const RcsCommand& command, gpu::Device& device, const sim::World& world) {
   const scene::Scene& scene = world.scene;
   const uint32_t body = world.body_of_node[0];
@@ -86,25 +141,18 @@ std::string table_of(const RcsCommand& command, gpu::Device& device, const sim::
   options.bandwidth_hz = 1.0;  // all echoes of a direction are summed at the carrier
   rf::TubeTargets tubes(gpu_scene, surfaces, "rcs", 0, 0, options);
   gpu::TickRing ring(device, 2, 1u << 20, 1u << 20);
+  const auto matrix = [&](const TableDirection& in, const TableDirection& out) {
+    checkpoint();
+    return rf::far_field(tubes, gpu_scene, ring, target, {in.unit, out.unit}, command.carrier_hz);
+  };
   std::string text = fmt::format(
       "# {} at {:g} Hz, tubes of {:g} m, {} bounces: S in m by physical optics, phases about the centre of "
-      "its "
-      "box\ntheta_deg,phi_deg,s_tt_re,s_tt_im,s_tp_re,s_tp_im,s_pp_re,s_pp_im\n",
+      "its box\n",
       command.node, command.carrier_hz, command.width_m, command.bounces);
-  const auto zeniths = static_cast<int>(std::lround(180.0 / command.step_deg));
-  for (int i = 0; i <= zeniths; ++i)
-    for (int j = 0; j < 2 * zeniths; ++j) {
-      checkpoint();
-      // A pole has the basis of its azimuth, so that entries are smooth towards it.
-      const double theta = std::clamp(radians(i * command.step_deg), 1e-6, pi - 1e-6),
-                   phi = radians(j * command.step_deg);
-      const dvec3 d(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
-      const rf::ScatterMatrix s = rf::far_field(tubes, gpu_scene, ring, target, {d, d}, command.carrier_hz);
-      const rf::Complex cross = 0.5 * (s[1] + s[2]);  // equal by reciprocity, but for the tubes
-      text += fmt::format("{:g},{:g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}\n", i * command.step_deg,
-                          j * command.step_deg, s[0].real(), s[0].imag(), cross.real(), cross.imag(),
-                          s[3].real(), s[3].imag());
-    }
+  if (command.bistatic)
+    add_bistatic(directions_of(command), matrix, text);
+  else
+    add_monostatic(directions_of(command), matrix, text);
   return text;
 }
 
@@ -112,12 +160,19 @@ void run(const RcsCommand& command) {
   const double zeniths = 180.0 / command.step_deg;
   if (std::abs(zeniths - std::round(zeniths)) > 1e-9)
     throw_user_error("--step: expected a step that divides 180 degrees, found {}", command.step_deg);
+  const auto steps = static_cast<uint64_t>(std::lround(zeniths));
+  const uint64_t directions = (steps + 1) * 2 * steps,
+                 lines = command.bistatic ? directions * directions : directions;
+  if (lines > sim::most_rcs_lines)
+    throw_user_error("--step: expected a step that gives at most {} lines of the table, found {} with {}",
+                     sim::most_rcs_lines, lines, command.step_deg);
   const sim::World world = world_of(command);
   gpu::Device device(command.run.device_options());
   io::write_file_atomically(command.output, table_of(command, device, world));
   check_validation(device);
-  std::cout << fmt::format("wrote {}: {} directions at {:g} GHz\n", command.output,
-                           (std::lround(zeniths) + 1) * 2 * std::lround(zeniths), command.carrier_hz * 1e-9);
+  std::cout << fmt::format("wrote {}: {} {} at {:g} GHz\n", command.output, lines,
+                           command.bistatic ? "pairs of directions" : "directions",
+                           command.carrier_hz * 1e-9);
 }
 
 }  // namespace
@@ -135,6 +190,8 @@ void add_rcs(CLI::App& app) {
   command->add_option("--budget", options->budget, "most ray tubes")->check(integer_of(100, 4'000'000));
   command->add_option("--bounces", options->bounces, "most surfaces that a tube meets")
       ->check(integer_of(1, 6));
+  command->add_flag("--bistatic", options->bistatic,
+                    "every pair of directions, of the source and of the receiver, instead of equal ones");
   command->add_option("-o,--output", options->output, "the table, CSV");
   command->callback([options] { run(*options); });
 }

@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "draw/sheet/companion.h"
 #include "draw/sheet/panels.h"
+#include "draw/sheet/polar_map.h"
 
 namespace greatx::io {
 
@@ -212,69 +213,38 @@ class RangeAzimuthPanel : public RadarPanel {
   std::string title() const override { return source_.spec().name + " from above"; }
 
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
-    const auto [far_m, foot_x, foot_y, pixels] = layout(picture);
+    const PolarMap map = polar();
     canvas.clip(picture);
-    canvas.fill(picture, theme::panel);
-    for (int y = picture.y; y < picture.bottom(); ++y)
-      for (int x = picture.x; x < picture.right(); ++x) {
-        const std::optional<Beam> beam = beam_at((foot_y - y) / pixels, (foot_x - x) / pixels, far_m);
-        if (beam) canvas.blend(x, y, color(row, beam->bin, beam->column));
-      }
-    for (const dvec2& point : outlines_[row])
-      if (glm::length(point) <= far_m)
-        canvas.blend(static_cast<int>(std::floor(foot_x - point.y * pixels)),
-                     static_cast<int>(std::floor(foot_y - point.x * pixels)), theme::text, 0.2);
-    const double ring = round_down(far_m / 1.9);
-    for (int i = 1; i * ring <= far_m; ++i) {
-      canvas.circle(foot_x, foot_y, i * ring * pixels, 1.0, theme::dim);
-      canvas.text(static_cast<int>(foot_x) + 4, static_cast<int>(foot_y - i * ring * pixels) + 3,
-                  tick_text(i * ring) + " m", theme::text_scale, theme::text);
+    map.draw_cells(canvas, picture,
+                   [&](int64_t range, int64_t azimuth) { return color(row, range, azimuth); });
+    for (const dvec2& point : outlines_[row]) {
+      if (glm::length(point) > farthest_m()) continue;
+      const dvec2 at = map.pixel_of(picture, point.x, point.y);
+      canvas.blend(static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), theme::text, 0.2);
     }
+    map.draw_rings(canvas, picture);
     for (const Detection& d : detections_[row]) {
-      const dvec2 at = place(picture, d);
+      const dvec2 at = map.place(picture, d.range, d.azimuth);
       mark(canvas, at.x, at.y, d);
     }
-    canvas.disc(foot_x, foot_y, 4.0, theme::text);
+    map.draw_sensor(canvas, picture);
     canvas.unclip();
     draw_scale(canvas, legend);
   }
   std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames& names) override {
-    if (!cell_at(picture, 1, 1, x, y)) return {};
-    const auto [far_m, foot_x, foot_y, pixels] = layout(picture);
-    const double ahead = (foot_y - y) / pixels, left = (foot_x - x) / pixels;
-    std::string text =
-        fmt::format("{:.2f} m, {:.1f} deg", std::hypot(ahead, left), degrees(std::atan2(left, ahead)));
-    const std::optional<Beam> beam = beam_at(ahead, left, far_m);
-    text += beam ? fmt::format(": {:.1f} dBm", level(row, beam->bin, beam->column)) : ": outside of the map";
+    const PolarMap map = polar();
+    const std::string text = map.text_at(
+        picture, x, y, [&](int64_t range, int64_t azimuth) { return level(row, range, azimuth); });
+    if (text.empty()) return {};
     return text + marked_at(
-                      detections_[row], [&](const Detection& d) { return place(picture, d); }, x, y, names);
+                      detections_[row],
+                      [&](const Detection& d) { return map.place(picture, d.range, d.azimuth); }, x, y,
+                      names);
   }
 
  private:
-  struct Beam {
-    int64_t bin, column;
-  };
-  struct Layout {
-    double far_m, foot_x, foot_y, pixels;  ///< the sensor's place; pixels a metre
-  };
-  Layout layout(const Rect& picture) const {
-    const double far_m = farthest_m();
-    return {far_m, picture.x + 0.5 * picture.width, picture.bottom() - 10.0,
-            std::min(picture.height - 24.0, 0.5 * picture.width) / far_m};
-  }
-  std::optional<Beam> beam_at(double ahead, double left, double far_m) const {
-    const double range = std::hypot(ahead, left);
-    if (range > far_m) return std::nullopt;
-    const double azimuth = std::atan2(left, ahead);
-    const auto bin = static_cast<int64_t>(range / axes_.range_bin_m + 0.5);
-    const double share = (azimuth - axes_.azimuth_min) / (axes_.azimuth_max - axes_.azimuth_min);
-    if (bin >= rows_ || share < 0.0 || share > 1.0) return std::nullopt;
-    return Beam{bin, static_cast<int64_t>(share * static_cast<double>(columns_ - 1) + 0.5)};
-  }
-  dvec2 place(const Rect& picture, const Detection& d) const {
-    const auto [far_m, foot_x, foot_y, pixels] = layout(picture);
-    const double range = static_cast<double>(d.range) * pixels, azimuth = static_cast<double>(d.azimuth);
-    return {foot_x - range * std::sin(azimuth), foot_y - range * std::cos(azimuth)};
+  PolarMap polar() const {
+    return {{axes_.range_bin_m, axes_.azimuth_min, axes_.azimuth_max, rows_, columns_}, farthest_m()};
   }
 
   std::vector<std::vector<dvec2>> outlines_;  ///< metres ahead and to the left, for each row

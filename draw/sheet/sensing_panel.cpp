@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws what a channel senses: power over range and velocity, its detections, and where its targets truly
-// are.
+// Draws what a channel senses: power over range and velocity, and over the ground as the beams see it, with
+// its detections and where its targets truly are.
 #include <algorithm>
 #include <cmath>
 
+#include "core/units.h"
 #include "draw/sheet/panels.h"
+#include "draw/sheet/polar_map.h"
 
 namespace greatx::io {
 
@@ -16,19 +18,19 @@ constexpr size_t most_targets = 10'000;
 
 double dbm_of(float watt) { return watt > 0.0f ? 10.0 * std::log10(double{watt}) + 30.0 : -400.0; }
 
-/// Shows the map of receiver 0 and transmitter 0. Detections are circles, red if they belong to a target.
+/// Holds the maps of receiver 0 and transmitter 0. Detections are circles, red if they belong to a target.
 /// Crosses with names are the truth, wrapped into the spans of the waveform; a target without an echo is
 /// grey.
-class SensingPanel : public FramePanel {
+class SensingMaps : public FramePanel {
  public:
-  explicit SensingPanel(const PanelSource& source) : source_(source) {
+  SensingMaps(const PanelSource& source, const char* array) : source_(source) {
     read_axes();
     double top = -400.0, floor = 400.0;
     for (const IndexRow& row : source_.chosen) {
-      const Array map = source_.load(row, "range_doppler", {DType::f32}, {0, 0, 0, 0});
-      ranges_ = map.shape[2], velocities_ = map.shape[3];
+      const Array map = source_.load(row, array, {DType::f32}, {0, 0, 0, 0});
+      ranges_ = map.shape[2], columns_ = map.shape[3];
       std::vector<double>& levels = maps_.emplace_back();
-      const auto cells = map.as<float>().first(static_cast<size_t>(ranges_ * velocities_));
+      const auto cells = map.as<float>().first(static_cast<size_t>(ranges_ * columns_));
       for (const float watt : cells) levels.push_back(dbm_of(watt));
       std::vector<double> sorted = levels;
       std::sort(sorted.begin(), sorted.end());
@@ -38,27 +40,21 @@ class SensingPanel : public FramePanel {
     }
     if (!maps_.empty()) scale_ = {std::max(floor - 1.0, top - 60.0), std::max(top, floor + 11.0), false};
   }
-  std::string title() const override { return source_.spec().name + " senses"; }
 
-  void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
-    const int shown = shown_ranges();
-    canvas.clip(picture);
-    canvas.raster(picture, static_cast<int>(velocities_), shown, [&](int x, int y) {
-      return viridis(std::clamp(scale_.at(level(row, shown - 1 - y, x)), 0.0, 1.0));
-    });
-    const double step = 100.0 * std::max(1.0, std::round(shown * range_bin_m_ / 400.0));
-    for (int i = 1; i * step < (shown - 1) * range_bin_m_; ++i)
-      canvas.text(picture.x + 6, static_cast<int>(place(picture, i * step, velocity_min_).y) - 8,
-                  fmt::format("{:g} m", i * step), theme::text_scale, theme::text);
-    canvas.text(picture.x + 6, picture.bottom() - 20, fmt::format("{:.1f}", velocity_min_), theme::text_scale,
-                theme::text);
-    canvas.text(picture.right() - 6, picture.bottom() - 20, fmt::format("+{:.1f} m/s", -velocity_min_),
-                theme::text_scale, theme::text, Align::right);
+ protected:
+  struct Mark {
+    double range_m, velocity, azimuth;
+    bool truth, strong;  ///< strong: it belongs to a target, or the target has an echo
+    uint32_t instance;
+    std::string name;
+  };
+
+  template <typename Place>
+  void draw_marks(Canvas& canvas, size_t row, const Place& place) const {
     for (const Mark& mark : marks_[row]) {
-      const dvec2 at = place(picture, mark.range_m, mark.velocity);
-      const Color color = mark.strong ? Color{255, 92, 92} : theme::dim;
+      const dvec2 at = place(mark);
       if (!mark.truth) {
-        canvas.circle(at.x, at.y, 7.0, 1.6, color);
+        canvas.circle(at.x, at.y, 7.0, 1.6, mark.strong ? Color{255, 92, 92} : theme::dim);
         continue;
       }
       const Color cross = mark.strong ? Color{255, 255, 255} : theme::dim;
@@ -69,38 +65,45 @@ class SensingPanel : public FramePanel {
       canvas.text(static_cast<int>(at.x) + 12, static_cast<int>(at.y) - 18, mark.name, theme::text_scale,
                   cross);
     }
-    canvas.unclip();
-    draw_color_bar(canvas, legend, scale_, viridis, "dBm");
   }
-
-  std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames& names) override {
-    const int shown = shown_ranges();
-    const std::optional<RasterCell> cell = cell_at(picture, velocities_, shown, x, y);
-    if (!cell) return {};
-    const int range = shown - 1 - cell->row;
-    std::string text =
-        fmt::format("{:.2f} m, {:.2f} m/s: {:.1f} dBm", range * range_bin_m_,
-                    velocity_min_ + cell->column * velocity_bin_, level(row, range, cell->column));
+  /// Returns the marks around pixel (x, y) as text, a line each.
+  template <typename Place>
+  std::string marks_at(size_t row, int x, int y, const Place& place, const SceneNames& names) const {
+    std::string text;
     for (const Mark& mark : marks_[row]) {
-      const dvec2 at = place(picture, mark.range_m, mark.velocity);
+      const dvec2 at = place(mark);
       if (std::hypot(x + 0.5 - at.x, y + 0.5 - at.y) > 7.0) continue;
-      text += fmt::format("\n{}: {:.2f} m, {:.2f} m/s{}", mark.truth ? mark.name : "detection", mark.range_m,
-                          mark.velocity,
+      text += fmt::format("\n{}: {:.2f} m, {:.2f} m/s, {:.1f} deg{}", mark.truth ? mark.name : "detection",
+                          mark.range_m, mark.velocity, degrees(mark.azimuth),
                           mark.truth    ? ""
                           : mark.strong ? ", " + names.instance(mark.instance)
                                         : ", of no target");
     }
     return text;
   }
+  /// Shows 1.3 times the range of the farthest target or detection of one; the whole map if there is none.
+  int shown_ranges() const {
+    const auto all = static_cast<int>(ranges_);
+    if (farthest_m_ == 0.0) return all;
+    return std::clamp(static_cast<int>(1.3 * farthest_m_ / range_bin_m_), std::min(all, 16), all);
+  }
+  double level(size_t row, int64_t range, int64_t column) const {
+    return maps_[row][static_cast<size_t>(range * columns_ + column)];
+  }
+  Color color(size_t row, int64_t range, int64_t column) const {
+    return viridis(std::clamp(scale_.at(level(row, range, column)), 0.0, 1.0));
+  }
+
+  PanelSource source_;
+  double range_bin_m_ = 1.0, velocity_min_ = -1.0, velocity_bin_ = 1.0, velocity_span_ = 2.0;
+  double azimuth_min_ = -1.0, azimuth_max_ = 1.0, farthest_m_ = 0.0;
+  int64_t ranges_ = 1, columns_ = 1;
+  std::vector<std::string> names_;
+  std::vector<std::vector<double>> maps_;  ///< dBm, one map for each row
+  std::vector<std::vector<Mark>> marks_;   ///< one list for each row
+  Scale scale_{-140.0, -80.0, false};
 
  private:
-  struct Mark {
-    double range_m, velocity;
-    bool truth, strong;  ///< strong: it belongs to a target, or the target has an echo
-    uint32_t instance;
-    std::string name;
-  };
-
   void read_axes() {
     const JsonDocument metadata = metadata_of(source_);
     if (metadata.root().has("sensing")) {
@@ -111,6 +114,12 @@ class SensingPanel : public FramePanel {
       range_bin_m_ = number("range_bin_m", 1.0, 1e-9, 1e12);
       velocity_min_ = number("velocity_min_m_s", -1.0, -1e12, 0.0);
       velocity_bin_ = number("velocity_bin_m_s", 1.0, 1e-12, 1e12);
+      velocity_span_ =
+          number("symbols", std::max(1.0, -2.0 * velocity_min_ / velocity_bin_), 1.0, 1e9) * velocity_bin_;
+      azimuth_min_ = number("azimuth_min_rad", azimuth_min_, -7.0, 7.0);
+      azimuth_max_ = number("azimuth_max_rad", azimuth_max_, -7.0, 7.0);
+      if (azimuth_max_ <= azimuth_min_)
+        sensing.at("azimuth_max_rad").fail(fmt::format("more than azimuth_min_rad, {}", azimuth_min_));
     }
     if (metadata.root().has("targets"))
       for (const JsonValue& target : metadata.root().at("targets").list(most_targets))
@@ -129,57 +138,116 @@ class SensingPanel : public FramePanel {
         return source_.load(row, name, {DType::f64}, {0, 0, count});
       };
       const Array range = truth("target_range"), velocity = truth("target_velocity"),
-                  power = truth("target_power");
+                  azimuth = truth("target_azimuth"), power = truth("target_power");
       for (size_t i = 0; i < names_.size(); ++i)
         marks.push_back({wrapped(range.as<double>()[i], 0.0, static_cast<double>(ranges_) * range_bin_m_),
-                         wrapped(velocity.as<double>()[i], velocity_min_,
-                                 static_cast<double>(velocities_) * velocity_bin_),
-                         true, std::isfinite(power.as<double>()[i]), 0, names_[i]});
+                         wrapped(velocity.as<double>()[i], velocity_min_, velocity_span_),
+                         azimuth.as<double>()[i], true, std::isfinite(power.as<double>()[i]), 0, names_[i]});
     }
     if (source_.has("detection_range")) {
       const auto column = [&](const char* name, DType type) { return source_.load(row, name, {type}, {-1}); };
       const Array range = column("detection_range", DType::f32),
                   velocity = column("detection_velocity", DType::f32),
-                  rx = column("detection_rx", DType::i32), tx = column("detection_tx", DType::i32),
+                  azimuth = column("detection_azimuth", DType::f32), rx = column("detection_rx", DType::i32),
+                  tx = column("detection_tx", DType::i32),
                   instance = column("detection_instance", DType::u32);
-      expect_same_rows(source_, {&range, &velocity, &rx, &tx, &instance});
+      expect_same_rows(source_, {&range, &velocity, &azimuth, &rx, &tx, &instance});
       for (size_t i = 0; i < range.as<float>().size(); ++i)
         if (rx.as<int32_t>()[i] == 0 && tx.as<int32_t>()[i] == 0)
-          marks.push_back({range.as<float>()[i], velocity.as<float>()[i], false,
+          marks.push_back({range.as<float>()[i], velocity.as<float>()[i], azimuth.as<float>()[i], false,
                            instance.as<uint32_t>()[i] != 0, instance.as<uint32_t>()[i], ""});
     }
     for (const Mark& mark : marks)
       if (mark.strong) farthest_m_ = std::max(farthest_m_, mark.range_m);
   }
+};
 
-  /// Shows 1.3 times the range of the farthest target or detection of one; the whole map if there is none.
-  int shown_ranges() const {
-    const auto all = static_cast<int>(ranges_);
-    if (farthest_m_ == 0.0) return all;
-    return std::clamp(static_cast<int>(1.3 * farthest_m_ / range_bin_m_), std::min(all, 16), all);
+/// Shows power over range and velocity.
+class SensingPanel : public SensingMaps {
+ public:
+  explicit SensingPanel(const PanelSource& source) : SensingMaps(source, "range_doppler") {}
+  std::string title() const override { return source_.spec().name + " senses"; }
+
+  void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
+    const int shown = shown_ranges();
+    canvas.clip(picture);
+    canvas.raster(picture, static_cast<int>(columns_), shown,
+                  [&](int x, int y) { return color(row, shown - 1 - y, x); });
+    const double step = 100.0 * std::max(1.0, std::round(shown * range_bin_m_ / 400.0));
+    for (int i = 1; i * step < (shown - 1) * range_bin_m_; ++i)
+      canvas.text(picture.x + 6, static_cast<int>(place(picture, i * step, velocity_min_).y) - 8,
+                  fmt::format("{:g} m", i * step), theme::text_scale, theme::text);
+    canvas.text(picture.x + 6, picture.bottom() - 20, fmt::format("{:.1f}", velocity_min_), theme::text_scale,
+                theme::text);
+    canvas.text(picture.right() - 6, picture.bottom() - 20, fmt::format("+{:.1f} m/s", -velocity_min_),
+                theme::text_scale, theme::text, Align::right);
+    draw_marks(canvas, row, [&](const Mark& mark) { return place(picture, mark.range_m, mark.velocity); });
+    canvas.unclip();
+    draw_color_bar(canvas, legend, scale_, viridis, "dBm");
   }
-  double level(size_t row, int64_t range, int64_t column) const {
-    return maps_[row][static_cast<size_t>(range * velocities_ + column)];
+
+  std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames& names) override {
+    const int shown = shown_ranges();
+    const std::optional<RasterCell> cell = cell_at(picture, columns_, shown, x, y);
+    if (!cell) return {};
+    const int range = shown - 1 - cell->row;
+    const std::string text =
+        fmt::format("{:.2f} m, {:.2f} m/s: {:.1f} dBm", range * range_bin_m_,
+                    velocity_min_ + cell->column * velocity_bin_, level(row, range, cell->column));
+    return text + marks_at(
+                      row, x, y,
+                      [&](const Mark& mark) { return place(picture, mark.range_m, mark.velocity); }, names);
   }
+
+ private:
   dvec2 place(const Rect& picture, double range_m, double velocity) const {
     return {picture.x + ((velocity - velocity_min_) / velocity_bin_ + 0.5) * picture.width /
-                            static_cast<double>(velocities_),
+                            static_cast<double>(columns_),
             picture.bottom() - (range_m / range_bin_m_ + 0.5) * picture.height / shown_ranges()};
   }
+};
 
-  PanelSource source_;
-  double range_bin_m_ = 1.0, velocity_min_ = -1.0, velocity_bin_ = 1.0, farthest_m_ = 0.0;
-  int64_t ranges_ = 1, velocities_ = 1;
-  std::vector<std::string> names_;
-  std::vector<std::vector<double>> maps_;  ///< dBm, one map for each row
-  std::vector<std::vector<Mark>> marks_;   ///< one list for each row
-  Scale scale_{-140.0, -80.0, false};
+/// Shows power over the ground from above, in the frame of the receiving antenna: forward up, the radius half
+/// of the way.
+class SensingAzimuthPanel : public SensingMaps {
+ public:
+  explicit SensingAzimuthPanel(const PanelSource& source) : SensingMaps(source, "range_azimuth") {}
+  std::string title() const override { return source_.spec().name + " from above"; }
+
+  void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
+    const PolarMap map = polar();
+    canvas.clip(picture);
+    map.draw_cells(canvas, picture,
+                   [&](int64_t range, int64_t azimuth) { return color(row, range, azimuth); });
+    map.draw_rings(canvas, picture);
+    draw_marks(canvas, row, [&](const Mark& mark) { return map.place(picture, mark.range_m, mark.azimuth); });
+    map.draw_sensor(canvas, picture);
+    canvas.unclip();
+    draw_color_bar(canvas, legend, scale_, viridis, "dBm");
+  }
+
+  std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames& names) override {
+    const PolarMap map = polar();
+    const std::string text = map.text_at(
+        picture, x, y, [&](int64_t range, int64_t azimuth) { return level(row, range, azimuth); });
+    if (text.empty()) return {};
+    return text + marks_at(
+                      row, x, y,
+                      [&](const Mark& mark) { return map.place(picture, mark.range_m, mark.azimuth); },
+                      names);
+  }
+
+ private:
+  PolarMap polar() const {
+    return {{range_bin_m_, azimuth_min_, azimuth_max_, ranges_, columns_}, shown_ranges() * range_bin_m_};
+  }
 };
 
 }  // namespace
 
 std::vector<FrameKind> sensing_frames() {
-  return {{"range-Doppler", {"range_doppler"}, make_frame<SensingPanel>, "sensing"}};
+  return {{"range-Doppler", {"range_doppler"}, make_frame<SensingPanel>, "sensing"},
+          {"range-azimuth", {"range_azimuth"}, make_frame<SensingAzimuthPanel>, "sensing_azimuth"}};
 }
 
 }  // namespace greatx::io

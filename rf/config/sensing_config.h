@@ -5,6 +5,7 @@
 // data.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "rf/config/radar_config.h"
@@ -27,7 +28,9 @@ struct SensingConfig {
   bool remove_static = true;
   RadarWindow range_window = RadarWindow::hann, doppler_window = RadarWindow::hann;
   RadarCfar cfar;
-  bool range_doppler = true, detections = true;
+  uint32_t azimuths = 181;               ///< azimuths of the range-azimuth map
+  double azimuth_limit = radians(90.0);  ///< they go from -limit to +limit in equal steps, rad
+  bool range_doppler = true, range_azimuth = false, detections = true;
 };
 
 }  // namespace greatx::rf

@@ -41,7 +41,9 @@ RadarSignalConfig signal_of(const SensingConfig& config, const SensingWaveform& 
   signal.processing.range_window = config.range_window;
   signal.processing.doppler_window = config.doppler_window;
   signal.processing.cfar = config.cfar;
-  signal.processing.range_azimuth = false;
+  signal.processing.range_azimuth = false;  // that of RadarMaps; AzimuthMap makes that of a channel
+  signal.processing.azimuths = config.azimuths;
+  signal.processing.azimuth_limit = config.azimuth_limit;
   return signal;
 }
 
@@ -57,12 +59,12 @@ void check(const std::string& name, const SensingConfig& config, const SensingWa
            const SensingArrays& arrays) {
   const uint64_t range = uint64_t{config.cfar.guard_range} + config.cfar.train_range,
                  doppler = uint64_t{config.cfar.guard_doppler} + config.cfar.train_doppler;
-  if (range >= w.subcarriers)
+  if (config.detections && range >= w.subcarriers)
     throw_user_error(
         "channel '{}': sensing.cfar: expected guard and training cells within {} range bins "
         "(subcarriers), found {} on each side",
         name, w.subcarriers, range);
-  if (2 * doppler + 1 > w.symbols)
+  if (config.detections && 2 * doppler + 1 > w.symbols)
     throw_user_error(
         "channel '{}': sensing.cfar: expected guard and training cells within {} velocity bins "
         "(time_samples), found {} on each side",
@@ -73,6 +75,17 @@ void check(const std::string& name, const SensingConfig& config, const SensingWa
         "channel '{}': sensing: expected at most {} pairs of a transmitting and a receiving element, "
         "found {}",
         name, OfdmSensing::most_pairs, pairs);
+}
+
+/// Refuses a map whose azimuths would all show the same.
+void check_azimuths(const std::string& name, const RadarSignalConfig& beams) {
+  const double extent = extent_wavelengths(beams, dvec3(0.0, 1.0, 0.0));
+  if (extent < least_extent_wavelengths)
+    throw_user_error(
+        "channel '{}': sensing.outputs: range_azimuth: expected elements that measure an azimuth, at least "
+        "{} "
+        "wavelengths apart along y, found {:.3g}",
+        name, least_extent_wavelengths, extent);
 }
 
 double around(double value, double period) { return value - period * std::nearbyint(value / period); }
@@ -116,12 +129,18 @@ OfdmSensing::OfdmSensing(const std::string& name, const SensingConfig& config,
   const RadarSignalConfig signal = signal_of(config, waveform);
   maps_ = std::make_unique<RadarMaps>(signal);
   noise_left_ = noise_left_of(maps_->doppler_window(), waveform.symbols, config.remove_static);
+  const RadarSignalConfig beams = steered(signal, arrays);
+  if (config.range_azimuth) {
+    check_azimuths(name, beams);
+    azimuth_map_ = std::make_unique<AzimuthMap>(beams, arrays.transmit_polarizations,
+                                                arrays.receive_polarizations, maps_->doppler_window());
+  }
   if (!config.detections) return;
   cfar_ = std::make_unique<Cfar>(config.cfar, maps_->range_window(), maps_->doppler_window(),
                                  static_cast<uint32_t>(arrays.pairs()));
   const RadarGain any = [](const dvec3&) { return 1.0; };
   maker_ = std::make_unique<DetectionMaker>(signal, *maps_, any, any);
-  finder_ = std::make_unique<DirectionFinder>(steered(signal, arrays));
+  finder_ = std::make_unique<DirectionFinder>(beams);
 }
 
 double OfdmSensing::noise_w() const {
@@ -250,6 +269,7 @@ SensingFrame OfdmSensing::process(const SensingInput& input, uint32_t threads) c
   for (std::complex<float>& value : cube) value = std::conj(value);
   const std::vector<std::complex<float>> spectrum = maps_->spectrum(cube, threads);
   frame.range_doppler = maps_->range_doppler(spectrum, threads);
+  if (azimuth_map_) frame.range_azimuth = azimuth_map_->of(spectrum, waveform_.subcarriers, threads);
   if (config_.detections) {
     const std::vector<float> white = whitened(frame.range_doppler);
     std::vector<CfarPeak> peaks = cfar_->peaks(white, threads);

@@ -7,6 +7,7 @@
 //
 //   H(f, t) x sqrt(P) + leakage ─► noise ─► converter (in time, with random symbols) ─► less the static mean
 //     ─► windows, transforms ─► power over range and velocity ─► CFAR ─► detections
+//                               and over range and azimuth
 //
 // Maps, CFAR and directions are those of rf/radar/signal: conj(H) over subcarriers and symbols is a beat
 // signal over samples and chirps.
@@ -25,6 +26,7 @@
 #include "rf/radar/signal/direction_finder.h"
 #include "rf/radar/signal/maps.h"
 #include "rf/radar/signal/receiver.h"
+#include "rf/sensing/azimuth_map.h"
 
 namespace greatx::rf {
 
@@ -84,6 +86,7 @@ struct SensingDetection {
 
 struct SensingFrame {
   std::vector<float> range_doppler;  ///< W [range, velocity], mean over the pairs of ports; empty: not wanted
+  std::vector<float> range_azimuth;  ///< W [range, azimuth], AzimuthMap; empty: not wanted
   std::vector<SensingDetection> detections;
   uint64_t saturated_samples = 0;
 };
@@ -92,12 +95,15 @@ class OfdmSensing {
  public:
   /// The most pairs of a transmitting and a receiving element whose directions are searched.
   static constexpr size_t most_pairs = 1024;
-  /// `name` is that of the channel, for messages. Throws UserError if the CFAR's cells do not fit the map, or
-  /// if there are too many pairs of elements.
+  /// `name` is that of the channel, for messages. Throws UserError if the CFAR's cells do not fit the map, if
+  /// there are too many pairs of elements, or if a range-azimuth map is wanted of elements that measure no
+  /// azimuth.
   OfdmSensing(const std::string& name, const SensingConfig& config, const SensingWaveform& waveform,
               const SensingArrays& arrays);
 
   const RadarAxes& axes() const { return maps_->axes(); }
+  /// Memory of the tables that the range-azimuth map needs.
+  size_t table_bytes() const { return azimuth_map_ ? azimuth_map_->table_bytes() : 0; }
   const SensingWaveform& waveform() const { return waveform_; }
   /// Power of the noise in a sample of a port, W: k T_0 B F. 0: there is none.
   double noise_w() const;
@@ -127,6 +133,7 @@ class OfdmSensing {
   std::unique_ptr<Cfar> cfar_;
   std::unique_ptr<DetectionMaker> maker_;
   std::unique_ptr<DirectionFinder> finder_;
+  std::unique_ptr<AzimuthMap> azimuth_map_;
   /// [velocities] share of the noise that the removal of the mean leaves in a bin; all 1 without it.
   std::vector<double> noise_left_;
 };

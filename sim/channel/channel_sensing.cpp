@@ -90,6 +90,7 @@ ChannelSensing::ChannelSensing(const Experiment& experiment, const ChannelConfig
   if (!experiment.plan.sensing_leakage.on) config_.leakage_db.reset();
   const rf::SensingWaveform waveform{grid.carrier_hz, grid.subcarrier_spacing_hz, grid.subcarriers,
                                      config.time_spacing_s, grid.time_samples};
+  uint64_t tables = 0;
   for (size_t r = 0; r < receivers_; ++r)
     for (size_t t = 0; t < transmitters_; ++t) {
       const rf::SensingArrays arrays{places_of(transmitters[t]), places_of(receivers[r]),
@@ -100,6 +101,9 @@ ChannelSensing::ChannelSensing(const Experiment& experiment, const ChannelConfig
       } catch (const UserError& error) {
         throw_user_error_at(config.where, "{}", error.what());
       }
+      tables += links_.back()->table_bytes();
+      require_within(fmt::format("channel '{}': tables of range_azimuth", name_), tables,
+                     budget::channel_record);
     }
 }
 
@@ -110,18 +114,20 @@ void ChannelSensing::describe(SensorSpec& spec) const {
   };
   const rf::RadarAxes& axes = links_[0]->axes();
   const auto rx = static_cast<int64_t>(receivers_), tx = static_cast<int64_t>(transmitters_);
-  if (config_.range_doppler) {
-    require_within(fmt::format("channel '{}': range_doppler", name_),
-                   saturating_product({receivers_, transmitters_, axes.range_m.size(),
-                                       axes.velocity_m_s.size(), sizeof(float)}),
-                   budget::channel_record);
-    add({"range_doppler",
-         DType::f32,
-         {rx, tx, std::ssize(axes.range_m), std::ssize(axes.velocity_m_s)},
-         "W",
-         "[rx, tx, range, velocity] mean power of the pairs of ports"},
+  const auto add_map = [&](const char* name, size_t columns, const char* text) {
+    require_within(
+        fmt::format("channel '{}': {}", name_, name),
+        saturating_product({receivers_, transmitters_, axes.range_m.size(), columns, sizeof(float)}),
+        budget::channel_record);
+    add({name, DType::f32, {rx, tx, std::ssize(axes.range_m), static_cast<int64_t>(columns)}, "W", text},
         FileFormat::npy_stack);
-  }
+  };
+  if (config_.range_doppler)
+    add_map("range_doppler", axes.velocity_m_s.size(),
+            "[rx, tx, range, velocity] mean power of the pairs of ports");
+  if (config_.range_azimuth)
+    add_map("range_azimuth", axes.azimuth.size(),
+            "[rx, tx, range, azimuth] power of the beam at elevation 0, summed over velocities");
   if (config_.detections) {
     add({"detection_rx", DType::i32, {-1}, "1", "[detection] receiver"}, FileFormat::npy_ragged);
     add({"detection_tx", DType::i32, {-1}, "1", "[detection] transmitter"}, FileFormat::npy_ragged);
@@ -164,6 +170,10 @@ void ChannelSensing::describe(nlohmann::json& metadata) const {
                       {"clutter_removal", config_.remove_static ? "static_mean" : "none"},
                       {"sign", "velocities are rates of range, positive receding"},
                       {"frame", "x forward, y left, z up"}};
+  if (config_.range_azimuth) {
+    json["azimuth_min_rad"] = sensing.axes().azimuth.front();
+    json["azimuth_max_rad"] = sensing.axes().azimuth.back();
+  }
   if (config_.leakage_db)
     json["leakage"] = {{"level_db", *config_.leakage_db}, {"delay_s", config_.leakage_delay_s}};
   metadata["sensing"] = std::move(json);
@@ -212,7 +222,7 @@ void ChannelSensing::note_aliases(const rf::OfdmSensing& sensing, std::span<cons
 }
 
 struct ChannelSensing::Sensed {
-  std::vector<float> maps;
+  std::vector<float> range_doppler, range_azimuth;  ///< [rx, tx, range, velocity or azimuth]
   std::vector<Truth> truths;
   std::vector<rf::SensingDetection> detections;
   std::vector<int32_t> rx, tx;  ///< [detections]
@@ -245,7 +255,10 @@ void ChannelSensing::sense(size_t index, const SensedLink& link, std::span<const
   ++bursts_;
   saturated_ += frame.saturated_samples;
   detections_ += frame.detections.size();
-  sensed.maps.insert(sensed.maps.end(), frame.range_doppler.begin(), frame.range_doppler.end());
+  sensed.range_doppler.insert(sensed.range_doppler.end(), frame.range_doppler.begin(),
+                              frame.range_doppler.end());
+  sensed.range_azimuth.insert(sensed.range_azimuth.end(), frame.range_azimuth.begin(),
+                              frame.range_azimuth.end());
   for (const TargetState& target : targets)
     sensed.truths.push_back(truth_of(sensing, link, target, tones, frame.detections));
   for (const rf::SensingDetection& detection : frame.detections) {
@@ -297,10 +310,13 @@ std::vector<Array> ChannelSensing::arrays_of(std::span<const SensedLink> links,
     sense(index, links[index], targets, sequence, tick, sensed);
   const rf::RadarAxes& axes = links_[0]->axes();
   std::vector<Array> arrays;
-  if (config_.range_doppler)
+  const auto add_map = [&](int64_t columns, const std::vector<float>& maps) {
     arrays.push_back(Array::of<float>({static_cast<int64_t>(receivers_), static_cast<int64_t>(transmitters_),
-                                       std::ssize(axes.range_m), std::ssize(axes.velocity_m_s)},
-                                      std::span<const float>(sensed.maps)));
+                                       std::ssize(axes.range_m), columns},
+                                      std::span<const float>(maps)));
+  };
+  if (config_.range_doppler) add_map(std::ssize(axes.velocity_m_s), sensed.range_doppler);
+  if (config_.range_azimuth) add_map(std::ssize(axes.azimuth), sensed.range_azimuth);
   if (config_.detections) add_detections(sensed, arrays);
   if (targets_ > 0) add_truth(sensed, arrays);
   return arrays;

@@ -9,70 +9,14 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/phase.h"
-#include "core/random.h"
 #include "core/units.h"
-#include "rf/sensing/ofdm_sensing.h"
+#include "tests/rf/sensing_points.h"
 
 namespace greatx::rf {
 namespace {
 
 using ::testing::HasSubstr;
-
-const SensingWaveform waveform{28e9, 120e3, 384, 125e-6, 64};
-constexpr RadarSeeds seeds{7, 21, 4};
-
-SensingConfig quiet() {
-  SensingConfig config;
-  config.power_w = 2.0;
-  return config;
-}
-
-struct Point {
-  double range_m, velocity_m_s, gain;
-  uint32_t instance = 1;
-  dvec3 direction{1.0, 0.0, 0.0};  ///< in the frame of the array
-  double delay_s() const { return 2.0 * range_m / speed_of_light; }
-  double doppler_hz() const { return -2.0 * velocity_m_s / waveform.wavelength_m(); }
-  SensingTone tone() const { return {instance, delay_s(), doppler_hz(), gain}; }
-};
-
-/// Returns H of points, [rx, tx, symbol, subcarrier], element by element.
-std::vector<std::complex<float>> response_of(const SensingArrays& arrays, std::span<const Point> points) {
-  std::vector<std::complex<float>> h;
-  for (size_t r = 0; r < arrays.receive_ports(); ++r)
-    for (size_t t = 0; t < arrays.transmit_ports(); ++t)
-      for (uint32_t m = 0; m < waveform.symbols; ++m)
-        for (uint32_t k = 0; k < waveform.subcarriers; ++k) {
-          std::complex<double> sum = 0.0;
-          for (const Point& p : points) {
-            const dvec3 places = arrays.receive_m[r / arrays.receive_polarizations] +
-                                 arrays.transmit_m[t / arrays.transmit_polarizations];
-            const double offset_hz = (double(k) - double(waveform.subcarriers / 2)) * waveform.spacing_hz;
-            sum += std::sqrt(p.gain) *
-                   unit_phasor(p.doppler_hz() * m * waveform.interval_s - offset_hz * p.delay_s() -
-                               fraction_of_turn(turns_of(waveform.carrier_hz, p.delay_s())) +
-                               glm::dot(p.direction, places) / waveform.wavelength_m());
-          }
-          h.emplace_back(sum);
-        }
-  return h;
-}
-
-SensingFrame frame_of(const OfdmSensing& sensing, const SensingArrays& arrays, std::span<const Point> points,
-                      uint32_t threads = 0) {
-  const std::vector<std::complex<float>> h = response_of(arrays, points);
-  std::vector<SensingTone> tones;
-  for (const Point& p : points) tones.push_back(p.tone());
-  return sensing.process({h, tones, seeds, {1.0, 0.0, 0.0, 0.0}, dvec3(0.0)}, threads);
-}
-
-/// A quiet map has no noise to compare with, so that CFAR needs a little of it.
-SensingConfig noisy(double figure_db = 7.0) {
-  SensingConfig config = quiet();
-  config.noise_figure_db = figure_db;
-  return config;
-}
+using namespace test;
 
 TEST(OfdmSensing, APointIsWhereItIs) {
   const SensingArrays one;
@@ -242,6 +186,7 @@ TEST(OfdmSensing, ThreadsChangeNoByte) {
   SensingConfig config = noisy();
   config.adc = AnalogToDigital{10, -40.0};
   config.leakage_db = -70.0;
+  config.range_azimuth = true;
   const OfdmSensing sensing("csi", config, waveform, two);
   const std::vector<Point> points{{100.0, 8.0, 1e-10, 4}, {140.0, -8.0, 4e-11, 9}};
   const SensingFrame a = frame_of(sensing, two, points, 1), b = frame_of(sensing, two, points, 3);
@@ -249,6 +194,8 @@ TEST(OfdmSensing, ThreadsChangeNoByte) {
   EXPECT_EQ(std::memcmp(a.range_doppler.data(), b.range_doppler.data(), a.range_doppler.size() * 4), 0);
   ASSERT_EQ(a.detections.size(), b.detections.size());
   EXPECT_EQ(a.detections[0].range_m, b.detections[0].range_m);
+  ASSERT_EQ(a.range_azimuth.size(), waveform.subcarriers * size_t{181});
+  EXPECT_EQ(std::memcmp(a.range_azimuth.data(), b.range_azimuth.data(), a.range_azimuth.size() * 4), 0);
 }
 
 TEST(OfdmSensing, BadInputIsRefused) {
@@ -271,6 +218,20 @@ TEST(OfdmSensing, BadInputIsRefused) {
   many.receive_m.assign(64, dvec3(0.0));
   many.transmit_m.assign(64, dvec3(0.0));
   EXPECT_THAT(message(quiet(), waveform, many), HasSubstr("found 4096"));
+  SensingConfig beams = quiet();
+  beams.range_azimuth = true;
+  EXPECT_THAT(message(beams, waveform, {}),
+              HasSubstr("channel 'csi': sensing.outputs: range_azimuth: expected elements that measure an "
+                        "azimuth, at least 0.05 wavelengths apart along y, found 0"));
+  SensingArrays column;
+  column.receive_m = {dvec3(0, 0, 0), dvec3(0, 0, 0.01)};
+  EXPECT_THAT(message(beams, waveform, column), HasSubstr("range_azimuth"));
+  // Two ends: the elements of the transmitter measure no angle of arrival.
+  SensingArrays apart;
+  apart.transmit_m = {dvec3(0, 0, 0), dvec3(0, 0.01, 0)};
+  EXPECT_EQ(message(beams, waveform, apart), "");
+  apart.monostatic = false;
+  EXPECT_THAT(message(beams, waveform, apart), HasSubstr("range_azimuth"));
 }
 
 }  // namespace

@@ -323,6 +323,29 @@ TEST_F(ChannelTargets, SensingIsAsFarFromTheBoxAsTheTargetIsWide) {
   EXPECT_LT(errors.max(), 0.02);
 }
 
+/// The drone is the strongest cell of the map: at its range and azimuth, and with the power of its echo less
+/// the response of the window over range, which is Hann's.
+TEST_F(ChannelTargets, TheAzimuthMapShowsTheDroneWithItsPower) {
+  std::string yaml = sensing(flight, ", outputs: [range_azimuth], azimuths: 91, azimuth_limit_deg: 45",
+                             "effects: {sensing_noise: off}\n");
+  yaml.replace(yaml.find("targets: ["), 10, "legs: {max_depth: 0}, targets: [");
+  const KeptRun kept = run(yaml);
+  for (size_t packet = 0; packet < kept.packets.size(); ++packet) {
+    const auto map = kept.array<float>(packet, "csi", "range_azimuth");
+    ASSERT_EQ(map.size(), 256u * 91);
+    const auto peak = static_cast<size_t>(std::ranges::max_element(map) - map.begin());
+    const double range_bin = speed_of_light / 2.0 / 100e6,
+                 at = kept.array<double>(packet, "csi", "target_range")[0] / range_bin;
+    const double bin = static_cast<double>(peak / 91),
+                 azimuth = radians(static_cast<double>(peak % 91) - 45.0);
+    EXPECT_NEAR(bin, at, 0.5);
+    EXPECT_NEAR(azimuth, kept.array<double>(packet, "csi", "target_azimuth")[0], radians(1.0));
+    const double off = at - bin, response = std::sin(pi * off) / (pi * off * (1.0 - off * off));
+    EXPECT_NEAR(10.0 * std::log10(map[peak] * 1e3),
+                kept.array<double>(packet, "csi", "target_power")[0] + 20.0 * std::log10(response), 0.1);
+  }
+}
+
 TEST_F(ChannelTargets, WhatAliasesIsSaidWithItsFigures) {
   const KeptRun fast = run(sensing(line({1, 20, 14}, {0, -40, 0}), ""));
   ASSERT_EQ(fast.statistics.warnings.size(), 1u);
@@ -408,6 +431,8 @@ TEST_F(ChannelTargets, BadInputIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal("time_samples: 16, sensing: {}"), HasSubstr("power_dbm"));
   EXPECT_THAT(refusal("time_samples: 16, sensing: {power_dbm: 1, cfar: {guard: [0, 0], train: [2, 9]}}"),
               HasSubstr("within the 16 time_samples"));
+  EXPECT_THAT(refusal("time_samples: 16, sensing: {power_dbm: 1, outputs: [range_azimuth]}"),
+              HasSubstr("range_azimuth: expected elements that measure an azimuth"));
   std::ofstream(folder_.path() / "gap.csv")
       << "theta_deg,phi_deg,rcs_dbsm\n0,0,1\n0,180,1\n90,0,1\n180,0,1\n180,180,1\n";
   EXPECT_THAT(refusal("targets: [{nodes: drone, table: gap.csv}]"),

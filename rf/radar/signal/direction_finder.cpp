@@ -11,22 +11,22 @@
 namespace greatx::rf {
 namespace {
 
-/// An array with a smaller extent along an axis, in wavelengths, does not measure the angle of that axis.
-constexpr double least_extent = 0.05;
 constexpr double finest_step = radians(0.05);
 
 /// Returns angles from -90 to 90 degrees, a fifth of the beam lambda/extent apart, or the single angle 0 if
 /// there is no extent.
-std::vector<double> angles(double extent_wavelengths) {
-  if (extent_wavelengths < least_extent) return {0.0};
-  const double step = std::max(finest_step, 0.2 / std::max(extent_wavelengths, 1.0));
+std::vector<double> angles(double extent) {
+  if (extent < least_extent_wavelengths) return {0.0};
+  const double step = std::max(finest_step, 0.2 / std::max(extent, 1.0));
   const int half = static_cast<int>(std::ceil(0.5 * pi / step));
   std::vector<double> result;
   for (int i = -half; i <= half; ++i) result.push_back(0.5 * pi * i / half);
   return result;
 }
 
-double extent(const RadarSignalConfig& config, const dvec3& axis) {
+}  // namespace
+
+double extent_wavelengths(const RadarSignalConfig& config, const dvec3& axis) {
   double lowest = 0.0, highest = 0.0;
   bool first = true;
   for (uint32_t r = 0; r < config.arrays.receive_m.size(); ++r)
@@ -39,12 +39,10 @@ double extent(const RadarSignalConfig& config, const dvec3& axis) {
   return highest - lowest;
 }
 
-}  // namespace
-
 DirectionFinder::DirectionFinder(const RadarSignalConfig& config)
     : config_(config),
-      azimuths_(angles(extent(config, dvec3(0, 1, 0)))),
-      elevations_(angles(extent(config, dvec3(0, 0, 1)))) {
+      azimuths_(angles(extent_wavelengths(config, dvec3(0, 1, 0)))),
+      elevations_(angles(extent_wavelengths(config, dvec3(0, 0, 1)))) {
   for (const double azimuth : azimuths_)
     for (const double elevation : elevations_)
       for (uint32_t r = 0; r < config.arrays.receive_m.size(); ++r)

@@ -26,6 +26,11 @@ struct Direction {
   }
 };
 
+/// An array with a smaller extent along an axis, in wavelengths, does not measure the angle of that axis.
+inline constexpr double least_extent_wavelengths = 0.05;
+/// Returns the extent of the virtual antennas along an axis of the array, in wavelengths.
+double extent_wavelengths(const RadarSignalConfig& config, const dvec3& axis);
+
 /// Computes Bartlett's beam (H. L. Van Trees, "Optimum Array Processing", 2002, 2.4 and 8.4). The search
 /// covers the half space x > 0 in front of the array in steps of a fifth of a beam. The maximum is then
 /// refined to 1e-7 rad. An angle that the elements cannot measure is 0: the elevation for a row along y, the

@@ -14,31 +14,6 @@
 namespace greatx::rf {
 namespace {
 
-constexpr uint32_t lanes = 8;
-using Lane [[gnu::vector_size(32)]] = float;
-using Stored [[gnu::vector_size(32), gnu::aligned(4), gnu::may_alias]] = float;
-
-/// Computes sum x[i] conj(y[i]) over `count` values, a multiple of 8, in a fixed order.
-GREATX_LANES void conjugate_product(const float* x_re, const float* x_im, const float* y_re,
-                                    const float* y_im, uint32_t count, float& re, float& im) {
-  Lane sum_re{}, sum_im{};
-  for (uint32_t i = 0; i < count; i += lanes) {
-    const Lane a = *reinterpret_cast<const Stored*>(x_re + i), b = *reinterpret_cast<const Stored*>(x_im + i);
-    const Lane c = *reinterpret_cast<const Stored*>(y_re + i), d = *reinterpret_cast<const Stored*>(y_im + i);
-    sum_re += a * c + b * d;
-    sum_im += b * c - a * d;
-  }
-  re = ((sum_re[0] + sum_re[1]) + (sum_re[2] + sum_re[3])) +
-       ((sum_re[4] + sum_re[5]) + (sum_re[6] + sum_re[7]));
-  im = ((sum_im[0] + sum_im[1]) + (sum_im[2] + sum_im[3])) +
-       ((sum_im[4] + sum_im[5]) + (sum_im[6] + sum_im[7]));
-}
-
-GREATX_LANES void add_scaled(float re, float im, const float* steering_re, const float* steering_im,
-                             uint32_t count, float* out) {
-  for (uint32_t i = 0; i < count; ++i) out[i] += re * steering_re[i] - im * steering_im[i];
-}
-
 GREATX_LANES void add_power(const std::complex<float>* values, size_t count, float* out) {
   const float* parts = reinterpret_cast<const float*>(values);
   for (size_t i = 0; i < count; ++i)
@@ -76,24 +51,12 @@ RadarMaps::RadarMaps(const RadarSignalConfig& config)
       axes_(radar_axes(config)) {
   if (!config.processing.range_azimuth) return;
   const uint32_t transmitters = config.waveform.transmitters;
-  const uint32_t antennas = static_cast<uint32_t>(config.arrays.receive_m.size()) * transmitters;
-  beams_ = config.bistatic ? transmitters : 1;
-  for (uint32_t a = 0; a < antennas; ++a)
-    for (uint32_t b = a + 1; b < antennas; ++b)
-      if (!config.bistatic || a % transmitters == b % transmitters) pairs_.push_back({a, b});
-  const size_t azimuths = axes_.azimuth.size();
-  steering_.resize(pairs_.size() * 2 * azimuths);
-  for (size_t i = 0; i < pairs_.size(); ++i)
-    for (size_t k = 0; k < azimuths; ++k) {
-      const dvec3 u(std::cos(axes_.azimuth[k]), std::sin(axes_.azimuth[k]), 0.0);
-      const auto turns = [&](uint32_t v) {
-        return steering_turns(config_, v / transmitters, v % transmitters, u);
-      };
-      const std::complex<double> phasor =
-          unit_phasor(fraction_of_turn(turns(pairs_[i].b) - turns(pairs_[i].a)));
-      steering_[2 * i * azimuths + k] = static_cast<float>(phasor.real());
-      steering_[(2 * i + 1) * azimuths + k] = static_cast<float>(phasor.imag());
-    }
+  std::vector<BeamPlace> places;
+  for (const dvec3& receive : config.arrays.receive_m)
+    for (uint32_t t = 0; t < transmitters; ++t)
+      places.push_back(config.bistatic ? BeamPlace{receive, t}
+                                       : BeamPlace{receive + config.arrays.transmit_m[t], 0});
+  beams_.emplace(places, config.waveform.wavelength_m(), axes_.azimuth);
 }
 
 std::vector<std::complex<float>> RadarMaps::spectrum(std::span<const std::complex<float>> cube,
@@ -171,7 +134,8 @@ std::vector<float> RadarMaps::range_azimuth(std::span<const std::complex<float>>
   const uint32_t transmitters = config_.waveform.transmitters;
   const size_t plane = size_t{samples} * chirps, antennas = spectrum.size() / plane,
                azimuths = axes_.azimuth.size();
-  const uint32_t padded = (chirps + lanes - 1) / lanes * lanes;
+  GREATX_CHECK(beams_ && beams_->places() == antennas, "{} antennas", antennas);
+  const uint32_t padded = (chirps + AzimuthBeams::lanes - 1) / AzimuthBeams::lanes * AzimuthBeams::lanes;
   std::vector<std::complex<float>> compensation(size_t{transmitters} * chirps);
   for (uint32_t t = 0; t < transmitters; ++t)
     for (uint32_t k = 0; k < chirps; ++k)
@@ -179,12 +143,11 @@ std::vector<float> RadarMaps::range_azimuth(std::span<const std::complex<float>>
           unit_phasor(-fraction_of_turn(tdm_turns(config_.waveform, t, doppler_turns(k, chirps)))));
   // The power of a beam is |sum of n antennas|^2/n^2. The map is the mean over the beams, divided by the
   // noise bandwidth of the window.
-  const double each = double(antennas) / beams_;
-  const float factor = static_cast<float>(1.0 / (each * each * beams_ * doppler_window_.noise_bandwidth()));
+  const double beams = config_.bistatic ? transmitters : 1, each = double(antennas) / beams;
+  const float factor = static_cast<float>(1.0 / (each * each * beams * doppler_window_.noise_bandwidth()));
   std::vector<float> map(samples * azimuths);
   parallel_for(samples, threads, [&](size_t range) {
     std::vector<float> re(antennas * padded, 0.0f), im(antennas * padded, 0.0f);
-    float sum = 0.0f, product_re, product_im;
     for (size_t v = 0; v < antennas; ++v) {
       const std::complex<float>* row = spectrum.data() + v * plane + range * chirps;
       const std::complex<float>* turn = compensation.data() + (v % transmitters) * chirps;
@@ -192,21 +155,9 @@ std::vector<float> RadarMaps::range_azimuth(std::span<const std::complex<float>>
         re[v * padded + k] = row[k].real() * turn[k].real() - row[k].imag() * turn[k].imag();
         im[v * padded + k] = row[k].real() * turn[k].imag() + row[k].imag() * turn[k].real();
       }
-      conjugate_product(&re[v * padded], &im[v * padded], &re[v * padded], &im[v * padded], padded,
-                        product_re, product_im);
-      sum += product_re;
     }
     float* out = map.data() + range * azimuths;
-    std::fill_n(out, azimuths, sum);
-    for (size_t i = 0; i < pairs_.size(); ++i) {
-      const auto [a, b] = pairs_[i];
-      conjugate_product(&re[a * padded], &im[a * padded], &re[b * padded], &im[b * padded], padded,
-                        product_re, product_im);
-      // The term is conj(w_a) w_b x_a conj(x_b), where w is the steering. The pair (b, a) gives its
-      // conjugate.
-      add_scaled(2.0f * product_re, 2.0f * product_im, &steering_[2 * i * azimuths],
-                 &steering_[(2 * i + 1) * azimuths], static_cast<uint32_t>(azimuths), out);
-    }
+    beams_->add_powers(re.data(), im.data(), padded, out);
     // Rounding errors may make the sum negative.
     for (size_t k = 0; k < azimuths; ++k) out[k] = std::max(out[k], 0.0f) * factor;
   });

@@ -7,10 +7,12 @@
 
 #include <complex>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "rf/config/radar_config.h"
+#include "rf/radar/signal/azimuth_beams.h"
 #include "rf/radar/signal/fft.h"
 #include "rf/radar/signal/window.h"
 
@@ -56,16 +58,11 @@ class RadarMaps {
   std::vector<float> range_azimuth(std::span<const std::complex<float>> spectrum, uint32_t threads) const;
 
  private:
-  struct Pair {
-    uint32_t a, b;
-  };
   RadarSignalConfig config_;
   Window range_window_, doppler_window_;
   Fft range_transform_, doppler_transform_;
   RadarAxes axes_;
-  std::vector<Pair> pairs_;      ///< pairs of virtual antennas a < b that are summed coherently
-  std::vector<float> steering_;  ///< [pairs, re | im, azimuths]
-  uint32_t beams_ = 1;           ///< number of coherent groups of antennas: 1, or the number of transmitters
+  std::optional<AzimuthBeams> beams_;  ///< of the virtual antennas; none without a range-azimuth map
 };
 
 /// Returns the turns by which TDM delays transmitter `transmitter` at `doppler` turns over the chirps.

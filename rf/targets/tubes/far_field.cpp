@@ -33,9 +33,11 @@ ScatterMatrix far_field(TubeTargets& tubes, scene::GpuScene& scene, gpu::TickRin
   ring.wait(slot);
   ScatterMatrix s{};
   const double there_and_back_s = 2.0 * distance_m / speed_of_light, at_rest[] = {0.0};
+  // The ends look at the target, so that theta-hat is the same for their directions and for those from the
+  // target, but phi-hat is opposite.
   for (const TubeEcho& echo : tubes.collect(pending, motion, at_rest))
     s[2 * echo.received + echo.sent] +=
-        echo.transfer * distance_m * distance_m *
+        (echo.received == echo.sent ? 1.0 : -1.0) * echo.transfer * distance_m * distance_m *
         unit_phasor(-turns_of(carrier_hz, echo.delay_s[0] - there_and_back_s));
   return s;
 }

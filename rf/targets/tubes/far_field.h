@@ -22,7 +22,8 @@ struct PosedTarget {
 /// at the wavelength.
 double far_distance_m(const PosedTarget& target, double wavelength_m);
 
-/// Returns the matrix for directions in world axes, on the bases of the world.
+/// Returns the matrix for directions in world axes, on the bases (theta, phi) of the world at these
+/// directions, which point away from the target.
 ScatterMatrix far_field(TubeTargets& tubes, scene::GpuScene& scene, gpu::TickRing& ring,
                         const PosedTarget& target, const Aspect& aspect, double carrier_hz);
 

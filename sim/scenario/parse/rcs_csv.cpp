@@ -21,7 +21,6 @@ namespace {
 constexpr double equal_angles_deg = 1e-6;  ///< angles that differ by less are equal
 constexpr double even_step = 0.01;         ///< fraction of a step; angles are often written with few digits
 constexpr double most_dbsm = 200.0, most_scatter_m = 1e10;
-constexpr size_t most_rcs_lines = 1u << 21;
 constexpr uint64_t most_grid = 1ull << 40;  ///< places that still have numbers
 
 using Columns = std::span<const std::string_view>;

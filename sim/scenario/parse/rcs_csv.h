@@ -4,6 +4,7 @@
 // Reads tables of scattering (docs/targets.md).
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -12,6 +13,9 @@
 #include "rf/targets/rcs_table.h"
 
 namespace greatx::sim {
+
+/// The most directions, or pairs of directions, of a table.
+inline constexpr size_t most_rcs_lines = 1u << 21;
 
 /// Parses a table whose header is one of
 ///     theta_deg,phi_deg,rcs_dbsm

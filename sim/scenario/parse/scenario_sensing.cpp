@@ -33,8 +33,9 @@ void parse_cells(const Field& where, const ChannelConfig& channel, const rf::Rad
 void parse_sensing(const FieldMap& of_channel, ChannelConfig& channel) {
   const auto field = of_channel.find("sensing");
   if (!field) return;
-  const FieldMap map(*field, {"power_dbm", "noise_figure_db", "adc", "leakage", "clutter_removal",
-                              "range_window", "doppler_window", "cfar", "outputs"});
+  const FieldMap map(*field,
+                     {"power_dbm", "noise_figure_db", "adc", "leakage", "clutter_removal", "range_window",
+                      "doppler_window", "azimuths", "azimuth_limit_deg", "cfar", "outputs"});
   rf::SensingConfig& sensing = channel.sensing.emplace();
   constexpr uint32_t most = 65536;  // as many as chirps and samples of a radar
   if (channel.time_samples < 4)
@@ -65,12 +66,14 @@ void parse_sensing(const FieldMap& of_channel, ChannelConfig& channel) {
     sensing.remove_static = f->choice({"static_mean", "none"}) == 0;
   if (const auto f = map.find("range_window")) sensing.range_window = parse_window(*f);
   if (const auto f = map.find("doppler_window")) sensing.doppler_window = parse_window(*f);
+  if (const auto f = map.find("azimuths")) sensing.azimuths = f->integer32(2, 4096);
+  if (const auto f = map.find("azimuth_limit_deg")) sensing.azimuth_limit = radians(f->between(0.1, 180.0));
   if (const auto f = map.find("cfar")) parse_cfar(*f, sensing.cfar);
   if (const auto f = map.find("outputs")) {
-    sensing.range_doppler = sensing.detections = false;
-    bool* const outputs[] = {&sensing.range_doppler, &sensing.detections};
+    sensing.range_doppler = sensing.range_azimuth = sensing.detections = false;
+    bool* const outputs[] = {&sensing.range_doppler, &sensing.range_azimuth, &sensing.detections};
     for (const Field& item : f->list("outputs", 1))
-      *outputs[item.choice({"range_doppler", "detections"})] = true;
+      *outputs[item.choice({"range_doppler", "range_azimuth", "detections"})] = true;
   }
   if (sensing.detections) parse_cells(*field, channel, sensing.cfar);
 }
