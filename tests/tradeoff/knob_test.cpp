@@ -41,11 +41,11 @@ std::vector<Experiment> experiments_of(const Experiment& experiment, const Knob&
 TEST(Knobs, AloneLeavesTheSensorsOfOneModality) {
   const Scenario city = embedded("city");
   const auto kinds = [&](Modality modality) {
-    std::multiset<size_t> kinds;
+    std::multiset<size_t> found;
     const Scenario scenario = alone(city, modality, {}).value();
     for (const NodeConfig& node : scenario.nodes)
-      for (const SensorConfig& sensor : node.sensors) kinds.insert(sensor.config.index());
-    return kinds;
+      for (const SensorConfig& sensor : node.sensors) found.insert(sensor.config.index());
+    return found;
   };
   EXPECT_EQ(kinds(Modality::camera), (std::multiset<size_t>{0, 4, 4}));
   EXPECT_EQ(kinds(Modality::events), (std::multiset<size_t>{1, 4, 4}));
