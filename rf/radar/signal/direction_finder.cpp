@@ -3,6 +3,7 @@
 #include "rf/radar/signal/direction_finder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/phase.h"
@@ -12,6 +13,7 @@ namespace greatx::rf {
 namespace {
 
 constexpr double finest_step = radians(0.05);
+constexpr uint32_t most_phasors = 64;  ///< transmitters whose phasors are computed once for a direction
 
 /// Returns angles from -90 to 90 degrees, a fifth of the beam lambda/extent apart, or the single angle 0 if
 /// there is no extent.
@@ -56,6 +58,22 @@ double DirectionFinder::power(std::span<const std::complex<double>> snapshot, do
   const dvec3 unit = Direction{azimuth, elevation, 0.0}.unit();
   const uint32_t transmitters = config_.waveform.transmitters;
   const uint32_t receivers = static_cast<uint32_t>(config_.arrays.receive_m.size());
+  // The phase of a pair is the sum of those of its elements.
+  if (!config_.bistatic && transmitters <= most_phasors) {
+    const auto phasor = [&](const dvec3& element) {
+      return unit_phasor(fraction_of_turn(glm::dot(unit, element) / config_.waveform.wavelength_m()));
+    };
+    std::array<std::complex<double>, most_phasors> sends;
+    for (uint32_t t = 0; t < transmitters; ++t) sends[t] = phasor(config_.arrays.transmit_m[t]);
+    std::complex<double> beam = 0.0;
+    for (uint32_t r = 0; r < receivers; ++r) {
+      std::complex<double> of_receiver = 0.0;
+      for (uint32_t t = 0; t < transmitters; ++t)
+        of_receiver += plain_product(snapshot[r * transmitters + t], sends[t]);
+      beam += plain_product(of_receiver, phasor(config_.arrays.receive_m[r]));
+    }
+    return std::norm(beam / double(snapshot.size()));
+  }
   std::complex<double> sum = 0.0;
   double powers = 0.0;
   for (uint32_t t = 0; t < transmitters; ++t) {
