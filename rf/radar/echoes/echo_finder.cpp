@@ -363,7 +363,6 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
 
   counted.contributions = raw.echoes.size();
   counted.below_floor = raw.below_floor;
-  counted.patches = patches.list.size();
   counted.patch_blocks = patches.list.empty() ? 0 : patches.list.blocks;
   const Movers movers(scene, world_, raw, motion, source, options_.threads);
   MergeCells cells;
@@ -385,10 +384,9 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
     list.echoes.push_back(echo_of(echo, raw.echoes[echo.strongest], raw, scene, options_));
   add_tracks(movers, raw, merged, motion, cells.wavelength_m, options_.threads, list);
   list.patches = std::move(patches.list);
-  if (options_.rain.reflectivity_per_m > 0.0)
-    add_rain({options_, transmitter, receiver, pending.transmitter, transmitter_.own_body,
-              surfaces_.wavelength_m()},
-             world_, tracer_, motion, list.patches);
+  add_rain(
+      {options_, transmitter, receiver, pending.transmitter, transmitter_.own_body, surfaces_.wavelength_m()},
+      world_, tracer_, motion, list.patches);
   counted.patches = list.patches.size();
   if (statistics != nullptr) *statistics = counted;
   return list;

@@ -27,26 +27,24 @@ FacetEchoes::FacetEchoes(const FacetScene& scene, const RayGrid& grid, const Ech
       grid_(grid),
       field_(field),
       options_(options),
-      source_(source),
       monostatic_(monostatic),
-      own_body_(own_body),
+      ends_{source, field.receiver_at(), own_body, receiver_body},
       sender_(scene.world, scene.trees, field, options, monostatic),
       beams_(scene.tracer.view(scene.world, own_body)),
-      receiver_(scene.tracer.view(scene.world, own_body, receiver_body)),
-      ends_{source, field.receiver_at(), own_body, receiver_body} {
+      receiver_(scene.tracer.view(scene.world, own_body, receiver_body)) {
   if (scene.veils != nullptr) veil_views_ = scene.veils->views(ends_);
 }
 
 bool FacetEchoes::chosen(uint32_t facet, const PosedFacet* mirror) const {
   const FacetWorld& world = scene_.world;
   const PosedFacet& posed = world.facet(facet);
-  if (posed.body != 0 && own_body_ != 0 && posed.owner == own_body_) return false;
+  if (posed.body != 0 && ends_.own_body != 0 && posed.owner == ends_.own_body) return false;
   // Distances are those of the images of places behind the mirror.
   const auto seen_at = [&](const dvec3& p) {
     return mirror == nullptr ? p : p - 2.0 * mirror->distance(p) * mirror->normal;
   };
-  const double side = std::abs(posed.distance(seen_at(source_)));
-  const dvec3 center = seen_at(posed.centroid), arm = center - source_;
+  const double side = std::abs(posed.distance(seen_at(ends_.source)));
+  const dvec3 center = seen_at(posed.centroid), arm = center - ends_.source;
   const double distance = glm::length(arm);
   const double extent = std::hypot(posed.max_u - posed.min_u, posed.max_v - posed.min_v);
   const double nearest = std::max(distance - extent, side);
@@ -62,8 +60,9 @@ bool FacetEchoes::chosen(uint32_t facet, const PosedFacet* mirror) const {
   std::array<dvec3, FacetTrees::most_corners> room;
   for (const uint32_t piece : scene_.trees.pieces(facet))
     for (const dvec3& corner : scene_.trees.corners(world, facet, piece, room)) {
-      if (mirror != nullptr && !(mirror->distance(corner) * mirror->distance(source_) > 0.0)) return false;
-      const dvec3 to = seen_at(corner) - source_;
+      if (mirror != nullptr && !(mirror->distance(corner) * mirror->distance(ends_.source) > 0.0))
+        return false;
+      const dvec3 to = seen_at(corner) - ends_.source;
       if (glm::dot(to, arm) < least * glm::length(to) * distance) return false;
       if (grid_.tube_at(to) == RayGrid::outside) return false;
     }
@@ -125,7 +124,7 @@ Polygon FacetEchoes::outline_of(uint32_t facet, uint32_t piece, const TubeBeam& 
 void FacetEchoes::solve(uint32_t facet, Job& job) const {
   const FacetWorld& world = scene_.world;
   const TubeBeam& beam = job.beams[0] =
-      TubeBeam(source_, glm::normalize(world.facet(facet).centroid - source_));
+      TubeBeam(ends_.source, glm::normalize(world.facet(facet).centroid - ends_.source));
   job.limit = options_.max_bounces;
   job.lit.clear(), job.shown.clear();
   for (const uint32_t piece : scene_.trees.pieces(facet)) {
@@ -134,7 +133,7 @@ void FacetEchoes::solve(uint32_t facet, Job& job) const {
     if (outline.empty()) continue;
     // Most facets that something hides are hidden by one piece of one other facet.
     const EchoTracer::Met met =
-        scene_.tracer.first(beams_, source_, glm::normalize(beam.along(outline.centroid())), ~0u);
+        scene_.tracer.first(beams_, ends_.source, glm::normalize(beam.along(outline.centroid())), ~0u);
     if (met.facet != facet && met.facet != ~0u && met.distance < farthest &&
         covers(world, scene_.trees, beam, {}, outline, met.facet, job.scratch, &world.facet(facet)))
       continue;
@@ -147,7 +146,7 @@ void FacetEchoes::solve(uint32_t facet, Job& job) const {
         if (scene_.veils == nullptr)
           bounce_off(job, 0, cells[i].part, facet);
         else
-          solve_behind(facet, Polygon(cells[i].part), farthest, job);
+          solve_behind(facet, cells[i].part, farthest, job);
       }
   }
   if (scene_.veils == nullptr) send_over_shown(job);
@@ -159,25 +158,23 @@ void FacetEchoes::solve_behind(uint32_t facet, const Polygon& part, double farth
   std::vector<VisibleCell>& behind = job.behind;
   find_visible(scene_.world, scene_.trees, beam, {}, part, facet, job.hiding, job.smallest, job.scratch,
                behind);
-  for (size_t i = 0; i < behind.size(); ++i) {
-    const VisibleCell& cell = behind[i];
+  for (const VisibleCell& cell : behind) {
     if (cell.facet == facet) continue;  // no veil is before it
-    const dvec3 along = beam.along(cell.part.centroid());
-    const dvec3 at = beam.source + beam.reach(scene_.world.facet(facet), along) * along;
+    const dvec3 at = beam.on(scene_.world.facet(facet), cell.part.centroid());
     const size_t first = job.out->echoes.size();
     job.lit.clear(), job.shown.clear();
     bounce_off(job, 0, cell.part, facet);
     send_over_shown(job);
-    scene_.veils->weaken(*job.out, first, scene_.veils->leg(veil_views_.out, source_, at), veil_views_, ends_,
-                         monostatic_);
+    scene_.veils->weaken(*job.out, first, scene_.veils->leg(veil_views_.out, ends_.source, at), veil_views_,
+                         ends_, monostatic_);
   }
 }
 
 void FacetEchoes::solve_over(const MirroredFacet& image, Job& job) const {
   const FacetWorld& world = scene_.world;
   const PosedFacet& mirror = world.facet(image.mirror);
-  const double side = mirror.distance(source_);
-  const dvec3 from = source_ - 2.0 * side * mirror.normal;
+  const double side = mirror.distance(ends_.source);
+  const dvec3 from = ends_.source - 2.0 * side * mirror.normal;
   const TubeBeam& beam = job.beams[1] =
       TubeBeam(from, glm::normalize(world.facet(image.facet).centroid - from));
   const TubeBeam& out = job.beams[0] = beam.mirrored(mirror);

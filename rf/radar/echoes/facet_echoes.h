@@ -84,9 +84,9 @@ class FacetEchoes {
   /// looked at. An edge that another facet's shadow makes does not count for this.
   void finish(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start) const;
   /// Returns whether `part` of the beam on `facet` as its surface `bounce` may stand above the floor.
-  bool may_send(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet) const;
-  /// The same for the currents on surface `last`, and a receiver or its image.
-  bool may_send_from(const Job& job, uint32_t last, const Polygon& part, const dvec3& receiver) const;
+  bool may_send(const Job& job, uint32_t bounce, const Polygon& part, uint32_t facet) const;
+  /// The same for the currents of a beam on a facet, and a receiver or its image.
+  bool may_send_from(uint32_t facet, const TubeBeam& beam, const Polygon& part, const dvec3& receiver) const;
   /// Returns whether the facet is a mirror for the currents on the surface before.
   bool shows_before(const Job& job, uint32_t bounce, uint32_t facet) const;
   /// Notes that some rays of the beam meet a mirror next.
@@ -116,13 +116,11 @@ class FacetEchoes {
   const RayGrid& grid_;
   const EchoField& field_;
   const EchoOptions& options_;
-  dvec3 source_;
   bool monostatic_;
-  uint32_t own_body_;
+  Veils::Ends ends_;
   EchoSender sender_;
   EchoTracer::View beams_, receiver_;
-  Veils::Ends ends_;
-  Veils::Views veil_views_;
+  Veils::Views veil_views_;  ///< empty without veils
 };
 
 }  // namespace greatx::rf

@@ -36,7 +36,7 @@ void FacetEchoes::send_over_shown(Job& job) const {
       job.beams[i + 1] = job.beams[i].mirrored(scene_.world.facet(job.chain[i]));
     for (const Job::Lit& lit : job.lit) {
       if (!(lit.surfaces == shown.surfaces) ||
-          !may_send_from(job, last, lit.part, field_.mirrored_receiver(shown.mirror)))
+          !may_send_from(job.chain[last], job.beams[last], lit.part, field_.mirrored_receiver(shown.mirror)))
         continue;
       find_seen_over(job, last, lit.part, shown.mirror);
       for (const Polygon& sending : job.sending)
@@ -47,10 +47,9 @@ void FacetEchoes::send_over_shown(Job& job) const {
   job.chain_at = ~0u;
 }
 
-bool FacetEchoes::may_send_from(const Job& job, uint32_t last, const Polygon& part,
+bool FacetEchoes::may_send_from(uint32_t facet, const TubeBeam& beam, const Polygon& part,
                                 const dvec3& receiver) const {
-  const PosedFacet& posed = scene_.world.facet(job.chain[last]);
-  const TubeBeam& beam = job.beams[last];
+  const PosedFacet& posed = scene_.world.facet(facet);
   if (posed.distance(beam.source) * posed.distance(receiver) <= 0.0) return false;
   const Polygon piece = on_facet(posed, beam, part);
   if (piece.empty()) return false;
@@ -61,14 +60,14 @@ bool FacetEchoes::may_send_from(const Job& job, uint32_t last, const Polygon& pa
   return most_of(plane, piece) >= sender_.floor_at(out, home);
 }
 
-bool FacetEchoes::may_send(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet) const {
-  job.chain[bounce] = facet;
+bool FacetEchoes::may_send(const Job& job, uint32_t bounce, const Polygon& part, uint32_t facet) const {
+  const TubeBeam& beam = job.beams[bounce];
   if (bounce > 0 && mirrors(scene_.world, job.chain[0], facet) &&
-      may_send_from(job, bounce, part, field_.mirrored_receiver(job.chain[0])))
+      may_send_from(facet, beam, part, field_.mirrored_receiver(job.chain[0])))
     return true;
   if (bounce >= options_.max_bounces) return false;
   if (bounce > 0 && mirrors(scene_.world, facet, job.chain[bounce - 1])) return false;  // add_shown()
-  return may_send_from(job, bounce, part, field_.receiver_at());
+  return may_send_from(facet, beam, part, field_.receiver_at());
 }
 
 void FacetEchoes::send(Job& job, uint32_t bounce, const Polygon& part) const {
@@ -99,15 +98,11 @@ bool FacetEchoes::view_back(const Job& job, uint32_t last, const Polygon& part, 
                             BackView& view) const {
   const PosedFacet& posed = scene_.world.facet(job.chain[last]);
   const TubeBeam& beam = job.beams[last];
-  const auto at = [&](const dvec2& uv) {
-    const dvec3 along = beam.along(uv);
-    return beam.source + beam.reach(posed, along) * along;
-  };
-  view.beam = TubeBeam(from, glm::normalize(at(part.centroid()) - from));
+  view.beam = TubeBeam(from, glm::normalize(beam.on(posed, part.centroid()) - from));
   view.farthest = 0.0;
   std::array<dvec2, Polygon::capacity> points;
   for (uint32_t i = 0; i < part.size(); ++i) {
-    const dvec3 corner = at(part[i]);
+    const dvec3 corner = beam.on(posed, part[i]);
     const double depth = glm::dot(corner - from, view.beam.axis);
     if (!(depth > least_depth * glm::distance(corner, from))) return false;
     points[i] = view.beam.uv(corner);
@@ -122,10 +117,8 @@ void FacetEchoes::keep_seen(Job& job, uint32_t last, const TubeBeam& back) const
   std::array<dvec2, Polygon::capacity> points;
   for (const VisibleCell& cell : job.seen) {
     if (cell.facet != job.chain[last]) continue;
-    for (uint32_t i = 0; i < cell.part.size(); ++i) {
-      const dvec3 along = back.along(cell.part[i]);
-      points[i] = job.beams[last].uv(back.source + back.reach(posed, along) * along);
-    }
+    for (uint32_t i = 0; i < cell.part.size(); ++i)
+      points[i] = job.beams[last].uv(back.on(posed, cell.part[i]));
     job.sending.emplace_back(std::span<const dvec2>(points).first(cell.part.size()));
   }
 }

@@ -35,6 +35,11 @@ struct TubeBeam {
   double reach(const PosedFacet& facet, const dvec3& direction) const {
     return -facet.distance(source) / glm::dot(facet.normal, direction);
   }
+  /// Returns where a ray meets the plane of `facet`.
+  dvec3 on(const PosedFacet& facet, const dvec2& at) const {
+    const dvec3 direction = along(at);
+    return source + reach(facet, direction) * direction;
+  }
   TubeBeam mirrored(const PosedFacet& facet) const {
     TubeBeam beam = *this;
     const auto flip = [&](dvec3& v) { v -= 2.0 * glm::dot(facet.normal, v) * facet.normal; };

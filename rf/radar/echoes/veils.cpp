@@ -116,13 +116,14 @@ Veils::Passed Veils::leg(const EchoTracer::View& view, const dvec3& from, const 
 
 void Veils::weaken(RawEchoes& raw, size_t first, const Passed& out, const Views& views, const Ends& ends,
                    bool monostatic) const {
+  const Complex share = factor(out), both_ways = share * share;
   for (size_t i = first; i < raw.echoes.size(); ++i) {
     RawEcho& echo = raw.echoes[i];
-    Passed there = out;
     if (echo.bounces == 1 && monostatic) {
-      echo.amplitude *= factor(there) * factor(there);
+      echo.amplitude *= both_ways;
       continue;
     }
+    Passed there = out;
     const CarriedPath path =
         carried_vertices(world_, ends.source, echo.departure, raw.chain(echo), echo.point);
     dvec3 from = ends.source;
