@@ -18,13 +18,6 @@
 namespace greatx::rf {
 namespace {
 
-std::vector<double> element_leads(const std::vector<dvec3>& positions, const dquat& orientation,
-                                  const dvec3& direction) {
-  std::vector<double> result;
-  for (const dvec3& p : positions) result.push_back(glm::dot(direction, orientation * p) / speed_of_light);
-  return result;
-}
-
 constexpr size_t slots_per_task = 4;
 
 /// Holds the echoes of one list by columns. They are padded to whole blocks with echoes of amplitude 0.
@@ -348,6 +341,13 @@ BeatReport BeatSynthesizer::add(const EchoList& list, const RadarAttitude& attit
     sum.bent_tones += report.bent_tones;
   }
   return sum;
+}
+
+std::vector<double> element_leads(const std::vector<dvec3>& elements, const dquat& orientation,
+                                  const dvec3& direction) {
+  std::vector<double> leads;
+  for (const dvec3& at : elements) leads.push_back(glm::dot(direction, orientation * at) / speed_of_light);
+  return leads;
 }
 
 std::vector<double> transmitter_leads(const RadarArrays& arrays, const RadarAttitude& attitude,

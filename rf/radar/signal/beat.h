@@ -61,6 +61,9 @@ class BeatSynthesizer {
   std::unique_ptr<Shared> shared_;
 };
 
+/// Returns direction . d/c of each element of an array with this orientation, seconds.
+std::vector<double> element_leads(const std::vector<dvec3>& elements, const dquat& orientation,
+                                  const dvec3& direction);
 /// Return departure . d_tx/c of each transmitter and arrival . d_rx/c of each receiver, seconds. The delay
 /// between two elements is shorter than that between the origins by the sum of both leads.
 std::vector<double> transmitter_leads(const RadarArrays& arrays, const RadarAttitude& attitude,

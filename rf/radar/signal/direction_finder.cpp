@@ -3,7 +3,6 @@
 #include "rf/radar/signal/direction_finder.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/phase.h"
@@ -13,7 +12,6 @@ namespace greatx::rf {
 namespace {
 
 constexpr double finest_step = radians(0.05);
-constexpr uint32_t most_phasors = 64;  ///< transmitters whose phasors are computed once for a direction
 
 /// Returns angles from -90 to 90 degrees, a fifth of the beam lambda/extent apart, or the single angle 0 if
 /// there is no extent.
@@ -54,37 +52,34 @@ DirectionFinder::DirectionFinder(const RadarSignalConfig& config)
 }
 
 double DirectionFinder::power(std::span<const std::complex<double>> snapshot, double azimuth,
-                              double elevation) const {
+                              double elevation, std::vector<std::complex<double>>& phasors) const {
   const dvec3 unit = Direction{azimuth, elevation, 0.0}.unit();
   const uint32_t transmitters = config_.waveform.transmitters;
-  const uint32_t receivers = static_cast<uint32_t>(config_.arrays.receive_m.size());
-  // The phase of a pair is the sum of those of its elements.
-  if (!config_.bistatic && transmitters <= most_phasors) {
-    const auto phasor = [&](const dvec3& element) {
-      return unit_phasor(fraction_of_turn(glm::dot(unit, element) / config_.waveform.wavelength_m()));
-    };
-    std::array<std::complex<double>, most_phasors> sends;
-    for (uint32_t t = 0; t < transmitters; ++t) sends[t] = phasor(config_.arrays.transmit_m[t]);
-    std::complex<double> beam = 0.0;
-    for (uint32_t r = 0; r < receivers; ++r) {
-      std::complex<double> of_receiver = 0.0;
-      for (uint32_t t = 0; t < transmitters; ++t)
-        of_receiver += plain_product(snapshot[r * transmitters + t], sends[t]);
-      beam += plain_product(of_receiver, phasor(config_.arrays.receive_m[r]));
+  const size_t receivers = config_.arrays.receive_m.size();
+  const auto phasor = [&](const dvec3& element) {
+    return unit_phasor(fraction_of_turn(glm::dot(unit, element) / config_.waveform.wavelength_m()));
+  };
+  phasors.clear();
+  if (config_.bistatic) {
+    for (const dvec3& element : config_.arrays.receive_m) phasors.push_back(phasor(element));
+    double powers = 0.0;
+    for (uint32_t t = 0; t < transmitters; ++t) {
+      std::complex<double> sum = 0.0;
+      for (size_t r = 0; r < receivers; ++r) sum += plain_product(snapshot[r * transmitters + t], phasors[r]);
+      powers += std::norm(sum / double(receivers));
     }
-    return std::norm(beam / double(snapshot.size()));
+    return powers / transmitters;
   }
-  std::complex<double> sum = 0.0;
-  double powers = 0.0;
-  for (uint32_t t = 0; t < transmitters; ++t) {
-    for (uint32_t r = 0; r < receivers; ++r)
-      sum += snapshot[r * transmitters + t] *
-             unit_phasor(-fraction_of_turn(steering_turns(config_, r, t, unit)));
-    if (!config_.bistatic) continue;
-    powers += std::norm(sum / double(receivers));
-    sum = 0.0;
+  // The phase of a pair is the sum of those of its elements.
+  for (const dvec3& element : config_.arrays.transmit_m) phasors.push_back(phasor(element));
+  std::complex<double> beam = 0.0;
+  for (size_t r = 0; r < receivers; ++r) {
+    std::complex<double> sum = 0.0;
+    for (uint32_t t = 0; t < transmitters; ++t)
+      sum += plain_product(snapshot[r * transmitters + t], phasors[t]);
+    beam += plain_product(sum, phasor(config_.arrays.receive_m[r]));
   }
-  return config_.bistatic ? powers / transmitters : std::norm(sum / double(snapshot.size()));
+  return std::norm(beam / double(snapshot.size()));
 }
 
 Direction DirectionFinder::find(std::span<const std::complex<double>> snapshot) const {
@@ -116,7 +111,8 @@ Direction DirectionFinder::find(std::span<const std::complex<double>> snapshot) 
         best = {azimuth, elevation, 0.0};
       }
     }
-  best.power_w = power(snapshot, best.azimuth, best.elevation);
+  std::vector<std::complex<double>> phasors;
+  best.power_w = power(snapshot, best.azimuth, best.elevation, phasors);
   // Climbs in ever smaller steps along either angle.
   double azimuth_step = azimuths_.size() > 1 ? azimuths_[1] - azimuths_[0] : 0.0;
   double elevation_step = elevations_.size() > 1 ? elevations_[1] - elevations_[0] : 0.0;
@@ -129,7 +125,7 @@ Direction DirectionFinder::find(std::span<const std::complex<double>> snapshot) 
       if (da == 0.0 && de == 0.0) continue;
       const double azimuth = std::clamp(best.azimuth + da, -0.5 * pi, 0.5 * pi);
       const double elevation = std::clamp(best.elevation + de, -0.5 * pi, 0.5 * pi);
-      const double value = power(snapshot, azimuth, elevation);
+      const double value = power(snapshot, azimuth, elevation, phasors);
       if (value <= best.power_w) continue;
       best = {azimuth, elevation, value};
       higher = true;

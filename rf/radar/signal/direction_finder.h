@@ -47,7 +47,9 @@ class DirectionFinder {
   Direction find(std::span<const std::complex<double>> snapshot) const;
 
  private:
-  double power(std::span<const std::complex<double>> snapshot, double azimuth, double elevation) const;
+  /// `phasors` is working memory.
+  double power(std::span<const std::complex<double>> snapshot, double azimuth, double elevation,
+               std::vector<std::complex<double>>& phasors) const;
 
   RadarSignalConfig config_;
   std::vector<double> azimuths_, elevations_;

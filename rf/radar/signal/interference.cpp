@@ -11,13 +11,6 @@
 namespace greatx::rf {
 namespace {
 
-std::vector<double> leads_of(const std::vector<dvec3>& elements, const dquat& orientation,
-                             const dvec3& direction) {
-  std::vector<double> leads;
-  for (const dvec3& at : elements) leads.push_back(glm::dot(direction, orientation * at) / speed_of_light);
-  return leads;
-}
-
 /// Samples [first, last) of a slot.
 struct SampleRun {
   int64_t first = 0, last = 0;
@@ -29,8 +22,8 @@ class RampMixer {
   RampMixer(const RadarSignalConfig& config, const Interferer& other, const RadarAttitude& attitude)
       : w_(config.waveform),
         other_(other),
-        transmit_(leads_of(other.arrays.transmit_m, other.orientation, other.departure)),
-        receive_(leads_of(config.arrays.receive_m, attitude.receiver, other.arrival)),
+        transmit_(element_leads(other.arrays.transmit_m, other.orientation, other.departure)),
+        receive_(element_leads(config.arrays.receive_m, attitude.receiver, other.arrival)),
         amplitude_(std::conj(other.amplitude) * std::sqrt(other.power_w)) {}
 
   size_t receivers() const { return receive_.size(); }

@@ -38,7 +38,7 @@ class LateSlot {
     for (int64_t before = first; before <= slot_ && double(before) * w_.interval_s < at.delay_s + window_s;
          ++before) {
       const uint32_t sent = slot_ - static_cast<uint32_t>(before);
-      spectrum_ = symbols_.spectrum(seeds_, sent);
+      if (sent != spectrum_slot_) spectrum_ = symbols_.spectrum(seeds_, sent), spectrum_slot_ = sent;
       for (uint32_t t = 0; t < w_.transmitters; ++t) {
         if (w_.loop() > 1 && t != sent % w_.transmitters) continue;
         const std::complex<double> amplitude = std::conj(echo.amplitude) *
@@ -109,6 +109,7 @@ class LateSlot {
   const Fft& transform_;
   const RadarSeeds& seeds_;
   const uint32_t slot_;
+  uint32_t spectrum_slot_ = ~0u;  ///< slot of spectrum_
   std::vector<std::complex<float>> spectrum_, factors_;
   std::vector<Fft::Value> lines_, samples_;
 };

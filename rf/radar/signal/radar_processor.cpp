@@ -78,7 +78,7 @@ void RadarProcessor::add_echoes(const RadarFrameInput& input, std::span<const Ec
   };
   for (size_t i = 0; i < input.lists.size(); ++i) {
     const EchoList& list = input.lists[i];
-    const RadarAttitude& attitude = input.attitudes[input.attitudes.size() == 1 ? 0 : i];
+    const RadarAttitude& attitude = input.attitude(i);
     add(timely[i], attitude);
     patches_.add(list.patches, list.first_slot, list.slots, attitude, walk, threads, cube, term);
   }
@@ -114,8 +114,7 @@ RadarCube RadarProcessor::received(const RadarFrameInput& input, uint32_t thread
     symbols_->send(input.seeds, term, threads, lines, cube);
   }
   for (size_t i = 0; i < late.size(); ++i)
-    add_late_echoes(config_, *symbols_, late[i], input.attitudes[input.attitudes.size() == 1 ? 0 : i],
-                    input.seeds, threads, cube);
+    add_late_echoes(config_, *symbols_, late[i], input.attitude(i), input.seeds, threads, cube);
   return cube;
 }
 
@@ -130,8 +129,7 @@ void RadarProcessor::detect(const RadarFrameInput& input, std::span<const std::c
     unfold(w, frame.range_doppler, peaks);
   }
   frame.report.sidelobes = maker_->drop_sidelobes(peaks, frame.range_doppler);
-  const size_t middle = input.attitudes.size() == 1 ? 0 : input.lists.size() / 2;
-  const RadarGeometry geometry{input.attitudes[middle], input.baseline_m};
+  const RadarGeometry geometry{input.attitude(input.lists.size() / 2), input.baseline_m};
   frame.detections = maker_->make(peaks, frame.range_doppler, spectrum, input.lists, geometry, threads);
 }
 

@@ -29,6 +29,8 @@ struct RadarFrameInput {
   dvec3 baseline_m{0.0};                     ///< from the receiver's origin to the transmitter's, world axes
   RadarSeeds seeds;
   std::span<const Interferer> interferers = {};  ///< frames of other radars
+
+  const RadarAttitude& attitude(size_t list) const { return attitudes[attitudes.size() == 1 ? 0 : list]; }
 };
 
 struct RadarReport {
