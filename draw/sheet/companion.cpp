@@ -10,9 +10,8 @@ namespace greatx::io {
 std::optional<Companion> companion(const PanelSource& source, std::string_view kind,
                                    std::initializer_list<const char*> arrays) {
   const std::vector<SensorSpec>& sensors = source.records.sensors();
-  const auto node = [](const SensorSpec& sensor) { return sensor.name.substr(0, sensor.name.find('/')); };
   for (size_t i = 0; i < sensors.size(); ++i) {
-    if (sensors[i].kind != kind || node(sensors[i]) != node(source.spec()) ||
+    if (sensors[i].kind != kind || node_of(sensors[i]) != node_of(source.spec()) ||
         !has_arrays(sensors[i], std::span(arrays.begin(), arrays.size())))
       continue;
     Companion found{{source.records, source.sequence, i, {}}, {}, {}};

@@ -170,6 +170,8 @@ Pose mount_of(const PanelSource& source) {
   return mount;
 }
 
+std::string node_of(const SensorSpec& sensor) { return sensor.name.substr(0, sensor.name.find('/')); }
+
 std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow& row) {
   const std::vector<SensorSpec>& sensors = source.records.sensors();
   const auto has = [](const SensorSpec& sensor, const char* name) {
@@ -182,8 +184,7 @@ std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow&
   if (pose == sensors.end()) return std::nullopt;
   const PanelSource poses{source.records, source.sequence, static_cast<size_t>(pose - sensors.begin()), {}};
   const std::vector<std::string> names = node_names(poses);
-  const std::string node = source.spec().name.substr(0, source.spec().name.find('/'));
-  const auto found = std::find(names.begin(), names.end(), node);
+  const auto found = std::find(names.begin(), names.end(), node_of(source.spec()));
   if (found == names.end()) return std::nullopt;
   const std::vector<IndexRow> rows =
       source.records.records_of(source.sequence, static_cast<size_t>(pose - sensors.begin()));

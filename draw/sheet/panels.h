@@ -130,6 +130,8 @@ Color flow_color(double u, double v);
 Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, std::span<const uint8_t> p,
                     int64_t width, int64_t height);
 
+/// Returns the node of a sensor: "uav" of "uav/front".
+std::string node_of(const SensorSpec& sensor);
 /// Returns the pose of a sensor in the world at a record: the pose of its node from the "pose" sensor, times
 /// the mount of the sensor ("body_from_sensor" of its metadata). Returns nothing if the data set does not
 /// contain the node's pose at this tick. Throws UserError if the poses or the metadata are invalid.

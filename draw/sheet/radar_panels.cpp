@@ -10,6 +10,7 @@
 #include "draw/sheet/companion.h"
 #include "draw/sheet/panels.h"
 #include "draw/sheet/polar_map.h"
+#include "draw/sheet/power_maps.h"
 
 namespace greatx::io {
 
@@ -35,8 +36,6 @@ Axes axes_of(const PanelSource& source) {
   return axes;
 }
 
-double dbm(float watt) { return watt > 0.0f ? 10.0 * std::log10(static_cast<double>(watt)) + 30.0 : -400.0; }
-
 /// Returns the level that the share `below` of the levels does not exceed.
 double quantile(std::vector<double>& levels, double below) {
   const auto at = levels.begin() + static_cast<std::ptrdiff_t>(below * double(levels.size() - 1));
@@ -44,9 +43,7 @@ double quantile(std::vector<double>& levels, double below) {
   return *at;
 }
 
-/// Holds the maps of all rows. They have one scale, from 1 dB below the lowest median of a map (the noise) to
-/// the level that one cell in a thousand exceeds; the scale is 12 to 60 dB wide. Stronger cells have the
-/// color of its end, so that a single bright wall does not hide the street.
+/// Holds the maps of all rows on one scale, up to the level that one cell in a thousand exceeds.
 class RadarPanel : public FramePanel {
  public:
   RadarPanel(const PanelSource& source, const char* array) : source_(source), axes_(axes_of(source)) {
@@ -55,10 +52,7 @@ class RadarPanel : public FramePanel {
     for (const IndexRow& row : source_.chosen) {
       const Array map = source_.load(row, array, {DType::f32}, {0, 0});
       rows_ = map.shape.at(0);
-      columns_ = map.shape.at(1);
-      std::vector<double>& levels = maps_.emplace_back();
-      for (const float watt : map.as<float>()) levels.push_back(dbm(watt));
-      std::vector<double> sorted = levels;
+      std::vector<double> sorted = maps_.add(map.as<float>(), map.shape.at(1));
       if (!sorted.empty()) {
         middles.push_back(quantile(sorted, 0.5));
         top = std::max(top, quantile(sorted, 0.999));
@@ -66,8 +60,7 @@ class RadarPanel : public FramePanel {
       load_detections(row);
     }
     if (middles.empty()) return;
-    const double floor = *std::min_element(middles.begin(), middles.end());
-    scale_ = {std::max(floor - 1.0, top - 60.0), std::max(top, floor + 11.0), false};
+    maps_.set_scale(*std::min_element(middles.begin(), middles.end()), top);
   }
 
  protected:
@@ -76,9 +69,6 @@ class RadarPanel : public FramePanel {
     uint32_t instance;
     bool real() const { return instance != 0; }
   };
-  Color color(size_t row, int64_t range, int64_t column) const {
-    return viridis(std::clamp(scale_.at(level(row, range, column)), 0.0, 1.0));
-  }
   /// Returns the largest range to show: 1.2 times the range of the farthest detection, but at least a quarter
   /// of the map; the whole map if there is no detection.
   double farthest_m() const {
@@ -88,23 +78,15 @@ class RadarPanel : public FramePanel {
     const double all = static_cast<double>(rows_) * axes_.range_bin_m;
     return farthest > 0.0 ? std::min(std::max(farthest, 0.25 * all), all) : all;
   }
-  double level(size_t row, int64_t range, int64_t column) const {
-    return maps_[row][static_cast<size_t>(range * columns_ + column)];
-  }
   static void mark(Canvas& canvas, double x, double y, const Detection& d) {
     canvas.circle(x, y, 6.0, 1.6, d.real() ? Color{255, 92, 92} : theme::dim);
-  }
-  void draw_scale(Canvas& canvas, const Rect& legend) const {
-    draw_color_bar(
-        canvas, legend, scale_, [](double t) { return viridis(t); }, "dBm");
   }
 
   PanelSource source_;
   Axes axes_;
-  int64_t rows_ = 1, columns_ = 1;
-  std::vector<std::vector<double>> maps_;           ///< dBm, one map for each row
+  int64_t rows_ = 1;
+  PowerMaps maps_;
   std::vector<std::vector<Detection>> detections_;  ///< one list for each row
-  Scale scale_{-140.0, -80.0, false};
 
  private:
   void load_detections(const IndexRow& row) {
@@ -146,8 +128,8 @@ class RangeDopplerPanel : public RadarPanel {
     const double far_m = farthest_m();
     const int ranges = shown_ranges();
     canvas.clip(picture);
-    canvas.raster(picture, static_cast<int>(columns_), ranges,
-                  [&](int x, int y) { return color(row, ranges - 1 - y, x); });
+    canvas.raster(picture, static_cast<int>(maps_.columns()), ranges,
+                  [&](int x, int y) { return maps_.color(row, ranges - 1 - y, x); });
     const double pixels = picture.height / far_m;
     for (const Detection& d : detections_[row]) {
       const dvec2 at = place(picture, d);
@@ -164,16 +146,16 @@ class RangeDopplerPanel : public RadarPanel {
     canvas.text(picture.right() - 6, y, "+" + velocity + " m/s", theme::text_scale, theme::text,
                 Align::right);
     canvas.unclip();
-    draw_scale(canvas, legend);
+    maps_.draw_scale(canvas, legend);
   }
   std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames& names) override {
     const int ranges = shown_ranges();
-    const std::optional<RasterCell> cell = cell_at(picture, columns_, ranges, x, y);
+    const std::optional<RasterCell> cell = cell_at(picture, maps_.columns(), ranges, x, y);
     if (!cell) return {};
     const int range = ranges - 1 - cell->row;
     return fmt::format("{:.2f} m, {:.2f} m/s: {:.1f} dBm", range * axes_.range_bin_m,
                        axes_.velocity_min + cell->column * axes_.velocity_bin,
-                       level(row, range, cell->column)) +
+                       maps_.level(row, range, cell->column)) +
            marked_at(
                detections_[row], [&](const Detection& d) { return place(picture, d); }, x, y, names);
   }
@@ -184,7 +166,7 @@ class RangeDopplerPanel : public RadarPanel {
   }
   dvec2 place(const Rect& picture, const Detection& d) const {
     return {picture.x + ((d.velocity - axes_.velocity_min) / axes_.velocity_bin + 0.5) * picture.width /
-                            static_cast<double>(columns_),
+                            static_cast<double>(maps_.columns()),
             picture.bottom() - d.range * (picture.height / farthest_m())};
   }
 };
@@ -216,9 +198,10 @@ class RangeAzimuthPanel : public RadarPanel {
     const PolarMap map = polar();
     canvas.clip(picture);
     map.draw_cells(canvas, picture,
-                   [&](int64_t range, int64_t azimuth) { return color(row, range, azimuth); });
+                   [&](int64_t range, int64_t azimuth) { return maps_.color(row, range, azimuth); });
+    const double far_m = farthest_m();
     for (const dvec2& point : outlines_[row]) {
-      if (glm::length(point) > farthest_m()) continue;
+      if (glm::length(point) > far_m) continue;
       const dvec2 at = map.pixel_of(picture, point.x, point.y);
       canvas.blend(static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), theme::text, 0.2);
     }
@@ -229,12 +212,12 @@ class RangeAzimuthPanel : public RadarPanel {
     }
     map.draw_sensor(canvas, picture);
     canvas.unclip();
-    draw_scale(canvas, legend);
+    maps_.draw_scale(canvas, legend);
   }
   std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames& names) override {
     const PolarMap map = polar();
     const std::string text = map.text_at(
-        picture, x, y, [&](int64_t range, int64_t azimuth) { return level(row, range, azimuth); });
+        picture, x, y, [&](int64_t range, int64_t azimuth) { return maps_.level(row, range, azimuth); });
     if (text.empty()) return {};
     return text + marked_at(
                       detections_[row],
@@ -244,7 +227,7 @@ class RangeAzimuthPanel : public RadarPanel {
 
  private:
   PolarMap polar() const {
-    return {{axes_.range_bin_m, axes_.azimuth_min, axes_.azimuth_max, rows_, columns_}, farthest_m()};
+    return {{axes_.range_bin_m, axes_.azimuth_min, axes_.azimuth_max, rows_, maps_.columns()}, farthest_m()};
   }
 
   std::vector<std::vector<dvec2>> outlines_;  ///< metres ahead and to the left, for each row

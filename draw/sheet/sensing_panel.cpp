@@ -9,14 +9,13 @@
 #include "core/units.h"
 #include "draw/sheet/panels.h"
 #include "draw/sheet/polar_map.h"
+#include "draw/sheet/power_maps.h"
 
 namespace greatx::io {
 
 namespace {
 
 constexpr size_t most_targets = 10'000;
-
-double dbm_of(float watt) { return watt > 0.0f ? 10.0 * std::log10(double{watt}) + 30.0 : -400.0; }
 
 /// Holds the maps of receiver 0 and transmitter 0. Detections are circles, red if they belong to a target.
 /// Crosses with names are the truth, wrapped into the spans of the waveform; a target without an echo is
@@ -28,17 +27,15 @@ class SensingMaps : public FramePanel {
     double top = -400.0, floor = 400.0;
     for (const IndexRow& row : source_.chosen) {
       const Array map = source_.load(row, array, {DType::f32}, {0, 0, 0, 0});
-      ranges_ = map.shape[2], columns_ = map.shape[3];
-      std::vector<double>& levels = maps_.emplace_back();
-      const auto cells = map.as<float>().first(static_cast<size_t>(ranges_ * columns_));
-      for (const float watt : cells) levels.push_back(dbm_of(watt));
-      std::vector<double> sorted = levels;
+      ranges_ = map.shape[2];
+      std::vector<double> sorted =
+          maps_.add(map.as<float>().first(static_cast<size_t>(ranges_ * map.shape[3])), map.shape[3]);
       std::sort(sorted.begin(), sorted.end());
       floor = std::min(floor, sorted[sorted.size() / 2]);
       top = std::max(top, sorted[sorted.size() - 1 - sorted.size() / 1000]);
       load_marks(row);
     }
-    if (!maps_.empty()) scale_ = {std::max(floor - 1.0, top - 60.0), std::max(top, floor + 11.0), false};
+    if (!source_.chosen.empty()) maps_.set_scale(floor, top);
   }
 
  protected:
@@ -87,21 +84,14 @@ class SensingMaps : public FramePanel {
     if (farthest_m_ == 0.0) return all;
     return std::clamp(static_cast<int>(1.3 * farthest_m_ / range_bin_m_), std::min(all, 16), all);
   }
-  double level(size_t row, int64_t range, int64_t column) const {
-    return maps_[row][static_cast<size_t>(range * columns_ + column)];
-  }
-  Color color(size_t row, int64_t range, int64_t column) const {
-    return viridis(std::clamp(scale_.at(level(row, range, column)), 0.0, 1.0));
-  }
 
   PanelSource source_;
   double range_bin_m_ = 1.0, velocity_min_ = -1.0, velocity_bin_ = 1.0, velocity_span_ = 2.0;
   double azimuth_min_ = -1.0, azimuth_max_ = 1.0, farthest_m_ = 0.0;
-  int64_t ranges_ = 1, columns_ = 1;
+  int64_t ranges_ = 1;
   std::vector<std::string> names_;
-  std::vector<std::vector<double>> maps_;  ///< dBm, one map for each row
-  std::vector<std::vector<Mark>> marks_;   ///< one list for each row
-  Scale scale_{-140.0, -80.0, false};
+  PowerMaps maps_;
+  std::vector<std::vector<Mark>> marks_;  ///< one list for each row
 
  private:
   void read_axes() {
@@ -171,8 +161,8 @@ class SensingPanel : public SensingMaps {
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const int shown = shown_ranges();
     canvas.clip(picture);
-    canvas.raster(picture, static_cast<int>(columns_), shown,
-                  [&](int x, int y) { return color(row, shown - 1 - y, x); });
+    canvas.raster(picture, static_cast<int>(maps_.columns()), shown,
+                  [&](int x, int y) { return maps_.color(row, shown - 1 - y, x); });
     const double step = 100.0 * std::max(1.0, std::round(shown * range_bin_m_ / 400.0));
     for (int i = 1; i * step < (shown - 1) * range_bin_m_; ++i)
       canvas.text(picture.x + 6, static_cast<int>(place(picture, i * step, velocity_min_).y) - 8,
@@ -183,17 +173,17 @@ class SensingPanel : public SensingMaps {
                 theme::text_scale, theme::text, Align::right);
     draw_marks(canvas, row, [&](const Mark& mark) { return place(picture, mark.range_m, mark.velocity); });
     canvas.unclip();
-    draw_color_bar(canvas, legend, scale_, viridis, "dBm");
+    maps_.draw_scale(canvas, legend);
   }
 
   std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames& names) override {
     const int shown = shown_ranges();
-    const std::optional<RasterCell> cell = cell_at(picture, columns_, shown, x, y);
+    const std::optional<RasterCell> cell = cell_at(picture, maps_.columns(), shown, x, y);
     if (!cell) return {};
     const int range = shown - 1 - cell->row;
     const std::string text =
         fmt::format("{:.2f} m, {:.2f} m/s: {:.1f} dBm", range * range_bin_m_,
-                    velocity_min_ + cell->column * velocity_bin_, level(row, range, cell->column));
+                    velocity_min_ + cell->column * velocity_bin_, maps_.level(row, range, cell->column));
     return text + marks_at(
                       row, x, y,
                       [&](const Mark& mark) { return place(picture, mark.range_m, mark.velocity); }, names);
@@ -202,7 +192,7 @@ class SensingPanel : public SensingMaps {
  private:
   dvec2 place(const Rect& picture, double range_m, double velocity) const {
     return {picture.x + ((velocity - velocity_min_) / velocity_bin_ + 0.5) * picture.width /
-                            static_cast<double>(columns_),
+                            static_cast<double>(maps_.columns()),
             picture.bottom() - (range_m / range_bin_m_ + 0.5) * picture.height / shown_ranges()};
   }
 };
@@ -218,18 +208,18 @@ class SensingAzimuthPanel : public SensingMaps {
     const PolarMap map = polar();
     canvas.clip(picture);
     map.draw_cells(canvas, picture,
-                   [&](int64_t range, int64_t azimuth) { return color(row, range, azimuth); });
+                   [&](int64_t range, int64_t azimuth) { return maps_.color(row, range, azimuth); });
     map.draw_rings(canvas, picture);
     draw_marks(canvas, row, [&](const Mark& mark) { return map.place(picture, mark.range_m, mark.azimuth); });
     map.draw_sensor(canvas, picture);
     canvas.unclip();
-    draw_color_bar(canvas, legend, scale_, viridis, "dBm");
+    maps_.draw_scale(canvas, legend);
   }
 
   std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames& names) override {
     const PolarMap map = polar();
     const std::string text = map.text_at(
-        picture, x, y, [&](int64_t range, int64_t azimuth) { return level(row, range, azimuth); });
+        picture, x, y, [&](int64_t range, int64_t azimuth) { return maps_.level(row, range, azimuth); });
     if (text.empty()) return {};
     return text + marks_at(
                       row, x, y,
@@ -239,7 +229,8 @@ class SensingAzimuthPanel : public SensingMaps {
 
  private:
   PolarMap polar() const {
-    return {{range_bin_m_, azimuth_min_, azimuth_max_, ranges_, columns_}, shown_ranges() * range_bin_m_};
+    return {{range_bin_m_, azimuth_min_, azimuth_max_, ranges_, maps_.columns()},
+            shown_ranges() * range_bin_m_};
   }
 };
 
