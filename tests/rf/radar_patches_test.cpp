@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Compares the two-dimensional transform of patches with the sum of their echoes, one by one.
-#include <gtest/gtest.h>
-
 #include <cstring>
+
+#include <gtest/gtest.h>
 
 #include "core/random.h"
 #include "rf/radar/signal/patch_kernel.h"

@@ -22,6 +22,20 @@ void add_plate(TinyScene& tiny) {
   tiny.object("plate").quad({plate_m, h, -h}, {plate_m, -h, -h}, {plate_m, -h, h}, {plate_m, h, h});
 }
 
+/// Adds a crown with the material after the default one, a volume().
+void add_crown(TinyScene& tiny, const scene::Foliage& foliage, const dvec3& low, const dvec3& high) {
+  scene::Material leaves;
+  leaves.name = "leaves";
+  leaves.radio.emplace().foliage = foliage;
+  tiny.object("crown", 0, tiny.material_as(leaves)).box(low, high);
+}
+
+RadioSurface volume() {
+  RadioSurface surface;
+  surface.foliage = true;
+  return surface;
+}
+
 /// Returns the echo of the plate, and the number of echoes of everything.
 struct Seen {
   double section_db = -300.0;
@@ -73,15 +87,9 @@ TEST_F(RadarVeils, APaneTakesItsTransmissionTwice) {
 
 TEST_F(RadarVeils, ACrownTakesItsDepthOutAndHome) {
   TinyScene tiny;
-  scene::Material leaves;
-  leaves.name = "leaves";
-  leaves.radio.emplace().foliage.emplace();
-  const uint32_t material = tiny.material_as(leaves);
-  tiny.object("crown", 0, material).box({20, -2, -2}, {23, 2, 2});
+  add_crown(tiny, {}, {20, -2, -2}, {23, 2, 2});
   add_plate(tiny);
-  RadioSurface volume;
-  volume.foliage = true;
-  const std::vector<RadioSurface> surfaces{conductor(), volume};
+  const std::vector<RadioSurface> surfaces{conductor(), volume()};
   const double depth_db = foliage_db({}, radar_carrier_hz, 3.0);
   EXPECT_GT(depth_db, 4.0);
   EXPECT_NEAR(seen(tiny, surfaces, true).section_db, open_db_ - 2.0 * depth_db, 0.05);
@@ -90,18 +98,12 @@ TEST_F(RadarVeils, ACrownTakesItsDepthOutAndHome) {
 
 TEST_F(RadarVeils, ThreadsChangeNoByte) {
   TinyScene tiny;
-  scene::Material leaves;
-  leaves.name = "leaves";
-  leaves.radio.emplace().foliage.emplace();
-  const uint32_t material = tiny.material_as(leaves);
-  tiny.object("crown", 0, material).box({20, -3, -2}, {22, 3, 2});
+  add_crown(tiny, {}, {20, -3, -2}, {22, 3, 2});
   for (int i = 0; i < 300; ++i) {
     const double x = 30.0 + 0.1 * i, y = 0.03 * (i % 17) - 0.2, z = 0.05 * (i % 11) - 0.3;
     tiny.object("plate").quad({x, y + 0.04, z}, {x, y, z}, {x, y, z + 0.04}, {x, y + 0.04, z + 0.04});
   }
-  RadioSurface volume;
-  volume.foliage = true;
-  EchoScene scene(tiny, {conductor(), volume});
+  EchoScene scene(tiny, {conductor(), volume()});
   std::vector<EchoList> lists;
   for (const uint32_t threads : {1u, 2u, 7u}) {
     EchoOptions options;
@@ -121,16 +123,10 @@ TEST_F(RadarVeils, ThreadsChangeNoByte) {
 
 TEST_F(RadarVeils, APlateHalfBehindACrownIsSeenOnceAndNotTwice) {
   TinyScene tiny;
-  scene::Material leaves;
-  leaves.name = "leaves";
-  leaves.radio.emplace().foliage = scene::Foliage{.attenuation_db_per_m = 0.0};
-  const uint32_t material = tiny.material_as(leaves);
   // A crown that takes nothing hides half of the plate: the sum is the whole plate.
-  tiny.object("crown", 0, material).box({20, 0, -2}, {23, 2, 2});
+  add_crown(tiny, {.attenuation_db_per_m = 0.0}, {20, 0, -2}, {23, 2, 2});
   add_plate(tiny);
-  RadioSurface volume;
-  volume.foliage = true;
-  EXPECT_NEAR(seen(tiny, {conductor(), volume}, true).section_db, open_db_, 0.1);
+  EXPECT_NEAR(seen(tiny, {conductor(), volume()}, true).section_db, open_db_, 0.1);
 }
 
 }  // namespace
