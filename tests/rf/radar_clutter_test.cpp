@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/rf/radar_echo_scenes.h"
+#include "tests/rf/radar_clutter_scenes.h"
 
 namespace greatx::rf {
 namespace {
@@ -14,31 +14,13 @@ namespace {
 using test::TinyScene;
 using testing::EchoScene;
 using testing::looking;
+using testing::patch_amplitude;
+using testing::patch_range;
+using testing::power_between;
 using testing::radar_carrier_hz;
 using testing::radar_wavelength_m;
-
-/// A material of a perfect conductor with a clutter model.
-scene::Material rough_material(const char* clutter, double cross_db = -200.0) {
-  scene::Material material;
-  material.name = clutter;
-  material.radio.emplace().clutter = scene::clutter_called(clutter);
-  material.radio->clutter->cross_db = cross_db;
-  return material;
-}
-
-/// Options of a radar at rest with one slot, whose range cell is 1 m.
-EchoOptions still_options(double half_azimuth_deg, double elevation_min_deg, double elevation_max_deg) {
-  EchoOptions options;
-  options.field_of_view = {radians(-half_azimuth_deg), radians(half_azimuth_deg), radians(elevation_min_deg),
-                           radians(elevation_max_deg)};
-  options.tubes = 2000;
-  options.diffuse = true;
-  options.waveform.carrier_hz = radar_carrier_hz;
-  options.waveform.slope_hz_per_s = 3.5e12;
-  options.waveform.slots = options.waveform.transmitters = 1;
-  options.beam_rad = 0.1;
-  return options;
-}
+using testing::rough_material;
+using testing::still_options;
 
 /// A floor of 60 m x 40 m, 10 m below the radar.
 TinyScene floor_scene(const scene::Material& material) {
@@ -46,17 +28,6 @@ TinyScene floor_scene(const scene::Material& material) {
   const uint32_t rough = tiny.material_as(material);
   tiny.object("floor", 0, rough).quad({5, -20, -10}, {65, -20, -10}, {65, 20, -10}, {5, 20, -10});
   return tiny;
-}
-
-double patch_range(const PatchList& list, size_t i) { return 0.5 * speed_of_light * list.delay_s[i]; }
-Complex patch_amplitude(const PatchList& list, size_t i) { return {list.re[i], list.im[i]}; }
-
-double power_between(const PatchList& list, double from_m, double to_m) {
-  double power = 0.0;
-  for (size_t i = 0; i < list.size(); ++i)
-    if (patch_range(list, i) > from_m && patch_range(list, i) < to_m)
-      power += std::norm(patch_amplitude(list, i));
-  return power;
 }
 
 /// The radar equation over the floor, for elements of gain 1 with vertical polarization.
@@ -187,7 +158,9 @@ TEST(RadarClutter, ShadowsAreExact) {
   TinyScene tiny = floor_scene(rough_material("grass"));
   tiny.object("wall").quad({20, -20, -10}, {20, -20, -5}, {20, 20, -5}, {20, 20, -10});
   EchoScene scene(tiny);
-  const PatchList patches = scene.find(still_options(20.0, -60.0, -5.0), Pose{}).patches;
+  EchoOptions options = still_options(20.0, -60.0, -5.0);
+  options.max_bounces = 1;  // the wall mirrors the floor before it
+  const PatchList patches = scene.find(options, Pose{}).patches;
   // The top of the wall, 5 m below the radar and 20 m away, hides the floor from x = 20 m to x = 40 m.
   size_t before = 0, behind = 0, beyond = 0;
   for (size_t i = 0; i < patches.size(); ++i) {
@@ -197,6 +170,18 @@ TEST(RadarClutter, ShadowsAreExact) {
   EXPECT_GT(before, 100u);
   EXPECT_EQ(behind, 0u);
   EXPECT_GT(beyond, 100u);
+}
+
+TEST(RadarClutter, TubesAtTheBorderOfTheViewEndWithTheFloor) {
+  // The highest row of tubes looks 0.5 to 1.5 degrees down from 1 m above a floor that ends after 65 m, where
+  // it is seen 0.9 degrees down.
+  const TinyScene tiny = floor_scene(rough_material("grass"));
+  EchoScene scene(tiny);
+  const Pose low{{0, 0, -9}, {1, 0, 0, 0}};
+  const PatchList patches = scene.find(still_options(30.0, -10.0, -0.5), low).patches;
+  ASSERT_GT(patches.size(), 100u);
+  for (size_t i = 0; i < patches.size(); ++i)
+    EXPECT_LT(patch_range(patches, i) * double(patches.departure[i].x), 65.0 + 1e-4) << i;
 }
 
 TEST(RadarClutter, NoiseHidesOnlyWhatStaysBelowIt) {

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "core/units.h"
-#include "rf/atmosphere/path_attenuation.h"
-#include "rf/radar/echoes/echo_tracks.h"
+#include "rf/radar/echoes/clutter_ends.h"
+#include "rf/radar/echoes/surface_bounce.h"
 #include "rf/radar/echoes/tube_beam.h"
 #include "rf/radar/signal/lanes.h"
 #include "rf/surface/incidence.h"
@@ -20,10 +19,10 @@
 namespace greatx::rf {
 namespace {
 
-constexpr size_t part_chunk = 64, scatterer_chunk = 1024;
-/// Scatterers that need more blocks than this become echoes with delays of their own.
-constexpr uint32_t most_blocks = 8;
+constexpr size_t part_chunk = 64;
 constexpr double scatterers_in_a_cell = 4.0;
+/// Over a mirror, where clutter is weaker than beside it, statistics of a coarser lattice will do.
+constexpr double mirrored_in_a_cell = 1.0;
 constexpr double least_slope = 0.2;  ///< cosine of the steepest grazing angle that still counts for a cell
 
 uint64_t mixed(uint64_t value) { return mix64(value + 0x9e3779b97f4a7c15ull); }
@@ -72,8 +71,8 @@ struct Outline {
 
 }  // namespace
 
-void ClutterParts::add(uint32_t tube, uint32_t facet, const Polygon& piece) {
-  parts.push_back({tube, facet, static_cast<uint32_t>(corners.size()), piece.size()});
+void ClutterParts::add(uint32_t tube, uint32_t facet, uint32_t mirror, const Polygon& piece) {
+  parts.push_back({tube, facet, mirror, static_cast<uint32_t>(corners.size()), piece.size()});
   for (uint32_t i = 0; i < piece.size(); ++i) corners.push_back(piece[i]);
 }
 
@@ -86,13 +85,6 @@ void ClutterParts::append(const ClutterParts& more) {
   }
 }
 
-struct ClutterPatches::Ends {
-  Pose transmitter, receiver;
-  dmat3 turn{1.0};                       ///< local axes from those of the transmitter
-  double cell_rad = 0.1;                 ///< width of a resolution cell
-  std::optional<TurnedElement> element;  ///< the receiver's; empty if it is the transmitter's
-};
-
 ClutterPatches::ClutterPatches(const scene::Scene& scene, const RadioSurfaces& surfaces,
                                const EchoOptions& options, const EchoEnd& transmitter,
                                const EchoEnd* receiver)
@@ -100,6 +92,7 @@ ClutterPatches::ClutterPatches(const scene::Scene& scene, const RadioSurfaces& s
       options_(options),
       table_(scene, surfaces),
       cells_(options, transmitter.pattern, transmitter.slant),
+      surfaces_(surfaces),
       receiver_pattern_(receiver != nullptr ? receiver->pattern : transmitter.pattern),
       receiver_slant_(receiver != nullptr ? receiver->slant : transmitter.slant),
       monostatic_(receiver == nullptr),
@@ -107,75 +100,75 @@ ClutterPatches::ClutterPatches(const scene::Scene& scene, const RadioSurfaces& s
       side_m_(options.diffuse_patch_m > 0.0 ? options.diffuse_patch_m
                                             : 0.25 * speed_of_light / options.waveform.bandwidth_hz()) {}
 
-Complex ClutterPatches::amplitude(const PosedFacet& facet, const dvec3& point, double side,
-                                  const CellField& field, const Ends& ends, uint64_t draw) const {
-  const dvec3 arm = point - ends.transmitter.position;
-  const double before = glm::length(arm);
-  const dvec3 in = arm / before;
-  const double towards = glm::dot(in, facet.normal);
+Complex ClutterPatches::amplitude(const PosedFacet& facet, const Leg& out, const Leg& home, double side,
+                                  uint64_t draw) const {
+  const double towards = glm::dot(out.in, facet.normal);
   const dvec3 normal = towards < 0.0 ? facet.normal : -facet.normal;
-  const dvec3 h_in = s_axis(in, normal), v_in = glm::cross(in, h_in);
-  const FieldVector sent = field.towards(in);
-  double after = before, sine = std::abs(towards);
-  dvec3 home = in, h_out = h_in, v_out = v_in;
-  FieldVector heard = sent;
-  if (ends.element) {
-    const dvec3 back = point - ends.receiver.position;
-    after = glm::length(back);
-    home = back / after;
-    sine = 0.5 * (sine + std::abs(glm::dot(home, normal)));
-    h_out = s_axis(home, normal), v_out = glm::cross(home, h_out);
-    heard = field_towards(*ends.element, home);
+  const dvec3 h_out = s_axis(out.in, normal), v_out = glm::cross(out.in, h_out);
+  const Complex sent_h = out.field.along(h_out), sent_v = out.field.along(v_out);
+  double sine = std::abs(towards);
+  Complex heard_h = sent_h, heard_v = sent_v;
+  if (&home != &out) {
+    sine = 0.5 * (sine + std::abs(glm::dot(home.in, normal)));
+    const dvec3 h_home = s_axis(home.in, normal);
+    heard_h = home.field.along(h_home), heard_v = home.field.along(glm::cross(home.in, h_home));
   }
   const ClutterTable::Roots root = table_.at(facet.material, towards < 0.0, sine);
-  const Complex sent_h = sent.along(h_in), sent_v = sent.along(v_in), heard_h = heard.along(h_out),
-                heard_v = heard.along(v_out);
   const Complex co = double(root.hh) * sent_h * heard_h + double(root.vv) * sent_v * heard_v,
                 cross = double(root.hv) * (sent_h * heard_v + sent_v * heard_h);
   const std::complex<float> g = gaussian(mixed(draw + 1)), g_cross = gaussian(mixed(draw + 2));
-  const double scale = wavelength_m_ * side / (std::pow(4.0 * pi, 1.5) * before * after);
+  const double scale = wavelength_m_ * side / (std::pow(4.0 * pi, 1.5) * out.length_m * home.length_m);
   return scale * (Complex(g) * co + Complex(g_cross) * cross);
 }
 
-ClutterPatches::Cell ClutterPatches::cell_at(const PosedFacet& facet, const dvec2& place,
-                                             const Ends& ends) const {
-  const dvec3 arm = point_of(facet, place) - ends.transmitter.position;
+ClutterPatches::Cell ClutterPatches::cell_at(const PosedFacet& facet, const dvec2& place, const dvec3& out,
+                                             const dvec3& home) const {
+  const dvec3 point = point_of(facet, place), there = point - out, back = point - home;
   Cell cell;
-  cell.distance = glm::length(arm);
-  cell.sine = std::abs(glm::dot(arm, facet.normal)) / cell.distance;
-  const double slope = std::max(least_slope, std::sqrt(std::max(0.0, 1.0 - cell.sine * cell.sine)));
-  cell.area = options_.waveform.range_bin_m() / slope * cell.distance * ends.cell_rad;
+  cell.out_m = glm::length(there), cell.home_m = glm::length(back);
+  const double sine_out = glm::dot(there, facet.normal) / cell.out_m,
+               sine_home = glm::dot(back, facet.normal) / cell.home_m;
+  cell.sine = 0.5 * (std::abs(sine_out) + std::abs(sine_home));
+  // The mean of both distances changes along the surface by the mean of both unit vectors on it.
+  const dvec3 slope = 0.5 * (there / cell.out_m + back / cell.home_m);
+  const double along = std::sqrt(
+      std::max(0.0, glm::dot(slope, slope) - 0.25 * (sine_out + sine_home) * (sine_out + sine_home)));
+  cell.depth_m = options_.waveform.range_bin_m() / std::max(least_slope, along);
   return cell;
 }
 
-double ClutterPatches::side_of(const PosedFacet& facet, const Polygon& piece, const Ends& ends) const {
+double ClutterPatches::side_of(const PosedFacet& facet, const Polygon& piece, const dvec3& out,
+                               const dvec3& home, double in_a_cell, const Ends& ends) const {
   if (options_.diffuse_patch_m > 0.0) return side_m_;
-  const double wanted = std::sqrt(cell_at(facet, piece.centroid(), ends).area / scatterers_in_a_cell);
+  const Cell cell = cell_at(facet, piece.centroid(), out, home);
+  const double width = std::min(cell.out_m, cell.home_m) * ends.cell_rad,
+               wanted = std::sqrt(cell.depth_m * width / in_a_cell);
   return wanted > side_m_ ? side_m_ * std::exp2(std::nearbyint(std::log2(wanted / side_m_))) : side_m_;
 }
 
-bool ClutterPatches::hidden(const PosedFacet& facet, const Polygon& piece, const Ends& ends) const {
+template <typename Share>
+bool ClutterPatches::hidden(const PosedFacet& facet, const Polygon& piece, const dvec3& out,
+                            const dvec3& home, const Ends& ends, const Share& share) const {
   if (options_.hidden_floor_m2 == 0.0) return false;
+  const bool from_front = facet.distance(out) > 0.0;
   for (uint32_t i = 0; i < piece.size(); ++i) {
-    const Cell cell = cell_at(facet, piece[i], ends);
-    const double back = glm::distance(point_of(facet, piece[i]), ends.receiver.position);
-    const bool from_front = facet.distance(ends.transmitter.position) > 0.0;
+    const Cell cell = cell_at(facet, piece[i], out, home);
     const ClutterTable::Roots root = table_.at(facet.material, from_front, cell.sine);
-    const double strongest = std::max({root.hh, root.vv, root.hv});
-    const double way = cell.distance * back;
-    if (strongest * strongest * cell.area > options_.hidden_floor_m2 * way * way) return false;
+    const double strongest = std::max({root.hh, root.vv, root.hv}), way = cell.out_m * cell.home_m,
+                 area = cell.depth_m * std::max(cell.out_m, cell.home_m) * ends.cell_rad;
+    if (share(point_of(facet, piece[i])) * strongest * strongest * area >
+        options_.hidden_floor_m2 * way * way)
+      return false;
   }
   return true;
 }
 
-void ClutterPatches::cover(uint32_t tube, uint32_t index, const Polygon& piece, const FacetWorld& world,
-                           const Ends& ends, std::vector<Scatterer>& out) const {
+template <typename Take>
+void ClutterPatches::spread(uint32_t index, const Polygon& piece, double side, const FacetWorld& world,
+                            std::vector<Scatterer>& out, const Take& take) const {
   const PosedFacet& facet = world.facet(index);
-  if (hidden(facet, piece, ends)) return;
   const Outline outline(piece);
-  const double side = side_of(facet, piece, ends);
   const uint64_t key = mixed(options_.seed ^ mixed(index ^ mixed(std::bit_cast<uint64_t>(side))));
-  const CellField field = cells_.turned(tube, ends.turn);
   const size_t expected = out.size() + static_cast<size_t>(piece.area() / (side * side)) + 1;
   if (expected > out.capacity()) out.reserve(expected + expected / 2);
   const auto last_row = static_cast<int64_t>(std::floor(outline.high.y / side));
@@ -185,13 +178,104 @@ void ClutterPatches::cover(uint32_t tube, uint32_t index, const Polygon& piece, 
     for (auto column = static_cast<int64_t>(std::floor(reach.x / side)); column <= last; ++column) {
       const uint64_t draw = mixed(key ^ (static_cast<uint64_t>(row) << 32 | static_cast<uint32_t>(column)));
       const dvec2 place = side * dvec2(double(column) + share_of(draw), double(row) + share_of(draw >> 32));
-      if (!outline.has(place)) continue;
-      Scatterer& one = out.emplace_back();
-      one.point = point_of(facet, place);
-      one.facet = index;
-      one.amplitude = amplitude(facet, one.point, side, field, ends, draw);
+      if (outline.has(place)) take(point_of(facet, place), draw);
     }
   }
+}
+
+void ClutterPatches::cover(const ClutterParts::Part& part, const Polygon& piece, const FacetWorld& world,
+                           const Ends& ends, std::vector<Scatterer>& out) const {
+  const PosedFacet& facet = world.facet(part.facet);
+  const dvec3 &from = ends.transmitter.position, &to = ends.receiver.position;
+  if (hidden(facet, piece, from, to, ends, [](const dvec3&) { return 1.0; })) return;
+  const double side = side_of(facet, piece, from, to, scatterers_in_a_cell, ends);
+  const CellField field = cells_.turned(part.tube, ends.turn);
+  spread(part.facet, piece, side, world, out, [&](const dvec3& point, uint64_t draw) {
+    const dvec3 arm = point - from;
+    Leg there{{}, glm::length(arm), {}};
+    there.in = arm / there.length_m;
+    there.field = field.towards(there.in);
+    Complex sent;
+    if (ends.element) {
+      const dvec3 back = point - to;
+      Leg home{{}, glm::length(back), {}};
+      home.in = back / home.length_m;
+      home.field = field_towards(*ends.element, home.in);
+      sent = amplitude(facet, there, home, side, draw);
+    } else {
+      sent = amplitude(facet, there, there, side, draw);
+    }
+    out.push_back({sent, point, part.facet, ClutterParts::no_mirror, Scatterer::Over::none});
+  });
+}
+
+/// Holds a mirror and the image of the radar that it shows.
+struct ClutterPatches::Over {
+  const PosedFacet& mirror;
+  dvec3 radar, image;
+  const RadioSurfaces& surfaces;
+  const EchoOptions& options;
+
+  /// Returns the wave that seems to come from the image. `field` is that of the tube which met the mirror.
+  Leg leg(const dvec3& point, const CellField& field) const {
+    const dvec3 arm = point - image;
+    Leg leg{{}, glm::length(arm), {}};
+    leg.in = arm / leg.length_m;
+    const dvec3 departure = mirrored_direction(mirror, radar, point);
+    const SurfaceBounce at = bounce_of(surfaces, mirror, field.towards(departure), departure);
+    leg.field = at.reflected;
+    leg.field.scale(coherent_share(surfaces, options, mirror.material, at.cosine));
+    return leg;
+  }
+  /// Returns the share of the power that the mirror leaves to the stronger polarization.
+  double share(const dvec3& point) const {
+    const double towards = glm::dot(mirrored_direction(mirror, radar, point), mirror.normal),
+                 cosine = std::min(1.0, std::abs(towards));
+    const ReflectionCoefficients fresnel = surfaces.reflect(mirror.material, towards < 0.0, cosine);
+    const double kept = coherent_share(surfaces, options, mirror.material, cosine);
+    return kept * kept * std::max(std::norm(fresnel.r_te), std::norm(fresnel.r_tm));
+  }
+};
+
+void ClutterPatches::cover_over(const ClutterParts::Part& part, const Polygon& piece, const FacetWorld& world,
+                                const Ends& ends, std::vector<Scatterer>& out) const {
+  using Way = Scatterer::Over;
+  const PosedFacet& facet = world.facet(part.facet);
+  const dvec3& radar = ends.transmitter.position;
+  const Over over{world.facet(part.mirror), radar, mirrored(world.facet(part.mirror), radar), surfaces_,
+                  options_};
+  const bool both = options_.max_bounces >= mirror_bounces &&
+                    !hidden(facet, piece, over.image, over.image, ends, [&](const dvec3& point) {
+                      const double once = over.share(point);
+                      return once * once;
+                    });
+  const bool once =
+      facet.distance(over.image) * facet.distance(radar) > 0.0 &&
+      !hidden(facet, piece, over.image, radar, ends, [&](const dvec3& point) { return over.share(point); });
+  if (!both && !once) return;
+  const double side = side_of(facet, piece, over.image, once ? radar : over.image, mirrored_in_a_cell, ends);
+  const CellField field = cells_.turned(part.tube, ends.turn);
+  uint32_t direct_tube = RayGrid::outside;
+  CellField direct_field;
+  spread(part.facet, piece, side, world, out, [&](const dvec3& point, uint64_t draw) {
+    const Leg there = over.leg(point, field);
+    if (both)
+      out.push_back({amplitude(facet, there, there, side, draw), point, part.facet, part.mirror, Way::both});
+    if (!once) return;
+    const dvec3 arm = point - radar;
+    const uint32_t tube = ends.sight.grid.tube_at(arm);
+    if (tube == RayGrid::outside) return;
+    const dvec3 lit = facet.distance(radar) > 0.0 ? facet.normal : -facet.normal;
+    if (!ends.sight.tracer.clear(ends.sight.view, EchoTracer::lifted(point, lit), radar, part.facet)) return;
+    if (tube != direct_tube) direct_tube = tube, direct_field = cells_.turned(tube, ends.turn);
+    Leg home{{}, glm::length(arm), {}};
+    home.in = arm / home.length_m;
+    home.field = direct_field.towards(home.in);
+    // The way out directly and home over the mirror is the reciprocal of this one.
+    const Complex sent = amplitude(facet, there, home, side, draw);
+    out.push_back({sent, point, part.facet, part.mirror, Way::out});
+    out.push_back({sent, point, part.facet, part.mirror, Way::home});
+  });
 }
 
 std::vector<Scatterer> ClutterPatches::scatterers(const ClutterParts& parts, const FacetWorld& world,
@@ -200,7 +284,10 @@ std::vector<Scatterer> ClutterPatches::scatterers(const ClutterParts& parts, con
   parallel_for(found.size(), options_.threads, [&](size_t chunk) {
     for (size_t i = chunk * part_chunk; i < std::min(parts.parts.size(), (chunk + 1) * part_chunk); ++i) {
       const ClutterParts::Part& part = parts.parts[i];
-      cover(part.tube, part.facet, parts.piece(part), world, ends, found[chunk]);
+      if (part.mirror == ClutterParts::no_mirror)
+        cover(part, parts.piece(part), world, ends, found[chunk]);
+      else
+        cover_over(part, parts.piece(part), world, ends, found[chunk]);
     }
   });
   size_t count = 0;
@@ -209,118 +296,6 @@ std::vector<Scatterer> ClutterPatches::scatterers(const ClutterParts& parts, con
   all.reserve(count);
   for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
   return all;
-}
-
-namespace {
-
-/// The lengths of the ways over scatterers at a few times.
-class Ways {
- public:
-  Ways(const std::vector<Scatterer>& all, const FacetWorld& world, size_t bodies, const EchoMotion& motion,
-       std::vector<double> times)
-      : all_(all), world_(world), table_(motion, asked(bodies), std::move(times)) {}
-
-  double length(size_t i, size_t time) const {
-    const uint32_t body = world_.facet(all_[i].facet).body;
-    const dvec3 at = body == 0 ? all_[i].point : table_.body(body, time).apply(carried_[i]);
-    return glm::distance(at, table_.transmitter(time)) + glm::distance(at, table_.receiver(time));
-  }
-
- private:
-  std::span<const bool> asked(size_t bodies) {
-    asked_ = std::make_unique<bool[]>(bodies);
-    for (size_t i = 0; i < all_.size(); ++i)
-      if (const uint32_t body = world_.facet(all_[i].facet).body; body != 0) {
-        if (carried_.empty()) carried_.resize(all_.size());
-        carried_[i] = world_.motion(body).pose.inverse().apply(all_[i].point);
-        asked_[body] = true;
-      }
-    return {asked_.get(), bodies};
-  }
-
-  const std::vector<Scatterer>& all_;
-  const FacetWorld& world_;
-  std::unique_ptr<bool[]> asked_;
-  std::vector<dvec3> carried_;  ///< places in the frames of the bodies; empty if nothing moves
-  PoseTable table_;
-};
-
-/// Returns rate and curvature of the delay in the middle of three times that are `step_s` apart.
-struct Slopes {
-  double delay_s, rate, curvature_per_s;
-};
-Slopes slopes(const Ways& ways, size_t i, size_t first, double step_s) {
-  const double before = ways.length(i, first), now = ways.length(i, first + 1),
-               after = ways.length(i, first + 2);
-  return {now / speed_of_light, (after - before) / (2.0 * step_s * speed_of_light),
-          (after - 2.0 * now + before) / (step_s * step_s * speed_of_light)};
-}
-
-std::vector<double> about(double middle_s, double step_s) {
-  return {middle_s - step_s, middle_s, middle_s + step_s};
-}
-
-}  // namespace
-
-FoundPatches ClutterPatches::timed(std::vector<Scatterer> all, const FacetWorld& world, const Ends& ends,
-                                   const EchoMotion& motion) const {
-  const RadarWaveform& w = options_.waveform;
-  const uint32_t slots = static_cast<uint32_t>(motion.slot_start_s.size());
-  const double frame_s = std::max(motion.frame_s(), w.interval_s);
-  const auto chunks = [](size_t count) { return (count + scatterer_chunk - 1) / scatterer_chunk; };
-  FoundPatches found;
-  std::vector<uint32_t> blocks(all.size());
-  {
-    const double step_s = 0.5 * frame_s;
-    const Ways ways(all, world, scene_.bodies.size(), motion,
-                    about(motion.slot_start_s.front() + step_s, step_s));
-    parallel_for(chunks(all.size()), options_.threads, [&](size_t chunk) {
-      for (size_t i = chunk * scatterer_chunk; i < std::min(all.size(), (chunk + 1) * scatterer_chunk); ++i) {
-        const Slopes at = slopes(ways, i, 0, step_s);
-        blocks[i] = patch_blocks(w, slots, std::abs(at.rate), std::abs(at.curvature_per_s));
-      }
-    });
-  }
-  size_t kept = 0;
-  for (size_t i = 0; i < all.size(); ++i) {
-    if (blocks[i] > most_blocks) {
-      found.fast.push_back(all[i]);
-      continue;
-    }
-    found.list.blocks = std::max(found.list.blocks, blocks[i]);
-    all[kept++] = all[i];
-  }
-  all.resize(kept);
-  PatchList& list = found.list;
-  const size_t count = all.size();
-  for (auto* column : {&list.re, &list.im}) column->resize(count);
-  list.departure.resize(count), list.instance.resize(count);
-  if (!monostatic_) list.arrival.resize(count);
-  list.delay_s.resize(list.blocks * count), list.rate.resize(list.blocks * count);
-  const double step_s = 0.25 * frame_s / list.blocks;
-  std::vector<double> times;
-  for (uint32_t block = 0; block < list.blocks; ++block)
-    for (const double time :
-         about(patch_block(w, motion.first_slot, slots, list.blocks, block).middle_s, step_s))
-      times.push_back(time);
-  const Ways ways(all, world, scene_.bodies.size(), motion, std::move(times));
-  parallel_for(chunks(count), options_.threads, [&](size_t chunk) {
-    for (size_t i = chunk * scatterer_chunk; i < std::min(count, (chunk + 1) * scatterer_chunk); ++i) {
-      const Scatterer& one = all[i];
-      list.departure[i] = vec3(glm::normalize(one.point - ends.transmitter.position));
-      if (!monostatic_) list.arrival[i] = vec3(glm::normalize(one.point - ends.receiver.position));
-      list.instance[i] = scene_.facets[one.facet].instance + 1;
-      for (uint32_t block = 0; block < list.blocks; ++block) {
-        const Slopes at = slopes(ways, i, 3 * size_t{block}, step_s);
-        list.delay_s[block * count + i] = at.delay_s;
-        list.rate[block * count + i] = at.rate;
-      }
-      const double air = rf::amplitude(options_.air_db_per_km, speed_of_light * list.delay_s[i]);
-      list.re[i] = static_cast<float>(air * one.amplitude.real());
-      list.im[i] = static_cast<float>(air * one.amplitude.imag());
-    }
-  });
-  return found;
 }
 
 /// Returns the width of a resolution cell across the range: that of the beam, or that which the Doppler
@@ -333,9 +308,10 @@ double ClutterPatches::cell_rad(const EchoMotion& motion) const {
   return std::min(options_.beam_rad, 0.5 * wavelength_m_ / std::max(moved, 1e-12));
 }
 
-FoundPatches ClutterPatches::find(const ClutterParts& parts, const FacetWorld& world, const Pose& transmitter,
-                                  const Pose& receiver, const EchoMotion& motion) const {
-  Ends ends{transmitter, receiver, glm::mat3_cast(transmitter.orientation), 0.0, std::nullopt};
+FoundPatches ClutterPatches::find(const ClutterParts& parts, const FacetWorld& world,
+                                  const ClutterSight& sight, const Pose& transmitter, const Pose& receiver,
+                                  const EchoMotion& motion) const {
+  Ends ends{transmitter, receiver, sight, glm::mat3_cast(transmitter.orientation), 0.0, std::nullopt};
   ends.cell_rad = cell_rad(motion);
   if (!monostatic_)
     ends.element.emplace(receiver_pattern_, std::span(&receiver_slant_, 1), receiver.orientation);

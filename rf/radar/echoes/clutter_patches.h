@@ -16,6 +16,11 @@
 // F of both elements. The echo of a resolution cell is the coherent sum of its scatterers: its amplitude is
 // that of Rayleigh, it stays as long as the aspect stays, and it changes with the aspect and the carrier as
 // the sum of as many points does.
+//
+// A tube of a monostatic radar that meets a mirror first lights scatterers that the mirror shows. They send
+// back over the mirror, and, where the radar sees them itself, directly; and what reaches them directly goes
+// home over the mirror. On a way over the mirror, r is the distance from the radar's image, and F is
+// reflected by the mirror.
 #pragma once
 
 #include <cstdint>
@@ -26,34 +31,59 @@
 #include "rf/config/echo_options.h"
 #include "rf/facets/facet_world.h"
 #include "rf/radar/echoes/echo_motion.h"
+#include "rf/radar/echoes/echo_tracer.h"
 #include "rf/radar/echoes/element_cells.h"
 #include "rf/radar/echoes/polygon.h"
+#include "rf/radar/echoes/ray_grid.h"
 #include "rf/radar/signal/patches.h"
 #include "rf/surface/clutter_table.h"
 
 namespace greatx::rf {
 
-/// Parts of tubes on rough surfaces that both ends see.
+/// Parts of tubes on rough surfaces, which both ends see, or which the transmitter sees over a mirror.
 struct ClutterParts {
+  static constexpr uint32_t no_mirror = ~0u;
   struct Part {
     uint32_t tube = 0, facet = 0;
+    uint32_t mirror = no_mirror;    ///< facet that the tube has met before
     uint32_t first = 0, count = 0;  ///< range of `corners`
   };
   std::vector<Part> parts;
   std::vector<dvec2> corners;  ///< in the plane coordinates of the facets
 
-  void add(uint32_t tube, uint32_t facet, const Polygon& piece);
+  void add(uint32_t tube, uint32_t facet, uint32_t mirror, const Polygon& piece);
   void append(const ClutterParts& more);
   Polygon piece(const Part& part) const {
     return Polygon(std::span(corners).subspan(part.first, part.count));
   }
 };
 
-/// One scatterer.
+/// One scatterer, and one way over it.
 struct Scatterer {
+  /// Which of the ways out and home leads over the mirror.
+  enum class Over : uint8_t { none, both, out, home };
   Complex amplitude;
   dvec3 point{0.0};  ///< local coordinates
   uint32_t facet = 0;
+  uint32_t mirror = ClutterParts::no_mirror;
+  Over over = Over::none;
+};
+
+/// Returns the image of a point in the plane of a mirror.
+inline dvec3 mirrored(const PosedFacet& mirror, const dvec3& point) {
+  return point - 2.0 * mirror.distance(point) * mirror.normal;
+}
+
+/// Returns the unit vector from `end` to the place on the mirror where it shows `point`.
+inline dvec3 mirrored_direction(const PosedFacet& mirror, const dvec3& end, const dvec3& point) {
+  return glm::normalize(mirrored(mirror, point) - end);
+}
+
+/// Tells what a radar sees directly of the scatterers that a mirror shows.
+struct ClutterSight {
+  const RayGrid& grid;
+  const EchoTracer& tracer;
+  const EchoTracer::View& view;
 };
 
 struct FoundPatches {
@@ -70,35 +100,55 @@ class ClutterPatches {
 
   bool rough(uint32_t material) const { return table_.rough(material); }
   /// Returns the patches of `parts`. The bytes do not depend on the number of threads.
-  FoundPatches find(const ClutterParts& parts, const FacetWorld& world, const Pose& transmitter,
-                    const Pose& receiver, const EchoMotion& motion) const;
+  FoundPatches find(const ClutterParts& parts, const FacetWorld& world, const ClutterSight& sight,
+                    const Pose& transmitter, const Pose& receiver, const EchoMotion& motion) const;
 
  private:
   struct Ends;
+  struct Over;
+  /// The wave of an element at a scatterer.
+  struct Leg {
+    dvec3 in{1, 0, 0};  ///< unit vector, away from the element or its image
+    double length_m = 0.0;
+    FieldVector field;
+  };
   /// A resolution cell around a place on a facet.
   struct Cell {
-    double distance = 0.0, sine = 0.0;  ///< from the transmitter; sine of the grazing angle
-    double area = 0.0;                  ///< m^2 of the surface
+    double out_m = 0.0, home_m = 0.0;  ///< distances from both ends or their images
+    double sine = 0.0;                 ///< mean of the sines of both grazing angles
+    double depth_m = 0.0;              ///< along the range, on the surface
   };
-  Cell cell_at(const PosedFacet& facet, const dvec2& place, const Ends& ends) const;
+  Cell cell_at(const PosedFacet& facet, const dvec2& place, const dvec3& out, const dvec3& home) const;
   /// Returns whether noise hides all resolution cells at the corners of a part
-  /// (EchoOptions::hidden_floor_m2).
-  bool hidden(const PosedFacet& facet, const Polygon& piece, const Ends& ends) const;
-  double side_of(const PosedFacet& facet, const Polygon& piece, const Ends& ends) const;
+  /// (EchoOptions::hidden_floor_m2). `share(point)` is the share of the power that mirrors leave.
+  template <typename Share>
+  bool hidden(const PosedFacet& facet, const Polygon& piece, const dvec3& out, const dvec3& home,
+              const Ends& ends, const Share& share) const;
+  double side_of(const PosedFacet& facet, const Polygon& piece, const dvec3& out, const dvec3& home,
+                 double in_a_cell, const Ends& ends) const;
   double cell_rad(const EchoMotion& motion) const;
   std::vector<Scatterer> scatterers(const ClutterParts& parts, const FacetWorld& world,
                                     const Ends& ends) const;
-  void cover(uint32_t tube, uint32_t facet, const Polygon& piece, const FacetWorld& world, const Ends& ends,
+  /// Calls `take(point, draw)` for the scatterers of a part.
+  template <typename Take>
+  void spread(uint32_t facet, const Polygon& piece, double side, const FacetWorld& world,
+              std::vector<Scatterer>& out, const Take& take) const;
+  void cover(const ClutterParts::Part& part, const Polygon& piece, const FacetWorld& world, const Ends& ends,
              std::vector<Scatterer>& out) const;
-  Complex amplitude(const PosedFacet& facet, const dvec3& point, double side, const CellField& field,
-                    const Ends& ends, uint64_t draw) const;
+  void cover_over(const ClutterParts::Part& part, const Polygon& piece, const FacetWorld& world,
+                  const Ends& ends, std::vector<Scatterer>& out) const;
+  Complex amplitude(const PosedFacet& facet, const Leg& out, const Leg& home, double side,
+                    uint64_t draw) const;
   FoundPatches timed(std::vector<Scatterer> all, const FacetWorld& world, const Ends& ends,
                      const EchoMotion& motion) const;
+  void add_blocks(const std::vector<Scatterer>& all, const FacetWorld& world, const Ends& ends,
+                  const EchoMotion& motion, PatchList& list) const;
 
   const scene::Scene& scene_;
   EchoOptions options_;
   ClutterTable table_;
   ElementCells cells_;
+  const RadioSurfaces& surfaces_;
   ElementPattern receiver_pattern_;
   double receiver_slant_ = 0.0;
   bool monostatic_;

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "rf/surface/incidence.h"
+#include "rf/radar/echoes/surface_bounce.h"
 
 namespace greatx::rf {
 namespace {
@@ -19,27 +19,6 @@ FieldVector crossed(const dvec3& a, const FieldVector& b) {
 }
 
 FieldVector sum(const FieldVector& a, const FieldVector& b) { return {a.re + b.re, a.im + b.im}; }
-
-/// Holds the reflection of a wave by a surface: the lit side and the wave that leaves.
-struct Bounce {
-  dvec3 normal{0.0}, out{0.0};  ///< the normal points to the lit side
-  double cosine = 0.0;
-  FieldVector reflected;
-};
-
-Bounce bounce(const RadioSurfaces& surfaces, const PosedFacet& facet, const FieldVector& field,
-              const dvec3& in) {
-  Bounce b;
-  const double towards = glm::dot(in, facet.normal);
-  b.normal = towards < 0.0 ? facet.normal : -facet.normal;
-  b.cosine = std::min(1.0, std::abs(towards));
-  b.out = in - 2.0 * towards * facet.normal;
-  const ReflectionCoefficients fresnel = surfaces.reflect(facet.material, towards < 0.0, b.cosine);
-  const dvec3 s = s_axis(in, b.normal);
-  b.reflected.add(fresnel.r_te * field.along(s), s);
-  b.reflected.add(fresnel.r_tm * field.along(glm::cross(in, s)), glm::cross(b.out, s));
-  return b;
-}
 
 void scale(FieldVector& field, double by) { field.re *= by, field.im *= by; }
 
@@ -63,20 +42,14 @@ Complex EchoField::received(const FieldVector& field, const dvec3& arrival) cons
   return jones[0].theta * field.along(at.theta_hat()) + jones[0].phi * field.along(at.phi_hat());
 }
 
-double EchoField::coherent_share(uint32_t material, double cos_in, double cos_out) const {
-  return specular_share(
-      surfaces_.surface(material), std::min(1.0, 0.5 * (cos_in + cos_out)), surfaces_.wavelength_m(),
-      options_.roughness ? std::optional(RoughnessModel::ament) : std::nullopt, options_.diffuse);
-}
-
 FieldVector EchoField::incident(const EchoPoint& point, dvec3& direction) const {
   direction = point.departure;
   FieldVector field = field_towards(transmitter_, direction);
   for (size_t i = 0; i + 1 < point.chain.size(); ++i) {
     const PosedFacet& facet = world_.facet(point.chain[i]);
-    Bounce at = bounce(surfaces_, facet, field, direction);
+    SurfaceBounce at = bounce_of(surfaces_, facet, field, direction);
     field = at.reflected;
-    scale(field, coherent_share(facet.material, at.cosine, at.cosine));
+    scale(field, coherent_share(surfaces_, options_, facet.material, at.cosine));
     direction = at.out;
   }
   return field;
@@ -96,7 +69,7 @@ Complex EchoField::density(const EchoPoint& point) const {
   const dvec3 arm = receiver - point.point;
   const double distance = glm::length(arm);
   const dvec3 out = arm / distance;
-  const Bounce at = bounce(surfaces_, facet, field, in);
+  const SurfaceBounce at = bounce_of(surfaces_, facet, field, in);
   const double cos_out = glm::dot(out, at.normal);
   if (cos_out <= 0.0 || at.cosine <= 0.0) return 0.0;
   const FieldVector electric = sum(field, at.reflected);
@@ -104,14 +77,14 @@ Complex EchoField::density(const EchoPoint& point) const {
   // eta J - r x M with J = n x H and M = -n x E. The axes of `received` are transverse to r, so that it drops
   // the part along r.
   const FieldVector source = sum(crossed(at.normal, magnetic), crossed(out, crossed(at.normal, electric)));
-  const double kept = coherent_share(facet.material, at.cosine, cos_out);
+  const double kept = coherent_share(surfaces_, options_, facet.material, 0.5 * (at.cosine + cos_out));
   const double wavelength = surfaces_.wavelength_m();
   const Complex scale_by =
       -j * (wavelength / (4.0 * pi)) * (wavenumber_ / (4.0 * pi)) * kept / (point.length_m * distance);
   if (point.mirror == EchoPoint::none) return scale_by * received(source, -out);
   const PosedFacet& mirror = world_.facet(point.mirror);
-  const Bounce over = bounce(surfaces_, mirror, source, out);
-  return scale_by * coherent_share(mirror.material, over.cosine, over.cosine) *
+  const SurfaceBounce over = bounce_of(surfaces_, mirror, source, out);
+  return scale_by * coherent_share(surfaces_, options_, mirror.material, over.cosine) *
          received(over.reflected, -over.out);
 }
 

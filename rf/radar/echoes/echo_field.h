@@ -68,7 +68,6 @@ class EchoField {
  private:
   FieldVector incident(const EchoPoint& point, dvec3& direction) const;
   Complex received(const FieldVector& field, const dvec3& arrival) const;
-  double coherent_share(uint32_t material, double cos_in, double cos_out) const;
 
   const FacetWorld& world_;
   const RadioSurfaces& surfaces_;

@@ -131,14 +131,35 @@ void keep_strongest(std::vector<MergedEcho>& merged, uint32_t most, EchoStatisti
   merged.swap(kept);
 }
 
-/// Adds scatterers that turn too fast for a patch as echoes of one bounce.
-void add_fast(std::span<const Scatterer> fast, const dvec3& source, const dvec3& receiver, RawEchoes& raw) {
+/// Adds scatterers that turn too fast for a patch as echoes of the surfaces on their ways.
+void add_fast(std::span<const Scatterer> fast, const FacetWorld& world, const dvec3& source,
+              const dvec3& receiver, RawEchoes& raw) {
+  using Way = Scatterer::Over;
   for (const Scatterer& one : fast) {
     const dvec3 out = one.point - source, home = one.point - receiver;
-    const double before = glm::length(out), after = glm::length(home);
-    raw.echoes.push_back({one.amplitude, out / before, home / after, one.point, before + after,
-                          static_cast<uint32_t>(raw.chains.size()), 1});
+    RawEcho echo{one.amplitude,
+                 glm::normalize(out),
+                 glm::normalize(home),
+                 one.point,
+                 glm::length(out) + glm::length(home),
+                 static_cast<uint32_t>(raw.chains.size()),
+                 1};
+    if (one.over == Way::both || one.over == Way::out) {
+      echo.departure = mirrored_direction(world.facet(one.mirror), source, one.point);
+      echo.length_m += glm::distance(one.point, mirrored(world.facet(one.mirror), source)) - glm::length(out);
+      raw.chains.push_back(one.mirror);
+    }
     raw.chains.push_back(one.facet);
+    if (one.over == Way::both || one.over == Way::home) {
+      const PosedFacet& mirror = world.facet(one.mirror);
+      echo.arrival = mirrored_direction(mirror, receiver, one.point);
+      echo.length_m += glm::distance(one.point, mirrored(mirror, receiver)) - glm::length(home);
+      echo.point =
+          receiver - mirror.distance(receiver) / glm::dot(mirror.normal, echo.arrival) * echo.arrival;
+      raw.chains.push_back(one.mirror);
+    }
+    echo.bounces = static_cast<uint32_t>(raw.chains.size()) - echo.first_facet;
+    raw.echoes.push_back(echo);
   }
 }
 
@@ -352,8 +373,10 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   RawEchoes raw = raw_echoes(pending, *grid, hits, field, counted);
   FoundPatches patches;
   if (clutter_) {
-    patches = clutter_->find(raw.rough, world_, pending.transmitter, pending.receiver, motion);
-    add_fast(patches.fast, source, pending.receiver.position, raw);
+    const EchoTracer::View view = tracer_.view(world_, transmitter_.own_body);
+    patches = clutter_->find(raw.rough, world_, {*grid, tracer_, view}, pending.transmitter, pending.receiver,
+                             motion);
+    add_fast(patches.fast, world_, source, pending.receiver.position, raw);
   }
   const dvec3 arm = pending.receiver.position - source;
   // Two elements at one place (with different polarizations) have no path between them.

@@ -33,7 +33,7 @@ struct RawEchoes {
   std::vector<RawEcho> echoes;
   std::vector<uint32_t> chains;
   uint64_t below_floor = 0;
-  ClutterParts rough;  ///< what the tubes see first of surfaces that scatter
+  ClutterParts rough;  ///< what the tubes see of surfaces that scatter, first or over a mirror
   std::span<const uint32_t> chain(const RawEcho& echo) const {
     return std::span(chains).subspan(echo.first_facet, echo.bounces);
   }

@@ -50,6 +50,7 @@ TubeEchoes::TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorl
       field_(field),
       scene_(scene),
       source_(source),
+      monostatic_(monostatic),
       options_(options),
       clutter_(clutter),
       beamed_(beamed),
@@ -66,7 +67,7 @@ TubeEchoes::TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorl
 bool TubeEchoes::ring_agrees(uint32_t tube, const std::array<uint32_t, 8>& ring, uint32_t bounce) const {
   const uint32_t own = hits_.word(tube, bounce);
   return RayHits::met(own) && std::all_of(ring.begin(), ring.end(), [&](uint32_t other) {
-           return other == RayGrid::outside || hits_.word(other, bounce) == own;
+           return other != RayGrid::outside && hits_.word(other, bounce) == own;
          });
 }
 
@@ -150,15 +151,15 @@ void TubeEchoes::divide(Job& job, uint32_t bounce, const Polygon& part, const Be
   const uint32_t own = one_instance ? RayHits::facet(hits_.word(job.tube, bounce)) : VisibleCell::nothing;
   bool sends = false;
   const auto look = [&](uint32_t tube) {
-    if (tube == RayGrid::outside) return;
-    const uint32_t facet = RayHits::facet(hits_.word(tube, bounce));
+    const uint32_t facet =
+        tube == RayGrid::outside ? VisibleCell::nothing : RayHits::facet(hits_.word(tube, bounce));
     const bool counts = facet != VisibleCell::nothing && same_chain(job, tube, bounce);
     if (!counts) {
       one_instance = false;
       return;
     }
     job.facets.push_back(facet);
-    sends = sends || may_send(tube, bounce);
+    sends = sends || may_send(tube, bounce) || (bounce == 1 && scatters(bounce, facet));
     one_instance = one_instance && scene_.facets[facet].instance == scene_.facets[own].instance;
   };
   look(job.tube);
@@ -199,8 +200,8 @@ void TubeEchoes::bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint
   job.chain[bounce] = facet;
   job.chain_at = ~0u;
   const uint32_t word = whole ? hits_.word(job.tube, bounce) : word_of(job, bounce, facet);
-  if (clutter_ != nullptr && bounce == 0 && RayHits::sees_receiver(word) && clutter_->rough(posed.material))
-    keep_rough(job, part, facet);
+  if (scatters(bounce, facet) && (bounce == 1 || RayHits::sees_receiver(word)))
+    keep_rough(job, bounce, part, facet);
   if (!field_.reflects(facet) || beamed_.hold(std::span(job.chain.data(), bounce + 1))) return;
   const auto omitted = [&](bool unbroken) {
     return [&, unbroken](const Polygon& piece) { return omitted_sides(job, bounce, posed, piece, unbroken); };
@@ -250,11 +251,17 @@ uint32_t TubeEchoes::omitted_sides(const Job& job, uint32_t bounce, const PosedF
   return marks;
 }
 
-void TubeEchoes::keep_rough(Job& job, const Polygon& part, uint32_t facet) const {
+bool TubeEchoes::scatters(uint32_t bounce, uint32_t facet) const {
+  if (clutter_ == nullptr || !clutter_->rough(world_.facet(facet).material)) return false;
+  return bounce == 0 || (bounce == 1 && monostatic_ && options_.max_bounces > 1);
+}
+
+void TubeEchoes::keep_rough(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet) const {
   const PosedFacet& posed = world_.facet(facet);
-  if (posed.distance(source_) * posed.distance(field_.receiver_at()) <= 0.0) return;
-  const Polygon piece = on_facet(posed, job.beams[0], part);
-  if (!piece.empty()) job.out->rough.add(job.tube, facet, piece);
+  if (bounce == 0 && posed.distance(source_) * posed.distance(field_.receiver_at()) <= 0.0) return;
+  const Polygon piece = on_facet(posed, job.beams[bounce], part);
+  if (!piece.empty())
+    job.out->rough.add(job.tube, facet, bounce == 0 ? ClutterParts::no_mirror : job.chain[0], piece);
 }
 
 }  // namespace greatx::rf

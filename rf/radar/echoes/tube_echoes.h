@@ -19,7 +19,8 @@ namespace greatx::rf {
 /// Computes the raw echoes of all tubes.
 ///
 /// A tube is *whole* up to a bounce if its ray and the eight around it have met the same facets so far and
-/// agree on seeing the receiver. All of the tube then falls on that facet. Otherwise find_visible divides the
+/// agree on seeing the receiver. All of the tube then falls on that facet. A tube at the border of the field of
+/// view, without all eight, is never whole. Otherwise find_visible divides the
 /// tube among the facets that those nine rays have met after the same facets before, provided that one of the
 /// nine sees the receiver then or later. Each part continues as a beam of its own.
 ///
@@ -32,6 +33,9 @@ namespace greatx::rf {
 /// A tube that came over a mirror also sends back over that mirror (wall, target, wall). It does so from all
 /// surfaces from which the radar is seen over the mirror, wherever their own reflections go. The wall shows
 /// an image of the radar, and this image sees the target as a radar at that place would.
+///
+/// What a tube meets first of rough surfaces, and, with a monostatic radar, what it meets after one mirror, is
+/// kept for ClutterPatches. The radar sees what it meets over the mirror, since it meets it.
 ///
 /// Errors: a surface that none of the nine rays meets is missed. Where all nine rays meet one instance (a
 /// fine mesh), uncovered parts count as the facet of the middle ray.
@@ -60,8 +64,10 @@ class TubeEchoes {
   void divide(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start,
               std::vector<VisibleCell>& cells) const;
   void bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const;
+  /// Returns whether what falls on a facet at a bounce has clutter, if the receiver is there to see it.
+  bool scatters(uint32_t bounce, uint32_t facet) const;
   /// Keeps a part on a rough surface.
-  void keep_rough(Job& job, const Polygon& part, uint32_t facet) const;
+  void keep_rough(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet) const;
   /// Returns whether the ray of a tube met, from `bounce` on, a facet from which the receiver is seen.
   bool may_send(uint32_t tube, uint32_t bounce) const;
   /// Returns the word of the first ray, of this tube or else of one around it, that met `facet` at `bounce`
@@ -78,6 +84,7 @@ class TubeEchoes {
   const EchoField& field_;
   const scene::Scene& scene_;
   dvec3 source_;
+  bool monostatic_;
   const EchoOptions& options_;
   const ClutterPatches* clutter_;
   const BeamedFacets& beamed_;
