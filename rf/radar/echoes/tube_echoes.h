@@ -19,10 +19,10 @@ namespace greatx::rf {
 /// Computes the raw echoes of all tubes.
 ///
 /// A tube is *whole* up to a bounce if its ray and the eight around it have met the same facets so far and
-/// agree on seeing the receiver. All of the tube then falls on that facet. A tube at the border of the field of
-/// view, without all eight, is never whole. Otherwise find_visible divides the
-/// tube among the facets that those nine rays have met after the same facets before, provided that one of the
-/// nine sees the receiver then or later. Each part continues as a beam of its own.
+/// agree on seeing the receiver. All of the tube then falls on that facet. A tube at the border of the field
+/// of view, without all eight, is never whole. Otherwise find_visible divides the tube among the facets that
+/// those nine rays have met after the same facets before, provided that one of the nine sees the receiver
+/// then or later. Each part continues as a beam of its own.
 ///
 /// Where a small surface is followed by a large one (target, wall), the currents are taken on the small
 /// surface, and the large one is a mirror on the way to the receiver. The wave of a small surface has no
@@ -34,8 +34,8 @@ namespace greatx::rf {
 /// surfaces from which the radar is seen over the mirror, wherever their own reflections go. The wall shows
 /// an image of the radar, and this image sees the target as a radar at that place would.
 ///
-/// What a tube meets first of rough surfaces, and, with a monostatic radar, what it meets after one mirror, is
-/// kept for ClutterPatches. The radar sees what it meets over the mirror, since it meets it.
+/// What a tube meets first of rough surfaces, and, with a monostatic radar, what it meets after one mirror,
+/// is kept for ClutterPatches. The radar sees over the mirror whatever its tube meets there.
 ///
 /// Errors: a surface that none of the nine rays meets is missed. Where all nine rays meet one instance (a
 /// fine mesh), uncovered parts count as the facet of the middle ray.
