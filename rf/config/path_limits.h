@@ -11,8 +11,10 @@ namespace greatx::rf {
 struct PathLimits {
   uint32_t max_depth = 3;          ///< interactions on a path, of all types
   uint32_t max_transmissions = 3;  ///< walls passed, as a part of max_depth
-  /// Reflections between a diffraction or scattering and the target (the end that the search does not start
-  /// from, whichever end transmits), as a part of max_depth.
+  /// Reflections on each side of a diffraction, as a part of max_depth.
+  uint32_t max_reflections_beside_diffraction = 2;
+  /// Reflections between a scattering and the target (the end that the search does not start from, whichever
+  /// end transmits), as a part of max_depth.
   uint32_t max_reflections_after = 0;
   /// Reflections between the source (the end that the search starts from) and a scattering, as a part of
   /// max_depth.

@@ -67,6 +67,7 @@ bool EdgeGaps::blocked_by(uint32_t body, const FacetWorld& world, uint32_t facet
     if (ignored_body != 0 && cover.owner == ignored_body) continue;
     const double from = cover.distance(point), to = cover.distance(other);
     if (from * to >= 0.0 || std::abs(from) <= in_edge_m || std::abs(from) > unseen_m) continue;
+    if (std::abs(to) <= in_edge_m) continue;  // the leg ends there: a reflection, or an edge of this facet
     if (glm::length(glm::cross(cover.normal, mirror.normal)) < least_corner_sine) continue;
     // A little outwards: a facet that only reaches up to the edge from behind is not in the way.
     const dvec3 at = point + from / (from - to) * (other - point) + 10.0 * in_edge_m * outwards;

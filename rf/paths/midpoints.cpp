@@ -73,6 +73,8 @@ void reverse(GeometricPath& path) {
   path.from_receiver = true;
 }
 
+Source opposite(Source end) { return end == Source::transmitter ? Source::receiver : Source::transmitter; }
+
 }  // namespace
 
 std::vector<Patch> scattering_patches(const scene::Scene& scene, const FacetKinds& kinds, double side_m,
@@ -131,6 +133,8 @@ struct Midpoints::WedgeJoin {
 Midpoints::Midpoints(const RadioModel& model, const PathLimits& limits, bool moving_bodies)
     : model_(&model), limits_(limits), moving_bodies_(moving_bodies) {
   if (model.effects.scattering) patches_ = scattering_patches(*model.scene, model.kinds, limits.patch_m);
+  if (model.effects.diffraction && limits.max_reflections_beside_diffraction > 0 && limits.max_depth > 1)
+    suffixes_.emplace(model, limits, moving_bodies);
 }
 
 /// Finds the sequences that lead to facets. A candidate sequence that ends with a facet shows that the
@@ -219,6 +223,7 @@ Midpoints::PatchArrivals Midpoints::straight_to_patches(const dvec3& from) const
 }
 
 void Midpoints::set_candidates(const CandidateList& candidates, const ImageTree& tree) {
+  if (suffixes_) suffixes_->move();
   if (model_->effects.diffraction) {
     at_wedges_ = WedgeArrivals(candidates, model_->wedges);
     at_wedges_.place(tree, model_->wedges);
@@ -231,6 +236,7 @@ void Midpoints::set_candidates(const CandidateList& candidates, const ImageTree&
 
 void Midpoints::move(const ImageTree& tree) {
   if (model_->effects.diffraction) at_wedges_.place(tree, model_->wedges);
+  if (suffixes_) suffixes_->move();
   if (model_->effects.scattering) at_patches_ = arrivals_at_patches(at_facets_, {}, tree);
 }
 
@@ -248,40 +254,71 @@ bool Midpoints::diffract(const Chain& chain, WedgeJoin& join) const {
          in_shadow(join.wedge, chain.tree.image(chain.prefix), chain.suffixes.image(chain.suffix));
 }
 
-/// Joins every prefix with every suffix at each wedge that both lead to. Without a search at the target, no
-/// `wedges`, the target may reach every wedge on a straight line.
-void Midpoints::join_at_wedges(const ImageTree& tree, const ImageTree& suffixes, const WedgeArrivals* wedges,
-                               uint32_t threads, std::vector<GeometricPath>& paths) const {
-  constexpr size_t wedges_at_once = 1024;
-  const std::span<const uint32_t> all = at_wedges_.wedges();
-  std::vector<std::vector<GeometricPath>> found((all.size() + wedges_at_once - 1) / wedges_at_once);
+/// Returns the number of reflections that may come before a wedge with `after` behind it.
+uint32_t Midpoints::most_before(uint32_t after) const {
+  return std::min(limits_.max_depth - 1 - after, limits_.max_reflections_beside_diffraction);
+}
+
+/// Returns the wedges at which a prefix and a suffix may meet. The target may reach every wedge on a straight
+/// line.
+std::vector<Midpoints::Meeting> Midpoints::meetings(const Suffixes& suffixes, uint32_t threads) const {
+  std::vector<Meeting> all;
+  for (const uint32_t wedge : at_wedges_.wedges()) all.push_back({wedge, 0});
+  const size_t count = suffixes.list.size();
+  constexpr size_t sequences_at_once = 64;
+  std::vector<std::vector<Meeting>> found((count + sequences_at_once - 1) / sequences_at_once);
+  parallel_for(found.size(), threads, [&](size_t chunk) {
+    std::vector<uint32_t> wedges;
+    const size_t first = std::max<size_t>(1, chunk * sequences_at_once);
+    for (size_t i = first; i < std::min(count, (chunk + 1) * sequences_at_once); ++i) {
+      const uint32_t before = most_before(static_cast<uint32_t>(suffixes.list.sequence(i).size()));
+      suffixes_->wedges_of(suffixes, i, wedges);
+      for (const uint32_t wedge : wedges)
+        if (at_wedges_.least_depth(wedge) <= before)
+          found[chunk].push_back({wedge, static_cast<uint32_t>(i)});
+    }
+  });
+  for (const std::vector<Meeting>& some : found) all.insert(all.end(), some.begin(), some.end());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+LeftOut Midpoints::solve_wedges(const ImageTree& tree, const dvec3& target, uint32_t target_body,
+                                uint32_t threads, SuffixMemory& memory,
+                                std::vector<GeometricPath>& paths) const {
+  Suffixes straight;
+  straight.list.add({});
+  const Suffixes& suffixes = suffixes_ ? suffixes_->from(target, target_body, threads, memory) : straight;
+  const ImageTree images(model_->facets, target, suffixes.list, opposite(tree.end()));
+  const std::vector<Meeting> all = meetings(suffixes, threads);
+  constexpr size_t meetings_at_once = 1024;
+  std::vector<std::vector<GeometricPath>> found((all.size() + meetings_at_once - 1) / meetings_at_once);
   parallel_for(found.size(), threads, [&](size_t i) {
-    const size_t first = i * wedges_at_once;
-    join_at(all.subspan(first, std::min(wedges_at_once, all.size() - first)), tree, suffixes, wedges,
+    const size_t first = i * meetings_at_once;
+    join_at(std::span(all).subspan(first, std::min(meetings_at_once, all.size() - first)), tree, images,
             found[i]);
   });
   for (std::vector<GeometricPath>& some : found) std::ranges::move(some, std::back_inserter(paths));
+  return suffixes.left_out;
 }
 
-void Midpoints::join_at(std::span<const uint32_t> at, const ImageTree& tree, const ImageTree& suffixes,
-                        const WedgeArrivals* wedges, std::vector<GeometricPath>& paths) const {
-  const uint32_t straight[] = {0};
+/// Joins every prefix with the suffix of each meeting.
+void Midpoints::join_at(std::span<const Meeting> at, const ImageTree& tree, const ImageTree& suffixes,
+                        std::vector<GeometricPath>& paths) const {
   std::vector<uint32_t> from;
   WedgeJoin join;
-  for (const uint32_t index : at)
-    for (const uint32_t suffix : wedges ? wedges->of(index) : std::span<const uint32_t>(straight)) {
-      const uint32_t after = suffixes.depth(suffix) + 1;
-      if (after > limits_.max_depth) continue;
-      at_wedges_.joined(index, suffixes.image(suffix), limits_.max_depth - after, from);
-      if (from.empty()) continue;
-      join.wedge = posed(model_->wedges[index], model_->facets);
-      join.index = index;
-      for (const uint32_t prefix : from)
-        if (diffract({tree, suffixes, prefix, suffix}, join)) {
-          paths.push_back(join.path);
-          if (tree.end() == Source::receiver) reverse(paths.back());
-        }
-    }
+  join.index = ~0u;
+  for (const auto& [index, suffix] : at) {
+    at_wedges_.joined(index, suffixes.image(suffix), most_before(suffixes.depth(suffix)), from);
+    if (from.empty()) continue;
+    if (join.index != index) join.wedge = posed(model_->wedges[index], model_->facets);
+    join.index = index;
+    for (const uint32_t prefix : from)
+      if (diffract({tree, suffixes, prefix, suffix}, join)) {
+        paths.push_back(join.path);
+        if (tree.end() == Source::receiver) reverse(paths.back());
+      }
+  }
 }
 
 /// Joins every prefix with every suffix at a patch whose centre both reach from the same side.
@@ -321,40 +358,37 @@ void Midpoints::scatter(const ImageTree& tree, const dvec3& target, size_t numbe
   }
 }
 
-LeftOut Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t target_body, uint32_t threads,
-                         std::vector<GeometricPath>& paths) const {
-  const bool searched = limits_.max_reflections_after > 0;
-  CandidateList list;
+LeftOut Midpoints::solve_patches(const ImageTree& tree, const dvec3& target, uint32_t target_body,
+                                 uint32_t threads, std::vector<GeometricPath>& paths) const {
   LeftOut left_out;
-  std::optional<WedgeArrivals> wedges;
-  if (searched) {
+  PatchArrivals at_patches;
+  if (limits_.max_reflections_after > 0) {
     BeamSearchOptions search;
     search.max_depth = limits_.max_reflections_after + 1;
     search.max_transmissions = model_->effects.transmission ? limits_.max_transmissions : 0;
     search.moving_bodies = moving_bodies_;
     search.source_body = target_body;
     search.threads = threads;
-    BeamSearchResult result =
-        BeamSearch(model_->facets, model_->kinds, model_->wedges, search).search(target);
+    const BeamSearchResult result = BeamSearch(model_->facets, model_->kinds, {}, search).search(target);
     left_out = {result.overflow(), result.complete_depth()};
-    list = std::move(result.list);
-    wedges.emplace(list, model_->wedges);
-  } else {
-    list.add({});
-  }
-  const Source other = tree.end() == Source::transmitter ? Source::receiver : Source::transmitter;
-  const ImageTree suffixes(model_->facets, target, list, other);
-  join_at_wedges(tree, suffixes, wedges ? &*wedges : nullptr, threads, paths);
-  if (patches_.empty() || at_patches_.arrivals.empty()) return left_out;
-  PatchArrivals at_patches;
-  if (searched) {
     std::vector<PlaneWindow> windows;
-    const Arrivals facets = arrivals_at_facets(list, limits_.max_reflections_after, windows);
+    const Arrivals facets = arrivals_at_facets(result.list, limits_.max_reflections_after, windows);
+    const ImageTree suffixes(model_->facets, target, result.list, opposite(tree.end()));
     at_patches = arrivals_at_patches(facets, windows, suffixes);
   } else {
     at_patches = straight_to_patches(target);
   }
   for (size_t patch = 0; patch < patches_.size(); ++patch) scatter(tree, target, patch, at_patches, paths);
+  return left_out;
+}
+
+LeftOut Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t target_body, uint32_t threads,
+                         SuffixMemory& memory, std::vector<GeometricPath>& paths) const {
+  LeftOut left_out;
+  if (model_->effects.diffraction && limits_.max_depth > 0)
+    left_out.add(solve_wedges(tree, target, target_body, threads, memory, paths));
+  if (!patches_.empty() && !at_patches_.arrivals.empty())
+    left_out.add(solve_patches(tree, target, target_body, threads, paths));
   return left_out;
 }
 

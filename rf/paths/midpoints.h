@@ -3,10 +3,12 @@
 //
 // Finds paths with a diffraction or a scattering in the middle: reflections lead from the source to a wedge
 // or a patch (prefix) and from there to the target (suffix). Prefixes come from the source's candidates, and
-// suffixes from a search at the target.
+// suffixes from a search at the target: that of SuffixSearch for wedges, a whole one for patches.
 #pragma once
 
+#include <compare>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "rf/config/path_limits.h"
@@ -14,6 +16,7 @@
 #include "rf/geometry/geometry.h"
 #include "rf/geometry/path.h"
 #include "rf/paths/radio_model.h"
+#include "rf/paths/suffix_search.h"
 #include "rf/paths/wedge_arrivals.h"
 
 namespace greatx::rf {
@@ -34,8 +37,8 @@ std::vector<Patch> scattering_patches(const scene::Scene& scene, const FacetKind
 
 class Midpoints {
  public:
-  /// Every call reads `model`, which must outlive this object. If PathLimits::max_reflections_after is above
-  /// 0, solve() searches at every target. `moving_bodies`: facets of bodies other than 0 reflect.
+  /// Every call reads `model`, which must outlive this object. If reflections may follow a diffraction or a
+  /// scattering, solve() searches at every target. `moving_bodies`: facets of bodies other than 0 reflect.
   Midpoints(const RadioModel& model, const PathLimits& limits, bool moving_bodies);
 
   /// Sets the sequences that lead to wedges and patches. `tree` is built from the same candidates, which list
@@ -46,9 +49,9 @@ class Midpoints {
   void move(const ImageTree& tree);
   /// Appends every path with a diffraction or scattering between the source of the last `tree` and `target`
   /// (which `target_body` carries), from transmitter to receiver, in an unspecified order. Returns the number
-  /// of sequences that the search at the target left out.
+  /// of sequences that the search at the target left out. `memory` is that of the target.
   LeftOut solve(const ImageTree& tree, const dvec3& target, uint32_t target_body, uint32_t threads,
-                std::vector<GeometricPath>& paths) const;
+                SuffixMemory& memory, std::vector<GeometricPath>& paths) const;
 
  private:
   /// Holds for every facet the sequences that lead to it: [facets + 1] into `sequences`, ascending.
@@ -81,15 +84,25 @@ class Midpoints {
   bool diffract(const Chain& chain, WedgeJoin& join) const;
   void scatter(const ImageTree& tree, const dvec3& target, size_t patch, const PatchArrivals& suffixes,
                std::vector<GeometricPath>& paths) const;
-  void join_at_wedges(const ImageTree& tree, const ImageTree& suffixes, const WedgeArrivals* wedges,
-                      uint32_t threads, std::vector<GeometricPath>& paths) const;
-  void join_at(std::span<const uint32_t> at, const ImageTree& tree, const ImageTree& suffixes,
-               const WedgeArrivals* wedges, std::vector<GeometricPath>& paths) const;
+  /// A wedge and a sequence that leads from the target to it.
+  struct Meeting {
+    uint32_t wedge = 0, suffix = 0;
+    auto operator<=>(const Meeting&) const = default;
+  };
+  uint32_t most_before(uint32_t after) const;
+  std::vector<Meeting> meetings(const Suffixes& suffixes, uint32_t threads) const;
+  LeftOut solve_wedges(const ImageTree& tree, const dvec3& target, uint32_t target_body, uint32_t threads,
+                       SuffixMemory& memory, std::vector<GeometricPath>& paths) const;
+  LeftOut solve_patches(const ImageTree& tree, const dvec3& target, uint32_t target_body, uint32_t threads,
+                        std::vector<GeometricPath>& paths) const;
+  void join_at(std::span<const Meeting> at, const ImageTree& tree, const ImageTree& suffixes,
+               std::vector<GeometricPath>& paths) const;
 
   const RadioModel* model_;
   PathLimits limits_;
   bool moving_bodies_;
   std::vector<Patch> patches_;
+  std::optional<SuffixSearch> suffixes_;  ///< set if reflections may follow a diffraction
   WedgeArrivals at_wedges_;
   Arrivals at_facets_;
   PatchArrivals at_patches_;

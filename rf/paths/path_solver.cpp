@@ -156,7 +156,7 @@ void PathSolver::move_source(const dvec3& source) {
   if (midpoints_) midpoints_->move(*tree_);
 }
 
-LinkGeometry PathSolver::geometry(const EndState& end, uint32_t threads) const {
+LinkGeometry PathSolver::geometry(const EndState& end, uint32_t threads, SuffixMemory* memory) const {
   const dvec3& target = end.position;
   GREATX_CHECK(tree_.has_value(), "no candidates for the target at ({}, {}, {})", target.x, target.y,
                target.z);
@@ -167,7 +167,9 @@ LinkGeometry PathSolver::geometry(const EndState& end, uint32_t threads) const {
   if (!model_->effects.reflection)
     std::erase_if(link.paths, [](const GeometricPath& path) { return !path.interactions.empty(); });
   if (all_effects_built && midpoints_) {
-    link.searched = midpoints_->solve(*tree_, target, end.body, threads, link.paths);
+    SuffixMemory for_now;
+    link.searched =
+        midpoints_->solve(*tree_, target, end.body, threads, memory ? *memory : for_now, link.paths);
     std::sort(link.paths.begin(), link.paths.end(), less);
   }
   keep_most(link, limits_.max_paths);
@@ -182,20 +184,19 @@ uint32_t PathSolver::walls_allowed(const GeometricPath& path) const {
 }
 
 /// Returns GeometricPath::edges_diffract. The diffraction at an edge of a reflecting facet takes the place of
-/// the reflection in the sequence. It is found if the reflections between it and the target are not too many,
-/// and if the path has no other bend.
+/// the reflection in the sequence. It is found if the reflections on both of its sides are not too many, and
+/// if the path has no other bend.
 uint32_t PathSolver::edges_diffract(const GeometricPath& path) const {
   if (!all_effects_built || !field_.reflectors || !model_->effects.diffraction ||
       !model_->effects.diffraction_lit_region)
     return 0;
   if (bend_of(path)) return 0;
   const auto reflections = static_cast<uint32_t>(path.facets().size());
-  const bool from_transmitter = !tree_ || tree_->end() == Source::transmitter;
   uint32_t bits = 0, reflection = 0;
   for (size_t i = 0; i < path.interactions.size(); ++i) {
     if (path.interactions[i].type != InteractionType::reflection) continue;
-    const uint32_t after = from_transmitter ? reflections - 1 - reflection : reflection;
-    if (after <= limits_.max_reflections_after) bits |= 1u << i;
+    if (std::max(reflection, reflections - 1 - reflection) <= limits_.max_reflections_beside_diffraction)
+      bits |= 1u << i;
     ++reflection;
   }
   return bits;

@@ -55,8 +55,9 @@ class PathSolver {
   void move_source(const dvec3& source);
 
   /// Returns every chain that exists geometrically between the source and `target`, on `threads` threads (0:
-  /// usable_cores()).
-  LinkGeometry geometry(const EndState& target, uint32_t threads = 1) const;
+  /// usable_cores()). `memory`, if it is not null, is kept for this target alone and saves it a search at
+  /// later calls.
+  LinkGeometry geometry(const EndState& target, uint32_t threads = 1, SuffixMemory* memory = nullptr) const;
   /// Appends the segments of the paths, one path after the other.
   void add_segments(std::span<const GeometricPath> paths, const EndState& transmitter,
                     const EndState& receiver, std::vector<Segment>& segments) const;

@@ -38,6 +38,11 @@ class WedgeArrivals {
   /// Returns the wedges to which a sequence leads, ascending.
   std::span<const uint32_t> wedges() const { return reached_; }
 
+  /// Returns the number of reflections of the shortest sequence that leads to a wedge; ~0 if none does.
+  uint32_t least_depth(uint32_t wedge) const {
+    return wedge + 1 < offsets_.size() && count(wedge) > 0 ? depths_[begin(wedge)] : ~0u;
+  }
+
   /// Sets `sequences` to those of a wedge with at most `most_depth` reflections for which keller_point() with
   /// `after` may find a point: to all for which it does, and few more. All sequences of
   /// a wedge that moves with a body are returned, if they are not too deep.

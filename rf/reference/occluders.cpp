@@ -63,6 +63,7 @@ Occluders::Occluders(const scene::Scene& scene, const FacetWorld& world, std::sp
 
 bool Occluders::passed_over(const Stretch& stretch, uint32_t index) const {
   if (index == stretch.facet_a || index == stretch.facet_b) return true;
+  if (index == stretch.other_a || index == stretch.other_b) return true;
   const PosedFacet& facet = world_->facet(index);
   if (facet.owner == stretch.body_a || facet.owner == stretch.body_b) return true;
   const double corner = largest(first_corners_[index]);

@@ -20,7 +20,8 @@ namespace greatx::rf::reference {
 struct Stretch {
   static constexpr uint32_t none = ~0u;
   dvec3 a{0.0}, b{0.0};                     ///< local coordinates
-  uint32_t facet_a = none, facet_b = none;  ///< reflecting facets at the ends
+  uint32_t facet_a = none, facet_b = none;  ///< reflecting facets at the ends, or faces of wedges
+  uint32_t other_a = none, other_b = none;  ///< the other faces of wedges
   uint32_t body_a = none, body_b = none;    ///< bodies that carry the ends
 };
 

@@ -140,13 +140,13 @@ std::span<const HalfPlane> BeamCells::outline(uint32_t polygon, const ViewFacet&
     const size_t count = corners.size();
     for (size_t i = 0; i <= count; ++i) {  // repeats the first edge, for the corner before it
       const dvec2 &from = corners[i % count], &to = corners[(i + 1) % count];
-      const double length = std::hypot(to.x - from.x, to.y - from.y);
+      const double length = glm::distance(from, to);
       if (length == 0.0) continue;
       const dvec2 inwards = sign / length * dvec2(from.y - to.y, to.x - from.x);
       if (i < count)
         halves_.push_back({inwards.x, inwards.y, wider - inwards.x * from.x - inwards.y * from.y});
       const dvec2 bisector = before + inwards;
-      const double half = 0.5 * std::hypot(bisector.x, bisector.y);  // sine of half the angle
+      const double half = 0.5 * glm::length(bisector);  // sine of half the angle
       if (before != dvec2(0.0) && half < sharp) {
         const dvec2 back = half > 1e-9 ? bisector / (2.0 * half) : 1.0 / length * (to - from);
         halves_.push_back({back.x, back.y, wider - back.x * from.x - back.y * from.y});
@@ -236,7 +236,7 @@ HalfPlane BeamCells::in_front(const ViewFacet& cover, const ViewFacet& facet) co
   if (reach <= 0.0 || distance <= 0.0) return {0.0, 0.0, -1.0};  // the apex almost lies in its plane
   HalfPlane front{cover.na * distance - facet.na * reach, cover.nb * distance - facet.nb * reach,
                   cover.n * distance - facet.n * reach};
-  const double gradient = std::hypot(front.a, front.b);
+  const double gradient = std::sqrt(front.a * front.a + front.b * front.b);
   if (gradient <= 1e-15 * (distance + reach))
     return {0.0, 0.0, front.c > 1e-14 * (distance + reach) ? 1.0 : -1.0};
   return {front.a / gradient, front.b / gradient, front.c / gradient};

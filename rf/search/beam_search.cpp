@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -288,8 +289,17 @@ BeamSearchResult Tree::grow() {
 BeamSearch::BeamSearch(const FacetWorld& world, const FacetKinds& kinds, std::span<const scene::Wedge> wedges,
                        const BeamSearchOptions& options)
     : world_(&world), kinds_(&kinds), wedges_(wedges), options_(options) {
-  GREATX_CHECK(options.max_depth <= 64, "beams to depth {}", options.max_depth);
-  GREATX_CHECK(options.capacity > 0, "capacity {}", options.capacity);
+  check();
+}
+
+BeamSearch::BeamSearch(std::shared_ptr<const BeamScene> scene, const BeamSearchOptions& options)
+    : options_(options), scene_(std::move(scene)) {
+  check();
+}
+
+void BeamSearch::check() const {
+  GREATX_CHECK(options_.max_depth <= 64, "beams to depth {}", options_.max_depth);
+  GREATX_CHECK(options_.capacity > 0, "capacity {}", options_.capacity);
 }
 
 BeamSearchResult BeamSearch::search(const dvec3& source) const {

@@ -83,8 +83,11 @@ class BeamSearch {
   /// object.
   BeamSearch(const FacetWorld& world, const FacetKinds& kinds, std::span<const scene::Wedge> wedges,
              const BeamSearchOptions& options);
+  /// Searches in `scene`, and for no wedges. options.moving_bodies has no meaning. search() may be called by
+  /// many threads.
+  BeamSearch(std::shared_ptr<const BeamScene> scene, const BeamSearchOptions& options);
   /// Returns every sequence of facets whose beam from `source` (local coordinates) is not proven dark. Must
-  /// not be called from two threads at once.
+  /// not be called from two threads at once, unless the scene was given.
   BeamSearchResult search(const dvec3& source) const;
   /// Returns one sentence for `explain` and the run's summary. A result has left out at least `left_out`
   /// sequences, all with more than `complete_depth` facets.
@@ -92,8 +95,10 @@ class BeamSearch {
   const BeamSearchOptions& options() const { return options_; }
 
  private:
-  const FacetWorld* world_;
-  const FacetKinds* kinds_;
+  void check() const;
+
+  const FacetWorld* world_ = nullptr;
+  const FacetKinds* kinds_ = nullptr;
   std::span<const scene::Wedge> wedges_;
   BeamSearchOptions options_;
   mutable std::shared_ptr<const BeamScene> scene_;  ///< kept between searches if it cannot move

@@ -12,7 +12,7 @@ namespace greatx::rf {
 namespace {
 
 /// Must be increased when the search changes its results, so that old files are not used again.
-constexpr uint32_t search_version = 6;
+constexpr uint32_t search_version = 7;
 
 /// Collects numbers and adds many at a time to a hash.
 class Numbers {

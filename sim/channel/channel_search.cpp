@@ -130,6 +130,8 @@ void ChannelSearch::make_beams() {
 
 /// One search from the transmitter serves all points, of which there may be thousands.
 void ChannelSearch::set_points() {
+  points_ = true;
+  suffixes_.clear();
   const bool kept = transmitter_.kept && !(beams_ && move_facets_);
   const bool others = way_ == Way::once_from_receivers || way_ == Way::by_link;
   if (!others && (!beams_ || way_ == Way::every_tick || kept)) return;
@@ -240,6 +242,9 @@ void ChannelSearch::renew(int64_t tick, const dvec3& transmitter, std::span<cons
                           std::span<const Pose> bodies) {
   if (fixed_.empty()) start(transmitter, receivers, bodies);  // set_points() has changed the sources
   if constexpr (!all_effects_built) return fixed_[0].move_source(transmitter);
+  // One takes a megabyte, more or less.
+  constexpr size_t most_suffixes = 64;
+  if (!points_) suffixes_.resize(std::min(receivers.size(), most_suffixes));
   if (!moving_searches_.empty()) seams_.emplace(moving_searches_[0].seams());
   if (way_ == Way::between_ends) return renew_between(transmitter, receivers);
   if (once()) return renew_moving(transmitter, receivers);
@@ -276,13 +281,14 @@ void ChannelSearch::renew_moving(const dvec3& transmitter, std::span<const dvec3
 }
 
 rf::LinkGeometry ChannelSearch::geometry(size_t index, const rf::EndState& transmitter,
-                                         const rf::EndState& receiver, uint32_t threads) const {
+                                         const rf::EndState& receiver, uint32_t threads) {
   if constexpr (!all_effects_built) return fixed_[0].geometry(receiver, threads);
   const size_t source = source_of(index);
   const rf::Source end = sources_[source].end;
   const bool from_receiver = end == rf::Source::receiver;
   const rf::EndState& target = from_receiver ? transmitter : receiver;
-  rf::LinkGeometry link = fixed_[source].geometry(target, threads);
+  rf::LinkGeometry link =
+      fixed_[source].geometry(target, threads, index < suffixes_.size() ? &suffixes_[index] : nullptr);
   link.searched.add(left_out_[source]);
   if (way_ == Way::between_ends) seams_->drop_behind(link.paths, rf::Source::transmitter, transmitter.body);
   if (moving_.empty()) return link;

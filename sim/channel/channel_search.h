@@ -45,10 +45,10 @@ class ChannelSearch {
   void renew(int64_t tick, const dvec3& transmitter, std::span<const dvec3> receivers,
              std::span<const Pose> bodies);
   /// Returns every path that exists geometrically between the transmitter and receiver `index`, and the
-  /// number of candidates that the searches left out. Uses `threads` threads. Changes nothing, so calls may
-  /// run in parallel.
+  /// number of candidates that the searches left out. Uses `threads` threads. Changes nothing but what is
+  /// kept for receiver `index` alone, so calls for different receivers may run in parallel.
   rf::LinkGeometry geometry(size_t index, const rf::EndState& transmitter, const rf::EndState& receiver,
-                            uint32_t threads) const;
+                            uint32_t threads);
   /// Returns the solver for the steps after the geometry of receiver `index`, which do not depend on the
   /// candidates.
   const rf::PathSolver& solver(size_t index) const { return fixed_.at(source_of(index)); }
@@ -108,6 +108,10 @@ class ChannelSearch {
   /// candidates that moving bodies add at this tick; it is used if their facets reflect and an end rests.
   std::vector<rf::PathSolver> fixed_, moving_;
   std::vector<rf::LeftOut> left_out_;  ///< [fixed_] omissions of the search
+  /// [receivers, of many the first] of the ends that links are not searched from; empty for lists of points,
+  /// which come once.
+  std::vector<rf::SuffixMemory> suffixes_;
+  bool points_ = false;
   std::vector<rf::MovingSearch> moving_searches_;
   std::optional<rf::Seams> seams_;  ///< for the bodies at this tick
   int64_t renewed_tick_ = -1;

@@ -197,11 +197,11 @@ void add_scattering(Table& table, const ChannelConfig& channel) {
                         up_to(table.quick() ? 1 : 2), channel.limits.max_reflections_before_scattering,
                         "reflections between a scattering and the end that is searched from at most"));
   if (table.quick()) return;
-  Knob& after =
-      table.add_numbers("max_reflections_after", {"max_reflections_after"}, up_to(1),
-                        channel.limits.max_reflections_after, "reflections after a diffraction at most");
+  Knob& beside = table.add_numbers(
+      "max_reflections_beside_diffraction", {"max_reflections_beside_diffraction"}, up_to(2),
+      channel.limits.max_reflections_beside_diffraction, "reflections on each side of a diffraction at most");
   if (!table.plan().diffraction.on)
-    Table::within(after, "with diffraction", {effect_change("diffraction", true)});
+    Table::within(beside, "with diffraction", {effect_change("diffraction", true)});
 }
 
 void add_csi(Table& table) {

@@ -204,15 +204,12 @@ TEST(PathSolver, ReflectionsBeforeAndAfterADiffraction) {
     }
     return found;
   };
-  // There is one path by each of the two walls.
-  EXPECT_EQ(count({.max_depth = 2}, "RD"), 2);
-  EXPECT_EQ(count({.max_depth = 2}, "DR"), 0);  // the search does not include these
-  EXPECT_EQ(count({.max_depth = 2, .max_reflections_after = 1}, "RD"), 2);
-  EXPECT_EQ(count({.max_depth = 2, .max_reflections_after = 1}, "DR"), 2);
-  EXPECT_EQ(count({.max_depth = 2, .max_reflections_after = 1}, "DR", Source::receiver), 2);
-  // If the receiver is the source, reflections after the edge come first in the search.
-  EXPECT_EQ(count({.max_depth = 2}, "DR", Source::receiver), 2);
-  EXPECT_EQ(count({.max_depth = 2}, "RD", Source::receiver), 0);
+  // There is one path by each of the two walls, on either side of the edge and from either end.
+  for (const Source end : {Source::transmitter, Source::receiver})
+    for (const char* chain : {"RD", "DR"}) {
+      EXPECT_EQ(count({.max_depth = 2}, chain, end), 2);
+      EXPECT_EQ(count({.max_depth = 2, .max_reflections_beside_diffraction = 0}, chain, end), 0);
+    }
 }
 
 TEST(PathSolver, PatchesCoverTheirFacetsAndScatterFromOneSide) {

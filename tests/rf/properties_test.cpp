@@ -14,6 +14,7 @@
 #include "core/units.h"
 #include "rf/paths/path_solver.h"
 #include "rf/reference/comparison.h"
+#include "rf/reference/exhaustive_diffraction.h"
 #include "rf/reference/exhaustive_paths.h"
 #include "rf/search/beam_search.h"
 #include "tests/rf/exhaustive.h"
@@ -38,6 +39,7 @@ using Links = std::vector<std::vector<Path>>;  ///< [receivers]
 /// Bounds the interactions of a path.
 struct Bounds {
   uint32_t depth = 2, walls = 0;
+  bool edges = false;  ///< paths may have a diffraction
 };
 using CandidateSource = std::function<CandidateList(const RadioModel&, const dvec3& transmitter, Bounds)>;
 
@@ -60,7 +62,7 @@ class Rig {
  public:
   Rig(const scene::Scene& scene, Bounds bounds)
       : bounds_(bounds),
-        model_(scene, carrier_hz, effects_of(bounds.walls)),
+        model_(scene, carrier_hz, effects_of(bounds)),
         gpu_scene_(test::device(), scene, {}),
         pass_(gpu_scene_, model_.kinds),
         ring_(test::device(), 1, 1u << 16, 1u << 16) {}
@@ -98,11 +100,13 @@ class Rig {
     return links;
   }
 
-  static RadioEffects effects_of(uint32_t walls) {
+  static RadioEffects effects_of(Bounds bounds) {
     RadioEffects effects;
-    effects.transmission = walls > 0;
+    effects.transmission = bounds.walls > 0;
+    effects.diffraction = effects.free_edges = bounds.edges;
     return effects;
   }
+  std::span<const scene::Wedge> wedges() const { return model_.wedges; }
 
  private:
   std::vector<Crossing> trace(const std::vector<Segment>& segments) {
@@ -131,7 +135,7 @@ Links solve(const scene::Scene& scene, const RandomScene& random, Bounds bounds)
 
 std::vector<std::vector<GeometricPath>> reference_of(const scene::Scene& scene, const RandomScene& random,
                                                      Bounds bounds) {
-  const RadioEffects effects = Rig::effects_of(bounds.walls);
+  const RadioEffects effects = Rig::effects_of(bounds);
   const std::vector<Pose> bodies{Pose{}};
   return reference::exhaustive_paths(scene, FacetWorld(scene), bodies, facet_kinds(scene, effects),
                                      random.transmitter, random.receivers,
@@ -228,6 +232,59 @@ TEST(Properties, EveryPathOfTheReferenceAndNoOther) {
   }
   EXPECT_GT(paths, 2000u);  // the scenes have paths to find
   EXPECT_GT(through_walls, 200u);
+}
+
+/// Keeps the paths with a diffraction.
+Links over_edges(Links links) {
+  for (auto& link : links)
+    std::erase_if(link, [](const Path& path) {
+      return std::ranges::none_of(
+          path.interactions, [](const Interaction& i) { return i.type == InteractionType::diffraction; });
+    });
+  return links;
+}
+
+TEST(Properties, EveryPathOverAnEdgeOfTheReferenceAndNoOther) {
+  size_t paths = 0, on_both_sides = 0, two_after = 0, through_walls = 0;
+  for (const Draw& draw : draws(4, {{2, 1, true}, {3, 0, true}, {4, 1, true}}, 4)) {
+    Rig rig(draw.scene, draw.bounds);
+    rig.search(draw.random.transmitter);
+    const auto reference = reference::exhaustive_diffraction(
+        draw.scene, FacetWorld(draw.scene), facet_kinds(draw.scene, Rig::effects_of(draw.bounds)),
+        rig.wedges(), draw.random.transmitter, draw.random.receivers,
+        {.max_depth = draw.bounds.depth, .max_transmissions = draw.bounds.walls});
+    expect_same(reference, over_edges(rig.paths(draw.random.receivers)), draw.name);
+    for (const auto& link : reference)
+      for (const GeometricPath& path : link) {
+        const auto edge =
+            std::ranges::find(path.interactions, InteractionType::diffraction, &Interaction::type);
+        const auto reflects = [](const Interaction& i) { return i.type == InteractionType::reflection; };
+        const auto before = std::count_if(path.interactions.begin(), edge, reflects),
+                   after = std::count_if(edge, path.interactions.end(), reflects);
+        ++paths;
+        on_both_sides += before > 0 && after > 0, two_after += after > 1;
+        through_walls += std::ranges::find(path.interactions, InteractionType::transmission,
+                                           &Interaction::type) != path.interactions.end();
+      }
+  }
+  EXPECT_GT(paths, 3000u);
+  EXPECT_GT(on_both_sides, 200u);
+  EXPECT_GT(two_after, 200u);
+  EXPECT_GT(through_walls, 200u);
+}
+
+TEST(Properties, PathsOverEdgesAreTheSameFromBothEnds) {
+  for (const Draw& draw : draws(2, {{3, 0, true}, {4, 1, true}})) {
+    Rig rig(draw.scene, draw.bounds);
+    rig.search(draw.random.transmitter);
+    const Links forward = rig.paths(std::span(draw.random.receivers).first(1));
+    for (size_t r = 0; r < forward.size(); ++r) {
+      rig.search(draw.random.receivers[r]);
+      Links back = rig.paths(std::span(&draw.random.transmitter, 1));
+      for (Path& path : back[0]) std::ranges::reverse(path.vertices);
+      expect_same(Links{forward[r]}, back, draw.name, {.vertex_m = 1e-8, .length_m = 1e-9});
+    }
+  }
 }
 
 TEST(Properties, TheSearchLeavesOutNothingThatEverySequenceFinds) {

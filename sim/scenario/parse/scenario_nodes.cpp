@@ -226,6 +226,7 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
                              "time_spacing_s",
                              "max_depth",
                              "max_transmissions",
+                             "max_reflections_beside_diffraction",
                              "max_reflections_after",
                              "max_reflections_before_scattering",
                              "scattering_patch_m",
@@ -255,6 +256,8 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
   if (const auto f = map.find("max_depth")) channel.limits.max_depth = f->integer32(0, 16);
   if (const auto f = map.find("max_transmissions"))
     channel.limits.max_transmissions = f->integer32(0, ChannelConfig::most_walls);
+  if (const auto f = map.find("max_reflections_beside_diffraction"))
+    channel.limits.max_reflections_beside_diffraction = f->integer32(0, 4);
   if (const auto f = map.find("max_reflections_after"))
     channel.limits.max_reflections_after = f->integer32(0, 4);
   if (const auto f = map.find("max_reflections_before_scattering"))
