@@ -256,12 +256,15 @@ void add_bench(CLI::App& app) {
       ->check(integer_of(1, 1'000'000));
   command->add_option("--receivers", recall.receiver_file, "of --recall: CSV of positions x, y, z instead")
       ->check(CLI::ExistingFile);
-  command->add_option("--depth", recall.max_depth, "of --recall: reflections and walls passed on a path")
+  command
+      ->add_option("--depth", recall.paths.max_depth, "of --recall: reflections and walls passed on a path")
       ->capture_default_str()
       ->check(integer_of(0, 6));
-  command->add_option("--walls", recall.max_transmissions, "of --recall: of them walls passed")
+  command->add_option("--walls", recall.paths.max_transmissions, "of --recall: of them walls passed")
       ->capture_default_str()
       ->check(integer_of(0, 6));
+  command->add_flag("--edges", recall.paths.edges,
+                    "of --recall: paths over one edge as well, with reflections on both sides of it");
   command->add_option("--max-rays", recall.max_rays_log2, "of --recall: rays from 2^14 to 2^this; 0: none")
       ->capture_default_str()
       ->check(integer_of(0, 24));

@@ -17,6 +17,7 @@
 #include "apps/console/json_text.h"
 #include "apps/console/progress.h"
 #include "rf/reference/comparison.h"
+#include "rf/reference/exhaustive_diffraction.h"
 #include "rf/reference/exhaustive_paths.h"
 #include "sim/channel/channel_paths.h"
 #include "sim/experiment/experiment.h"
@@ -92,13 +93,29 @@ Comparison compare(const Case& c, const Answer& answer) {
   return comparison;
 }
 
+/// Adds the paths over edges to those of the reference.
+void add_edges(Case& c, const RecallPaths& sought, const rf::FacetKinds& kinds, const rf::FacetWorld& world,
+               const sim::Moment& moment, std::span<const dvec3> receivers) {
+  const scene::Scene& scene = c.experiment.scene();
+  std::vector<scene::Wedge> wedges = scene::find_wedges(scene);
+  const auto hard = [&](uint32_t facet) {
+    return kinds[facet] == rf::FacetKind::opaque || kinds[facet] == rf::FacetKind::wall;
+  };
+  std::erase_if(wedges, [&](const scene::Wedge& wedge) {
+    return wedge.body != 0 || !hard(wedge.facet_0) || !hard(wedge.facet_n);
+  });
+  const auto found = rf::reference::exhaustive_diffraction(
+      scene, world, moment.bodies, kinds, wedges,
+      transmitter_position(c.experiment.scenario, *c.experiment.world, moment), receivers,
+      {.max_depth = sought.max_depth, .max_transmissions = sought.max_transmissions});
+  for (size_t r = 0; r < found.size(); ++r)
+    c.reference.paths[r].insert(c.reference.paths[r].end(), found[r].begin(), found[r].end());
+}
+
 Case make_case(const RecallOptions& options, const std::string& name) {
   ScenarioOptions chosen = options.scenario;
   chosen.scenario = name;
-  Case c{sim::make_experiment(
-             frozen_for_recall(load_scenario(chosen), options.max_depth, options.max_transmissions)),
-         {},
-         {}};
+  Case c{sim::make_experiment(frozen_for_recall(load_scenario(chosen), options.paths)), {}, {}};
   const scene::Scene& scene = c.experiment.scene();
   c.receivers = options.receiver_file.empty()
                     ? draw_receivers(scene, c.experiment.scenario.seed, options.receivers)
@@ -111,13 +128,14 @@ Case make_case(const RecallOptions& options, const std::string& name) {
 
   Progress progress(fmt::format("{}: reference", name), 1000, options.json, "");
   rf::reference::ExhaustiveOptions exhaustive;
-  exhaustive.max_depth = options.max_depth;
-  exhaustive.max_transmissions = options.max_transmissions;
+  exhaustive.max_depth = options.paths.max_depth;
+  exhaustive.max_transmissions = options.paths.max_transmissions;
   exhaustive.progress = [&](double done) { progress.update(static_cast<int64_t>(1000.0 * done)); };
   const Clock::time_point begin = Clock::now();
   c.reference = rf::reference::exhaustive_paths(
       scene, world, moment.bodies, kinds,
       transmitter_position(c.experiment.scenario, *c.experiment.world, moment), local, exhaustive);
+  if (options.paths.edges) add_edges(c, options.paths, kinds, world, moment, local);
   c.reference_s = seconds_since(begin);
   return c;
 }
@@ -189,7 +207,7 @@ bool measure_beams(gpu::Device& device, const Case& c, bool quiet, nlohmann::jso
 /// Measures plain shooting and bouncing of rays for increasing numbers of rays.
 void measure_rays(gpu::Device& device, const Case& c, const RecallOptions& options, nlohmann::json& result) {
   result["rays"] = nlohmann::json::array();
-  if (options.max_rays_log2 < 14) return;
+  if (options.max_rays_log2 < 14 || options.paths.edges) return;
   if (!options.json)
     std::cout << fmt::format("  {:>8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>9} {:>9}\n", "rays", "candidates",
                              "found", "missing", "doubled", "recall", "search s", "solve s");
@@ -228,16 +246,19 @@ void run_recall(const RecallOptions& options) {
     result = {{"scene", c.experiment.scenario.name},
               {"facets", c.experiment.scene().facets.size()},
               {"receivers", c.receivers.size()},
-              {"max_depth", options.max_depth},
-              {"max_transmissions", options.max_transmissions},
+              {"max_depth", options.paths.max_depth},
+              {"max_transmissions", options.paths.max_transmissions},
+              {"edges", options.paths.edges},
               {"reference_s", c.reference_s},
               {"reference_sequences", c.reference.sequences}};
     if (!options.json)
-      std::cout << fmt::format(
-                       "{}: {} facets, {} receivers, {} interactions, of them {} walls; reference {:.1f} s\n",
-                       c.experiment.scenario.name, c.experiment.scene().facets.size(), c.receivers.size(),
-                       options.max_depth, options.max_transmissions, c.reference_s)
-                << std::flush;
+      std::cout
+          << fmt::format(
+                 "{}: {} facets, {} receivers, {} interactions, of them {} walls{}; reference {:.1f} s\n",
+                 c.experiment.scenario.name, c.experiment.scene().facets.size(), c.receivers.size(),
+                 options.paths.max_depth, options.paths.max_transmissions,
+                 options.paths.edges ? " and one edge" : "", c.reference_s)
+          << std::flush;
     perfect = measure_beams(device, c, options.json, result) && perfect;
     measure_rays(device, c, options, result);
     check_validation(device);

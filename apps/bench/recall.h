@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `greatx bench --recall`: checks that greatx finds every specular path exactly once. Both the guaranteed
+// `greatx bench --recall`: checks that greatx finds every specular path, and every path over an edge if asked
+// to, exactly once. Both the guaranteed
 // search and plain shooting and bouncing of rays, for increasing numbers of rays, are compared with the
 // exhaustive reference (rf/reference/exhaustive_paths.h).
 #pragma once
@@ -9,6 +10,7 @@
 #include <cstdint>
 #include <string>
 
+#include "apps/bench/recall_scene.h"
 #include "apps/console/session.h"
 
 namespace greatx::apps {
@@ -17,11 +19,12 @@ struct RecallOptions {
   ScenarioOptions scenario;
   bool every_scene = true;  ///< instead of `scenario`, use the room, the street canyon and the city
   RunOptions run;
-  uint32_t receivers = 100;        ///< number of receivers, drawn from the scenario's seed
-  std::string receiver_file;       ///< CSV of positions to use instead; empty: none
-  uint32_t max_depth = 3;          ///< largest number of reflections and transmissions of a path
-  uint32_t max_transmissions = 0;  ///< largest number of transmissions of a path
-  uint32_t max_rays_log2 = 22;     ///< log2 of the largest number of rays; below 14: no rays are shot
+  uint32_t receivers = 100;   ///< number of receivers, drawn from the scenario's seed
+  std::string receiver_file;  ///< CSV of positions to use instead; empty: none
+  RecallPaths paths;
+  uint32_t max_rays_log2 =
+      22;  ///< log2 of the largest number of rays; below 14: no rays are shot. Paths over edges need
+           ///< beams
   bool json = false;
 };
 

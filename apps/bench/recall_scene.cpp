@@ -61,15 +61,16 @@ std::optional<dvec3> place(const scene::Scene& scene, const dvec2& at, double sh
 
 }  // namespace
 
-sim::Scenario frozen_for_recall(sim::Scenario scenario, uint32_t max_depth, uint32_t max_transmissions) {
+sim::Scenario frozen_for_recall(sim::Scenario scenario, const RecallPaths& sought) {
   if (scenario.channels.empty())
     throw_user_error(
         "{}: channels: expected one at least, whose transmitter the paths start from; found none",
         scenario.name);
   scenario.channels.resize(1);
   sim::ChannelConfig& channel = scenario.channels[0];
-  channel.limits.max_depth = max_depth;
-  channel.limits.max_transmissions = max_transmissions;
+  channel.limits.max_depth = sought.max_depth;
+  channel.limits.max_transmissions = sought.max_transmissions;
+  channel.limits.max_reflections_beside_diffraction = rf::PathLimits{}.max_reflections_beside_diffraction;
   channel.search = sim::ChannelConfig::Search::automatic;
   const auto paths = sim::make_node_courses(scenario, 0);
   for (size_t i = 0; i < scenario.nodes.size(); ++i) {
@@ -81,9 +82,10 @@ sim::Scenario frozen_for_recall(sim::Scenario scenario, uint32_t max_depth, uint
     if (channel.transmitters[0].starts_with(node.name + "/")) node.model.reset();
   }
   scenario.effects.clear();
-  for (const char* off : {"diffraction", "scattering", "moving_reflectors"})
-    scenario.effects[off] = sim::Switch::off;
-  scenario.effects["transmission"] = max_transmissions > 0 ? sim::Switch::on : sim::Switch::off;
+  for (const char* off : {"scattering", "moving_reflectors"}) scenario.effects[off] = sim::Switch::off;
+  const auto only_if = [](bool on) { return on ? sim::Switch::on : sim::Switch::off; };
+  scenario.effects["transmission"] = only_if(sought.max_transmissions > 0);
+  scenario.effects["diffraction"] = only_if(sought.edges);
   return scenario;
 }
 

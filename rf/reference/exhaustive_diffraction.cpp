@@ -54,10 +54,9 @@ struct Side {
 
 class EdgePaths {
  public:
-  EdgePaths(const scene::Scene& scene, const FacetWorld& world, const FacetKinds& kinds,
-            std::span<const scene::Wedge> wedges, const DiffractionOptions& options)
-      : bodies_(1),
-        chains_(scene, world, bodies_, kinds),
+  EdgePaths(const scene::Scene& scene, const FacetWorld& world, std::span<const Pose> body_poses,
+            const FacetKinds& kinds, std::span<const scene::Wedge> wedges, const DiffractionOptions& options)
+      : chains_(scene, world, body_poses, kinds),
         wedges_(wedges),
         options_(options),
         beside_(std::min(options.max_beside, std::max(options.max_depth, 1u) - 1)) {}
@@ -138,7 +137,6 @@ class EdgePaths {
       paths.push_back(std::move(path));
   }
 
-  std::vector<Pose> bodies_;
   Chains chains_;
   std::span<const scene::Wedge> wedges_;
   const DiffractionOptions& options_;
@@ -148,12 +146,12 @@ class EdgePaths {
 }  // namespace
 
 std::vector<std::vector<GeometricPath>> exhaustive_diffraction(
-    const scene::Scene& scene, const FacetWorld& world, const FacetKinds& kinds,
-    std::span<const scene::Wedge> wedges, const dvec3& transmitter, std::span<const dvec3> receivers,
-    const DiffractionOptions& options) {
+    const scene::Scene& scene, const FacetWorld& world, std::span<const Pose> body_poses,
+    const FacetKinds& kinds, std::span<const scene::Wedge> wedges, const dvec3& transmitter,
+    std::span<const dvec3> receivers, const DiffractionOptions& options) {
   GREATX_CHECK(options.max_depth > 0, "no interaction for a diffraction");
   for (const scene::Wedge& wedge : wedges) GREATX_CHECK(wedge.body == 0, "a wedge of body {}", wedge.body);
-  const EdgePaths edges(scene, world, kinds, wedges, options);
+  const EdgePaths edges(scene, world, body_poses, kinds, wedges, options);
   const Side before = edges.side_of(transmitter);
   std::vector<std::vector<GeometricPath>> paths(receivers.size());
   parallel_for(receivers.size(), 0,

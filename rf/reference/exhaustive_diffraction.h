@@ -30,10 +30,11 @@ struct DiffractionOptions {
 /// - The points before and after it lie in the wedge's exterior.
 /// - No reflection next to the edge is at one of the wedge's own faces, which belongs to the edge's field.
 /// - Reflections and obstruction are those of exhaustive_paths(). The faces of the wedge do not block.
-/// All wedges belong to the static world, and so do both ends.
+/// All wedges belong to the static world, and nothing carries the ends. `body_poses` [bodies] are those of
+/// `world`.
 std::vector<std::vector<GeometricPath>> exhaustive_diffraction(
-    const scene::Scene& scene, const FacetWorld& world, const FacetKinds& kinds,
-    std::span<const scene::Wedge> wedges, const dvec3& transmitter, std::span<const dvec3> receivers,
-    const DiffractionOptions& options);
+    const scene::Scene& scene, const FacetWorld& world, std::span<const Pose> body_poses,
+    const FacetKinds& kinds, std::span<const scene::Wedge> wedges, const dvec3& transmitter,
+    std::span<const dvec3> receivers, const DiffractionOptions& options);
 
 }  // namespace greatx::rf::reference

@@ -250,9 +250,9 @@ TEST(Properties, EveryPathOverAnEdgeOfTheReferenceAndNoOther) {
     Rig rig(draw.scene, draw.bounds);
     rig.search(draw.random.transmitter);
     const auto reference = reference::exhaustive_diffraction(
-        draw.scene, FacetWorld(draw.scene), facet_kinds(draw.scene, Rig::effects_of(draw.bounds)),
-        rig.wedges(), draw.random.transmitter, draw.random.receivers,
-        {.max_depth = draw.bounds.depth, .max_transmissions = draw.bounds.walls});
+        draw.scene, FacetWorld(draw.scene), std::vector<Pose>(1),
+        facet_kinds(draw.scene, Rig::effects_of(draw.bounds)), rig.wedges(), draw.random.transmitter,
+        draw.random.receivers, {.max_depth = draw.bounds.depth, .max_transmissions = draw.bounds.walls});
     expect_same(reference, over_edges(rig.paths(draw.random.receivers)), draw.name);
     for (const auto& link : reference)
       for (const GeometricPath& path : link) {
