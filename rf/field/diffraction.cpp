@@ -125,9 +125,25 @@ bool in_shadow(const scene::Wedge& wedge, const dvec3& source, const dvec3& obse
   return utd_angles(wedge.n, across(wedge, source - wedge.a), across(wedge, observer - wedge.a)).in_shadow();
 }
 
+EdgeSides near_boundaries(const scene::Wedge& wedge, const dvec3& before, const dvec3& at, const dvec3& after,
+                          double room_m) {
+  const dvec2 source = across(wedge, before - at), observer = across(wedge, after - at);
+  const double nearer = std::min(glm::length(source), glm::length(observer));
+  const UtdAngles angles = utd_angles(wedge.n, source, observer);
+  const auto near = [&](UtdTerm term) {
+    const double past = std::abs(angles.delta[static_cast<uint32_t>(term)]);
+    return past < 1e-3 && past * nearer <= room_m;
+  };
+  EdgeSides sides;
+  sides.incident = near(UtdTerm::shadow_0) || near(UtdTerm::shadow_n);
+  sides.reflected_0 = near(UtdTerm::reflection_0);
+  sides.reflected_n = near(UtdTerm::reflection_n);
+  return sides;
+}
+
 EdgeDyadic edge_dyadic(const scene::Wedge& wedge, const dvec3& in, const dvec3& out, double before_m,
                        double after_m, const FacetWorld& world, const RadioSurfaces& surfaces,
-                       const SpecularShare& share) {
+                       const SpecularShare& share, const EdgeSides& sides) {
   const dvec3 edge = edge_direction(wedge);
   const dvec3 turn_in = glm::cross(edge, in), turn_out = glm::cross(edge, out);
   const double sin_in = glm::length(turn_in), sin_out = glm::length(turn_out);
@@ -144,7 +160,7 @@ EdgeDyadic edge_dyadic(const scene::Wedge& wedge, const dvec3& in, const dvec3& 
   const dvec2 source = -across(wedge, in), observer = across(wedge, out);
   const UtdAngles angles = utd_angles(wedge.n, source, observer);
   const double distance = before_m / (before_m + after_m) * after_m * sin_in * sin_out;  // L
-  const UtdTerms d = utd_terms(angles, 2.0 * pi / surfaces.wavelength_m(), distance);
+  const UtdTerms d = utd_terms(angles, 2.0 * pi / surfaces.wavelength_m(), distance, sides);
   const Complex direct = -(d[UtdTerm::shadow_n] + d[UtdTerm::shadow_0]);
   dyadic.matrix[0] = dyadic.matrix[3] = direct;
 

@@ -93,8 +93,16 @@ using SpecularShare = std::function<double(uint32_t material, double cos_theta)>
 /// Approximations: the faces are plane and endless, and no second edge is near. The faces let nothing
 /// through; a path through the wall behind a shadow boundary is added to the result. Surface waves and slopes
 /// of the incident field are left out.
+///
+/// `sides` tells where the observer counts if it is too near to a boundary.
 EdgeDyadic edge_dyadic(const scene::Wedge& posed, const dvec3& in, const dvec3& out, double before_m,
                        double after_m, const FacetWorld& world, const RadioSurfaces& surfaces,
-                       const SpecularShare& share = {});
+                       const SpecularShare& share = {}, const EdgeSides& sides = {});
+
+/// Tells near which boundaries of the edge (1: near, 0: not) a path lies that comes from `before`, bends at
+/// `at` and goes on to `after`: within `room_m` of the boundary at the nearer of these points, and within 1
+/// mrad.
+EdgeSides near_boundaries(const scene::Wedge& posed, const dvec3& before, const dvec3& at, const dvec3& after,
+                          double room_m);
 
 }  // namespace greatx::rf

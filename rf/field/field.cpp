@@ -131,11 +131,11 @@ class Travelling {
   }
 
   /// The result also spreads by the whole length from there on (edge_dyadic).
-  void diffract(const scene::Wedge& wedge, const dvec3& in, const dvec3& out, double before_m,
-                double after_m) {
+  void diffract(const scene::Wedge& wedge, const dvec3& in, const dvec3& out, double before_m, double after_m,
+                const EdgeSides& sides) {
     const auto share = [this](uint32_t material, double cosine) { return specular_share(material, cosine); };
     const EdgeDyadic edge =
-        edge_dyadic(wedge, in, out, before_m, after_m, *model_.world, *model_.surfaces, share);
+        edge_dyadic(wedge, in, out, before_m, after_m, *model_.world, *model_.surfaces, share, sides);
     for (FieldVector& field : columns_) field = edge.apply(field);
   }
 
@@ -211,7 +211,8 @@ void travel(const GeometricPath& path, const FieldModel& model, const Runs& runs
         before_m = 0.0;
         break;
       case InteractionType::diffraction:
-        field.diffract(posed(wedge_of(model, interaction), world), in, out, runs.before_m, runs.after_m);
+        field.diffract(posed(wedge_of(model, interaction), world), in, out, runs.before_m, runs.after_m,
+                       path.edge_sides);
         before_m = 0.0;
         break;
       case InteractionType::none:
@@ -287,6 +288,7 @@ Path path_field(const GeometricPath& geometry, const FieldModel& model, const dv
   path.foliage_m = geometry.foliage_m;
   path.patch_area_m2 = geometry.patch_area_m2;
   path.edges_diffract = geometry.edges_diffract;
+  path.edge_sides = geometry.edge_sides;
   path.from_receiver = back;
   path.delay_s = geometry.length_m / speed_of_light;
   path.doppler_hz = closing_rate(wave, model, runs, back ? receiver_velocity : transmitter_velocity,

@@ -56,12 +56,22 @@ void check(const UtdAngles& angles) {
 /// Returns y cot y for |y| <= pi/2.
 double y_cot_y(double y) { return y == 0.0 ? 1.0 : y / std::tan(y); }
 
-Complex term_value(uint32_t term, double delta, double n, double wave_times_distance) {
+/// Largest angle past a boundary at which EdgeSides count, rad.
+constexpr double near_boundary_rad = 0.1;
+
+int side_said(uint32_t term, const EdgeSides& sides) {
+  if (!reflects(term)) return sides.incident;
+  return term == static_cast<uint32_t>(UtdTerm::reflection_0) ? sides.reflected_0 : sides.reflected_n;
+}
+
+Complex term_value(uint32_t term, double delta, double n, double wave_times_distance, int said) {
   const double half = 0.5 * delta, sine = std::abs(std::sin(half));
   const double sinc = half == 0.0 ? 1.0 : sine / std::abs(half);
   // The boundary itself belongs to the lit side: delta > 0 for the terms with + pi, delta < 0 for the others.
-  const double side = delta != 0.0 ? std::copysign(1.0, delta) : adds_pi(term) ? 1.0 : -1.0;
-  const double sign = adds_pi(term) ? -side : side;
+  const bool lit = said != 0 && std::abs(delta) < near_boundary_rad ? said > 0
+                   : delta == 0.0                                   ? true
+                                                                    : adds_pi(term) == (delta > 0.0);
+  const double sign = lit ? -1.0 : 1.0;
   return 0.5 * sign * sinc * y_cot_y(0.5 * delta / n) *
          erfcx_on_diagonal(std::sqrt(2.0 * wave_times_distance) * sine);
 }
@@ -142,12 +152,13 @@ bool UtdAngles::in_shadow() const {
   return std::abs(rough) < 0.5 ? past > 0.0 : rough > 0.0;
 }
 
-UtdTerms utd_terms(const UtdAngles& angles, double wave_number, double distance_m) {
+UtdTerms utd_terms(const UtdAngles& angles, double wave_number, double distance_m, const EdgeSides& sides) {
   GREATX_CHECK(wave_number > 0.0 && distance_m >= 0.0, "wave number {} rad/m, distance {} m", wave_number,
                distance_m);
   UtdTerms terms;
   for (uint32_t term = 0; term < 4; ++term)
-    terms.d[term] = term_value(term, angles.delta[term], angles.n, wave_number * distance_m);
+    terms.d[term] =
+        term_value(term, angles.delta[term], angles.n, wave_number * distance_m, side_said(term, sides));
   return terms;
 }
 

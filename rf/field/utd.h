@@ -15,10 +15,9 @@
 #include <complex>
 
 #include "core/vec.h"
+#include "rf/geometry/path.h"
 
 namespace greatx::rf {
-
-using Complex = std::complex<double>;
 
 /// Returns erfcx(e^{j pi/4} w) = e^{j w^2} erfc(e^{j pi/4} w) for w >= 0; 1 at w = 0. The relative error is
 /// below 1e-15 for every w (the midpoint rule of D. B. Hunter, T. Regan, Math. Comp. 26, 1972, with 12 nodes
@@ -60,8 +59,8 @@ UtdAngles utd_angles(double n, const dvec2& source, const dvec2& observer);
 ///   w = sqrt(2 k L) |sin(delta/2)|.
 /// This is the product cot(.) F(.) without its pole, where F(x) = sqrt(pi x) e^{j pi/4} erfcx(e^{j pi/4}
 /// sqrt(x)) is Kouyoumjian and Pathak's transition function. On a boundary d is -+ 1/2: the observer counts
-/// as on the lit side, because facets are closed and the geometrical field is counted there. kL = 0 is
-/// allowed. The error is 2e-15.
+/// as on the lit side, because facets are closed and the geometrical field is counted there. Near a boundary,
+/// `sides` may say on which side the observer counts. kL = 0 is allowed. The error is 2e-15.
 struct UtdTerms {
   Complex d[4];
   Complex operator[](UtdTerm term) const { return d[static_cast<uint32_t>(term)]; }
@@ -73,7 +72,8 @@ struct UtdTerms {
 /// Pathak's eq. 25). The diffracted field is D A(s', s) e^{-jks} times the incident field at the edge, with A
 /// = sqrt(s'/(s (s + s'))) for a spherical wave and 1/sqrt(s) for a plane wave. Soft: E in the plane of the
 /// edge and the ray (beta_0; TE on the faces if beta_0 = 90 degrees). Hard: E along phi (TM).
-UtdTerms utd_terms(const UtdAngles& angles, double wave_number, double distance_m);
+UtdTerms utd_terms(const UtdAngles& angles, double wave_number, double distance_m,
+                   const EdgeSides& sides = {});
 
 /// Holds the angles at which the faces' reflection coefficients are taken. The face nearer to the source
 /// takes the angle of the source. The other face takes the angle at which its reflection would leave for the

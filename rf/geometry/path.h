@@ -55,6 +55,13 @@ bool interactions_less(std::span<const Interaction> a, std::span<const Interacti
 /// the probability that two of a million paths share an identity is 3e-8.
 uint64_t path_id(std::span<const Interaction> interactions);
 
+/// Tells on which sides of the boundaries of an edge a path ends that is too near to them for its angles to
+/// tell: whether the wave without the edge, or its reflection in face 0 or face n instead of it, is a path of
+/// its own (+1) or not (-1). 0: the angles tell.
+struct EdgeSides {
+  int8_t incident = 0, reflected_0 = 0, reflected_n = 0;
+};
+
 /// Holds a path that exists geometrically, from the transmitter to the receiver.
 struct GeometricPath {
   std::vector<Interaction> interactions;
@@ -65,6 +72,7 @@ struct GeometricPath {
   double patch_area_m2 = 0.0;  ///< area of the scattering patch; 0 if the path is not scattered
   /// Bit i: the diffraction at the edges of the facet of interaction i, a reflection, is in other paths.
   uint32_t edges_diffract = 0;
+  EdgeSides edge_sides = {};  ///< of its diffraction
   /// The field is computed as if the receiver sent. A diffraction at a lossy wedge and a scattering have
   /// other fields from each side, so both directions of a link compute theirs from the same end.
   bool from_receiver = false;
@@ -75,6 +83,7 @@ struct GeometricPath {
     vertices.clear();
     length_m = foliage_m = patch_area_m2 = 0.0;
     edges_diffract = 0;
+    edge_sides = {};
     from_receiver = false;
   }
 };
@@ -89,6 +98,7 @@ struct Path {
   double foliage_m = 0.0;
   double patch_area_m2 = 0.0;   ///< as in GeometricPath
   uint32_t edges_diffract = 0;  ///< as in GeometricPath
+  EdgeSides edge_sides = {};    ///< as in GeometricPath
   bool from_receiver = false;   ///< as in GeometricPath
   double delay_s = 0.0;         ///< length / c
   /// nu = (1/lambda)(v_tx . k_0 - v_rx . k_n + sum v_i . (k_i - k_{i-1})); approaching ends give nu > 0.

@@ -9,6 +9,7 @@
 #include "core/built_effects.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "rf/field/diffraction.h"
 
 namespace greatx::rf {
 
@@ -202,6 +203,45 @@ uint32_t PathSolver::edges_diffract(const GeometricPath& path) const {
   return bits;
 }
 
+/// Sets GeometricPath::edge_sides of the paths of a link, in canonical order. Obstruction and the angles of an
+/// edge are decided from the same facets, but within roundings, and within what a file's corners stand off
+/// the planes of their facets, they may disagree about the side of a boundary. The paths that exist decide.
+void PathSolver::find_edge_sides(std::vector<GeometricPath>& paths, const FacetWorld& world) const {
+  constexpr double room_m = 2e-4;
+  if (!model_->effects.diffraction || !model_->effects.line_of_sight || !model_->effects.reflection) return;
+  GeometricPath other;
+  const auto exists = [&] {
+    const auto at = std::lower_bound(paths.begin(), paths.end(), other, less);
+    return at != paths.end() && at->interactions == other.interactions ? 1 : -1;
+  };
+  const auto solid = [](const Interaction& i) { return i.type != InteractionType::transmission; };
+  for (GeometricPath& path : paths) {
+    const std::optional<size_t> bend = bend_of(path);
+    if (!bend || path.interactions[*bend].type != InteractionType::diffraction) continue;
+    size_t before = *bend, after = *bend + 2;  // vertices; walls on the way turn nothing
+    while (before > 0 && !solid(path.interactions[before - 1])) --before;
+    while (after <= path.interactions.size() && !solid(path.interactions[after - 1])) ++after;
+    const uint32_t edge = path.interactions[*bend].element;
+    const scene::Wedge wedge = posed(model_->wedges[edge], world);
+    EdgeSides sides =
+        near_boundaries(wedge, path.vertices[before], path.vertices[*bend + 1], path.vertices[after], room_m);
+    const auto instead = [&](uint32_t facet) {
+      other.interactions = path.interactions;
+      other.interactions[*bend] = {InteractionType::reflection, facet};
+      return static_cast<int8_t>(exists());
+    };
+    if (sides.incident != 0) {
+      other.interactions = path.interactions;
+      other.interactions.erase(other.interactions.begin() + static_cast<ptrdiff_t>(*bend));
+      sides.incident = static_cast<int8_t>(exists());
+    }
+    if (sides.reflected_0 != 0) sides.reflected_0 = instead(wedge.facet_0);
+    if (sides.reflected_n != 0)
+      sides.reflected_n = instead(wedge.facet_n == scene::no_facet ? wedge.facet_0 : wedge.facet_n);
+    path.edge_sides = sides;
+  }
+}
+
 void PathSolver::add_segments(std::span<const GeometricPath> paths, const EndState& transmitter,
                               const EndState& receiver, std::vector<Segment>& segments) const {
   const auto body_or_none = [](uint32_t body) { return body == 0 ? shared::rf_none : body; };
@@ -252,6 +292,7 @@ std::vector<Path> PathSolver::finish(std::span<const GeometricPath> paths,
   }
   GREATX_CHECK(first == crossings.size(), "{} segments, {} answers", first, crossings.size());
   std::sort(lit.begin(), lit.end(), less);
+  find_edge_sides(lit, world);
   std::vector<Path> fields(lit.size());
   // Paths are taken in groups, because many fields take less time than a thread needs to start.
   const size_t groups = (lit.size() + paths_at_once - 1) / paths_at_once;

@@ -74,6 +74,7 @@ class PathSolver {
  private:
   uint32_t walls_allowed(const GeometricPath& path) const;
   uint32_t edges_diffract(const GeometricPath& path) const;
+  void find_edge_sides(std::vector<GeometricPath>& paths, const FacetWorld& world) const;
 
   const RadioModel* model_;
   PathLimits limits_;
