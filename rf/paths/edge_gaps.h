@@ -26,8 +26,8 @@ class EdgeGaps {
   /// Tells whether a leg of the path next to a reflection passes an opaque facet so close to the reflection
   /// point that the visibility test may have missed it. The facet is one of the world at rest or of the body
   /// that reflects. Facets of the bodies that carry the ends (0: none) do not count on the legs to these
-  /// ends. A point within 1e-7 m of both facets lies in their edge and belongs to both: it passes neither. Nor
-  /// does a leg pass a facet on which it ends.
+  /// ends. A point within 1e-7 m of both facets lies in their edge and belongs to both: it passes neither.
+  /// Nor does a leg pass a facet on which it ends.
   bool passes_one(const FacetWorld& world, const GeometricPath& path, uint32_t transmitter_body,
                   uint32_t receiver_body) const;
 

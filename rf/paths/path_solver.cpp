@@ -203,8 +203,8 @@ uint32_t PathSolver::edges_diffract(const GeometricPath& path) const {
   return bits;
 }
 
-/// Sets GeometricPath::edge_sides of the paths of a link, in canonical order. Obstruction and the angles of an
-/// edge are decided from the same facets, but within roundings, and within what a file's corners stand off
+/// Sets GeometricPath::edge_sides of the paths of a link, in canonical order. Obstruction and the angles of
+/// an edge are decided from the same facets, but within roundings, and within what a file's corners stand off
 /// the planes of their facets, they may disagree about the side of a boundary. The paths that exist decide.
 void PathSolver::find_edge_sides(std::vector<GeometricPath>& paths, const FacetWorld& world) const {
   constexpr double room_m = 2e-4;

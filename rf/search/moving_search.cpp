@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -33,12 +34,15 @@ struct MovingSearch::Walk {
       : search(of),
         options(of.options_),
         fixed_too(with_fixed),
-        fixed(*of.fixed_),
+        fixed(*of.fixed_->scene()),
         moving(*of.world_, moving_kinds(*of.world_, *of.kinds_), {}, true),
         extent_m(std::max(fixed.largest_coordinate(), moving.largest_coordinate())) {
     for (const dvec3& target : targets) {
       extent_m = std::max({extent_m, std::abs(target.x), std::abs(target.y), std::abs(target.z)});
-      fixed_images.emplace_back(fixed, target);
+      if (fixed_too)
+        fixed_images.emplace_back(fixed, target, *of.fixed_->seen_from(target, of.walls(), options.threads));
+      else
+        fixed_images.emplace_back(fixed, target);
       if (options.moving_bodies) moving_images.emplace_back(moving, target);
     }
   }
@@ -104,7 +108,7 @@ struct MovingSearch::Walk {
     pyramid.apex = beam.image;
     if (!sequence.empty()) {
       const std::optional<Pyramid> made =
-          make_pyramid(beam, fixed.facet(search.fixed_facet_[sequence.back()]), extent_m);
+          make_pyramid(beam, fixed.facet(search.fixed_->index_of(sequence.back())), extent_m);
       if (!made) return;
       pyramid = *made;
     }
@@ -133,11 +137,13 @@ struct MovingSearch::Walk {
 };
 
 MovingSearch::MovingSearch(const FacetWorld& world, const FacetKinds& kinds,
-                           const MovingSearchOptions& options)
-    : world_(&world), kinds_(&kinds), options_(options) {
-  fixed_ = std::make_shared<const BeamScene>(world, kinds, std::span<const scene::Wedge>{}, false);
-  fixed_facet_.assign(world.facet_count(), ~0u);
-  for (uint32_t i = 0; i < fixed_->facet_count(); ++i) fixed_facet_[fixed_->facet(i).index] = i;
+                           const MovingSearchOptions& options, std::shared_ptr<FixedFacets> fixed)
+    : world_(&world), kinds_(&kinds), options_(options), fixed_(std::move(fixed)) {
+  if (!fixed_) fixed_ = std::make_shared<FixedFacets>(world, kinds);
+}
+
+uint32_t MovingSearch::walls() const {
+  return std::min(options_.max_transmissions, std::max(options_.max_depth, 1u) - 1);
 }
 
 void MovingSearch::set_tree(const BeamSearchResult& tree, const dvec3& source) {
@@ -185,8 +191,8 @@ CandidateList MovingSearch::search(std::span<const dvec3> targets, bool fixed_to
 }
 
 Seams MovingSearch::seams() const {
-  return Seams(fixed_, BeamScene(*world_, moving_kinds(*world_, *kinds_), {}, true), options_.max_depth,
-               options_.max_transmissions);
+  return Seams(fixed_->scene(), BeamScene(*world_, moving_kinds(*world_, *kinds_), {}, true),
+               options_.max_depth, options_.max_transmissions);
 }
 
 std::string MovingSearch::guarantee(bool fixed_too) const {

@@ -13,9 +13,10 @@
 //   image in it lies inside the beam. The images of a target in all facets are points in a tree of boxes, and
 //   each beam queries the points inside.
 //
-// The search treats nothing as hidden. Its bounds are sides of mirrors, pyramids and rectangles around
-// facets, each with far more room than the rounding of fp64. Therefore the list has every sequence with a
-// path to one of the targets, provided that the tree has the beginning of the sequence.
+// The search treats nothing as hidden, but for the last facets in all(): a path comes to its target from a
+// facet that the target sees (FixedFacets). The other bounds are sides of mirrors, pyramids and rectangles
+// around facets, each with far more room than the rounding of fp64. Therefore the list has every sequence
+// with a path to one of the targets, provided that the tree has the beginning of the sequence.
 #pragma once
 
 #include <cstdint>
@@ -30,6 +31,7 @@
 #include "rf/geometry/candidates.h"
 #include "rf/search/beam_scene.h"
 #include "rf/search/beam_search.h"
+#include "rf/search/fixed_facets.h"
 #include "rf/search/seams.h"
 
 namespace greatx::rf {
@@ -43,8 +45,10 @@ struct MovingSearchOptions {
 
 class MovingSearch {
  public:
-  /// Every call reads `world` and `kinds`, which must outlive this object.
-  MovingSearch(const FacetWorld& world, const FacetKinds& kinds, const MovingSearchOptions& options);
+  /// Every call reads `world` and `kinds`, which must outlive this object. `fixed` may be shared with other
+  /// searches in the same world; null: the search makes its own.
+  MovingSearch(const FacetWorld& world, const FacetKinds& kinds, const MovingSearchOptions& options,
+               std::shared_ptr<FixedFacets> fixed = nullptr);
   /// Sets the result of a search from `source` in the world at rest: without moving bodies, to the same
   /// depth. For all() that search may have stopped earlier (BeamSearchOptions::stop_depth); bounds alone then
   /// find the rest, as they do after a moving facet. For moving() it may have stopped one level earlier.
@@ -67,16 +71,17 @@ class MovingSearch {
  private:
   struct Walk;
   CandidateList search(std::span<const dvec3> targets, bool fixed_too) const;
+  /// Returns the most walls that may stand before the last reflection of a path.
+  uint32_t walls() const;
 
   const FacetWorld* world_;
   const FacetKinds* kinds_;
   MovingSearchOptions options_;
-  std::shared_ptr<const BeamScene> fixed_;  ///< facets at rest; copies share it
+  std::shared_ptr<FixedFacets> fixed_;  ///< copies share it
   dvec3 source_{0.0};
   std::vector<SequenceBeam> beams_;  ///< of the tree's sequences with fewer than max_depth facets
   CandidateList sequences_;          ///< [beams_]
   uint32_t tree_depth_ = 0;
-  std::vector<uint32_t> fixed_facet_;  ///< [facets of the world]: index in `fixed_`, or ~0u
 };
 
 }  // namespace greatx::rf

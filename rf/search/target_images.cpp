@@ -141,12 +141,25 @@ std::optional<SequenceBeam> cut_to(const Pyramid& pyramid, const BeamFacet& face
 
 TargetImages::TargetImages(const BeamScene& scene, const dvec3& target) : scene_(&scene) {
   images_.reserve(scene.facet_count());
-  for (uint32_t i = 0; i < scene.facet_count(); ++i) {
-    const BeamFacet& facet = scene.facet(i);
-    const double distance = glm::dot(facet.normal, target) - facet.offset;
-    if (std::abs(distance) <= 0.5 * facet.tolerance_m) continue;  // no path: the target is in the plane
-    images_.push_back({target - 2.0 * distance * facet.normal, i});
-  }
+  for (uint32_t i = 0; i < scene.facet_count(); ++i) add(i, target);
+  plant();
+}
+
+TargetImages::TargetImages(const BeamScene& scene, const dvec3& target, std::span<const uint32_t> seen)
+    : scene_(&scene) {
+  images_.reserve(seen.size());
+  for (const uint32_t facet : seen) add(facet, target);
+  plant();
+}
+
+void TargetImages::add(uint32_t index, const dvec3& target) {
+  const BeamFacet& facet = scene_->facet(index);
+  const double distance = glm::dot(facet.normal, target) - facet.offset;
+  if (std::abs(distance) <= 0.5 * facet.tolerance_m) return;  // no path: the target is in the plane
+  images_.push_back({target - 2.0 * distance * facet.normal, index});
+}
+
+void TargetImages::plant() {
   if (images_.empty()) return;
   for (const Image& image : images_) extent_m_ = std::max(extent_m_, largest(image.position));
   nodes_.emplace_back();

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/vec.h"
@@ -37,10 +38,12 @@ std::optional<Pyramid> make_pyramid(const SequenceBeam& beam, const BeamFacet& m
 /// if there is no such part.
 std::optional<SequenceBeam> cut_to(const Pyramid& pyramid, const BeamFacet& facet);
 
-/// Holds the images of one target in the facets of a scene, in a tree of boxes.
+/// Holds the images of one target in facets of a scene, in a tree of boxes.
 class TargetImages {
  public:
+  /// Takes all facets of the scene, or those of `seen`, ascending.
   TargetImages(const BeamScene& scene, const dvec3& target);
+  TargetImages(const BeamScene& scene, const dvec3& target, std::span<const uint32_t> seen);
 
   /// Calls visit(facet) for every facet of the BeamScene over which a path from the pyramid may reach the
   /// target. The order depends on the scene and the target alone.
@@ -85,6 +88,8 @@ class TargetImages {
   /// Returns how far each child reaches into all half-spaces; < 0 if it is outside one of them.
   static std::array<float, lanes> within(const Node& node, const Sides& sides);
   bool joins(const Pyramid& pyramid, const Image& image) const;
+  void add(uint32_t facet, const dvec3& target);
+  void plant();
   void build(uint32_t node, uint32_t first, uint32_t count);
 
   const BeamScene* scene_;

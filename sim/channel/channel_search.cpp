@@ -37,9 +37,11 @@ rf::MovingSearchOptions moving_options(const ChannelConfig& config, uint32_t wal
 }  // namespace
 
 ChannelSearch::ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& model, const EffectPlan& plan,
-                             const ChannelConfig& config, const ChannelEnds& ends)
+                             const ChannelConfig& config, const ChannelEnds& ends,
+                             std::function<std::shared_ptr<rf::FixedFacets>()> fixed_facets)
     : model_(model),
       config_(config),
+      fixed_facets_(std::move(fixed_facets)),
       move_facets_(plan.moving_reflectors.on),
       walls_(plan.transmission.on ? config.walls() : 0),
       transmitter_{.body = ends.transmitter.body, .kept = ends.transmitter.rests} {
@@ -125,7 +127,8 @@ void ChannelSearch::make_beams() {
   beams_.emplace(model_.facets, model_.kinds, model_.wedges, options);
   moving_searches_.clear();
   if (way_ == Way::between_ends || (once() && move_facets_))
-    moving_searches_.emplace_back(model_.facets, model_.kinds, moving_options(config_, walls_, move_facets_));
+    moving_searches_.emplace_back(model_.facets, model_.kinds, moving_options(config_, walls_, move_facets_),
+                                  fixed_facets_ ? fixed_facets_() : nullptr);
 }
 
 /// One search from the transmitter serves all points, of which there may be thousands.

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -28,8 +29,10 @@ class ChannelSearch {
   /// The ends decide the way to search. All arguments but `ends` must outlive this. If `gpu_scene` is null,
   /// only notes() may be called. Throws UserError if `search: once` is asked for and no end stands still, or
   /// if diffraction is on and candidates come from rays.
+  /// `fixed_facets` is called if the search needs them; empty: the search makes its own.
   ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& model, const EffectPlan& plan,
-                const ChannelConfig& config, const ChannelEnds& ends);
+                const ChannelConfig& config, const ChannelEnds& ends,
+                std::function<std::shared_ptr<rf::FixedFacets>()> fixed_facets = {});
 
   /// Declares that the receivers are points at rest from now on, perhaps thousands, and may differ at each
   /// call of renew().
@@ -94,6 +97,7 @@ class ChannelSearch {
 
   const rf::RadioModel& model_;
   const ChannelConfig& config_;
+  std::function<std::shared_ptr<rf::FixedFacets>()> fixed_facets_;
   bool move_facets_;
   uint32_t walls_;            ///< the most walls that a path may pass
   SearchSource transmitter_;  ///< as a source

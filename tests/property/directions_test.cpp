@@ -71,7 +71,7 @@ std::string words(std::span<const rf::Interaction> interactions) {
   return text;
 }
 
-/// Returns what differs between a path and the same path from the other end. Fields agree to 1e-9 of the
+/// Returns what differs between a path and the same path from the other end. Fields agree to 1e-12 of the
 /// largest component.
 std::optional<std::string> backward_difference(const rf::Path& path, const rf::Path& back) {
   double largest = 0.0, off = 0.0;
@@ -80,7 +80,7 @@ std::optional<std::string> backward_difference(const rf::Path& path, const rf::P
     largest = std::max(largest, std::abs(path.transfer[i]));
     off = std::max(off, std::abs(path.transfer[i] - back.transfer[transposed]));
   }
-  if (off > 1e-9 * largest) return fmt::format("the field differs by {:.3g} of itself", off / largest);
+  if (off > 1e-12 * largest) return fmt::format("the field differs by {:.3g} of itself", off / largest);
   if (std::abs(path.length_m - back.length_m) > 1e-12 * path.length_m)
     return fmt::format("{} m and {} m", path.length_m, back.length_m);
   if (glm::length(path.departure - back.arrival) > 1e-9 || glm::length(path.arrival - back.departure) > 1e-9)
