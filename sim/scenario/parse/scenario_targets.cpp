@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fnmatch.h>
 
+#include "core/text.h"
 #include "sim/scenario/parse/rcs_csv.h"
 #include "sim/scenario/parse/scenario_parse.h"
 
