@@ -3,6 +3,7 @@
 //
 // Declares the arrays of a channel and fills them for each record, in the same order.
 #include <algorithm>
+#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -20,14 +21,23 @@ namespace greatx::sim {
 namespace {
 
 /// Describes the layers of each material at the carrier, outermost first; null for materials that no facet
-/// has.
-nlohmann::json describe_walls(const scene::Scene& scene, const rf::RadioSurfaces& surfaces) {
+/// has. `range_hz` is that of the row that the medium has at the carrier, and missing where a medium holds at
+/// every frequency.
+nlohmann::json describe_walls(const scene::Scene& scene, const rf::RadioSurfaces& surfaces,
+                              double carrier_hz) {
   nlohmann::json walls = nlohmann::json::array();
   for (uint32_t material = 0; material < scene.materials.size(); ++material) {
+    const std::vector<rf::DielectricLayer>& front = surfaces.surface(material).front;
     nlohmann::json layers;
-    for (const rf::DielectricLayer& layer : surfaces.surface(material).front)
-      layers.push_back({{"relative_permittivity", {layer.eta.real(), layer.eta.imag()}},
-                        {"thickness_m", layer.thickness_m}});
+    for (size_t i = 0; i < front.size(); ++i) {
+      const scene::RadioMedium& medium = scene.materials[material].radio->layers[i].medium;
+      const scene::RadioRow& row = scene::row_at(medium, carrier_hz, scene.materials[material].name);
+      layers.push_back({{"relative_permittivity", {front[i].eta.real(), front[i].eta.imag()}},
+                        {"thickness_m", front[i].thickness_m},
+                        {"source", medium.source},
+                        {"extrapolated", carrier_hz < row.min_hz || carrier_hz > row.max_hz}});
+      if (std::isfinite(row.max_hz)) layers.back()["range_hz"] = {row.min_hz, row.max_hz};
+    }
     walls.push_back({{"material", scene.materials[material].name}, {"layers", std::move(layers)}});
   }
   return walls;
@@ -177,7 +187,7 @@ std::string ChannelSensor::metadata() const {
   metadata["beam_squint"] = experiment_.plan.beam_squint.on;
   // Off: walls and air have their values at the carrier for every subcarrier.
   metadata["dispersion"] = dispersion_.has_value();
-  metadata["walls"] = describe_walls(experiment_.scene(), radio_->model().surfaces);
+  metadata["walls"] = describe_walls(experiment_.scene(), radio_->model().surfaces, config_.carrier_hz);
   for (const auto& [name, text] : paths_[0]->notes({})) metadata["candidates"][name] = text;
   metadata["candidates"]["bounds"] =
       "sequences_left_out and paths_left_out count at every tick what the guarantee does not hold for";

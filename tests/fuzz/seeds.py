@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes the inputs that mutators begin with: small, sound inputs of every kind. The program accepts each of
 them."""
-
 from __future__ import annotations
 
 import base64

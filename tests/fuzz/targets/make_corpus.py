@@ -5,7 +5,6 @@
 
 python3 tests/fuzz/targets/make_corpus.py tests/fuzz/targets/corpus
 """
-
 import pathlib
 import sys
 
