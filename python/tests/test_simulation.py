@@ -13,6 +13,7 @@ import numpy as np
 import support
 
 import greatx
+from greatx import precoding
 
 logging.getLogger("greatx").setLevel(logging.ERROR)
 C = support.C
@@ -45,6 +46,21 @@ class ClosedForms(unittest.TestCase):
         turns = np.mod((3.5e9 + k * 20e6 / 8) * (50 / C), 1)
         expected = LAMBDA / (4 * np.pi * 50) * np.exp(-2j * np.pi * turns)
         np.testing.assert_allclose(paths.cfr()[0, 0, 0, 0, 0], expected, rtol=3e-7)
+
+    def test_a_dft_beam_has_the_gain_of_the_array_in_its_direction(self):
+        # Far away: at 500 m the wave over a panel of 0.3 m is plane within 0.2 degrees.
+        for row_beam, beam in ((0, 0), (1, 3), (2, 6), (0, 5)):
+            left, up = precoding.beam_cosine(beam, 8), precoding.beam_cosine(row_beam, 3, 1, 0.7)
+            ahead = np.sqrt(1 - left**2 - up**2)
+            sim = greatx.Simulation(EMPTY, validation=True)
+            sim.place_transmitter("bs", [0, 0, 10], array=greatx.Array(rows=3, columns=8, row_spacing_wl=0.7))
+            sim.place_receiver("ue", [500 * ahead, 500 * left, 10 + 500 * up])
+            sim.add_channel("csi", carrier_hz=3.5e9, bandwidth_hz=1e6, subcarriers=1)
+            paths = sim.paths()
+            labels = precoding.best_beams(paths.cfr(), precoding.dft_panel(3, 8))
+            self.assertEqual(labels.beam[0, 0], row_beam * 8 + beam)
+            one_port = np.mean(np.abs(paths.cfr()) ** 2)
+            self.assertAlmostEqual(labels.gain[0, 0] / one_port, 24, delta=1e-3)
 
     def test_two_ray_ground(self):
         sim = greatx.Simulation({**EMPTY, "scene": {"generate": {"kind": "room"}}}, validation=True)
