@@ -181,6 +181,32 @@ class Maps(unittest.TestCase):
         served = made.best_server[rows, columns][solved]
         self.assertEqual(served.tolist(), np.argmax(made.rss[:, rows, columns].T[solved], axis=1).tolist())
 
+    def test_beams_are_those_of_the_python_codebook(self):
+        sim = street()
+        codebook = precoding.cross_polarized(precoding.dft_panel(1, 2, (1, 4)))  # of the street's two panels
+        best = sim.radio_map(**self.AREA, precoder="best_beam", oversampling=(1, 4))
+        self.assertEqual(best.facts["precoder"], "best_beam")
+        rows, columns = np.nonzero(best.placement == 0)
+        points = np.stack([best.x[columns], best.y[rows], best.z[rows, columns]], axis=1)
+        paths = sim.paths(receivers=points)
+        powers = np.abs(np.einsum("prt,bt->prb", paths.amplitude.astype(complex), codebook)) ** 2
+        gains = np.zeros((*paths.shape, len(codebook)))
+        np.add.at(gains, (paths.rx, paths.tx), powers.mean(axis=1))
+        there = gains.max(axis=-1) > 0
+        np.testing.assert_allclose(best.beam_gain[:, rows, columns].T, gains.max(axis=-1), rtol=1e-5)
+        chosen = np.take_along_axis(gains, np.maximum(best.best_beam[:, rows, columns].T, 0)[..., None], -1)
+        np.testing.assert_allclose(chosen[..., 0], gains.max(axis=-1), rtol=1e-5)
+        np.testing.assert_array_equal(best.best_beam[:, rows, columns].T >= 0, there)
+        self.assertGreater(len(np.unique(best.best_beam[best.best_beam >= 0])), 5)
+
+        one = sim.radio_map(**self.AREA, precoder="beam", beam=9, oversampling=(1, 4))
+        np.testing.assert_allclose(one.beam_gain[:, rows, columns].T, gains[..., 9], rtol=1e-5)
+        ratio = sim.radio_map(**self.AREA, precoder="maximum_ratio")
+        np.testing.assert_array_equal(ratio.beam_gain, 4 * ratio.path_gain)
+        with np.errstate(divide="ignore"):
+            np.testing.assert_allclose(ratio.rss, 30 + 10 * np.log10(ratio.beam_gain), rtol=1e-12)
+        self.assertNotIn("beam_gain", sim.radio_map(**self.AREA))
+
     def test_friis_over_a_plane(self):
         sim = in_space()
         made = sim.radio_map(
@@ -208,6 +234,10 @@ class Maps(unittest.TestCase):
             (("min_m", "[x, y]"), {"min_m": [1, 2, 3]}),
             (("array.rows",), {"array": greatx.Array(rows=0)}),
             (("height_m",), {"height_m": 0.0}),
+            (("precoder: expected one of mean, beam",), {"precoder": "zf"}),
+            (("beam: expected the index", "precoder beam"), {"precoder": "beam"}),
+            (("beam: expected 0 to 7", "'bs/panel'"), {"precoder": "beam", "beam": 8}),
+            (("oversampling: expected precoder beam or",), {"oversampling": (1, 1)}),
         ):
             with self.assertRaises(greatx.Error) as caught:
                 sim.radio_map(**{**self.AREA, **fields})
