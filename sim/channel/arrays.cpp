@@ -9,6 +9,7 @@
 
 #include "core/budget.h"
 #include "core/parallel.h"
+#include "core/units.h"
 #include "rf/channel/coherence.h"
 #include "rf/channel/received.h"
 #include "sim/channel/channel_sensor.h"
@@ -53,6 +54,27 @@ nlohmann::json describe_ends(const std::vector<rf::AntennaArray>& arrays, std::s
   return json;
 }
 
+nlohmann::json describe_surface(const TargetSurface& surface, double carrier_hz) {
+  const double wavelength_m = speed_of_light / carrier_hz;
+  nlohmann::json json{{"rows", surface.rows},
+                      {"columns", surface.columns},
+                      {"row_spacing_m", surface.row_spacing_wl * wavelength_m},
+                      {"column_spacing_m", surface.column_spacing_wl * wavelength_m},
+                      {"amplitude", surface.amplitude},
+                      {"bits", surface.bits}};
+  const auto end = [](const SurfaceEnd& aim) {
+    const dvec3& u = aim.direction;
+    return aim.antenna.empty() ? nlohmann::json({u.x, u.y, u.z}) : nlohmann::json(aim.antenna);
+  };
+  if (surface.steer)
+    json["steer"] = {{"from", end(surface.steer->first)}, {"to", end(surface.steer->second)}};
+  if (!surface.phases.empty())
+    for (const double phase : surface.phases) json["phases_deg"].push_back(degrees(phase));
+  else if (!surface.steer)
+    json["phase_deg"] = degrees(surface.phase);
+  return json;
+}
+
 /// Describes the targets with their models; instances as on disk, index + 1.
 nlohmann::json describe_targets(const Experiment& experiment, const ChannelConfig& config) {
   nlohmann::json targets = nlohmann::json::array();
@@ -64,6 +86,8 @@ nlohmann::json describe_targets(const Experiment& experiment, const ChannelConfi
     else if (const auto* tubes = std::get_if<TargetTubes>(&target.model))
       json["tubes"] = {
           {"width_m", tubes->tube_m}, {"budget", tubes->budget}, {"max_bounces", tubes->max_bounces}};
+    else if (const auto* surface = std::get_if<TargetSurface>(&target.model))
+      json["surface"] = describe_surface(*surface, config.carrier_hz);
     else {
       const rf::RcsTable& table = *std::get<std::shared_ptr<const rf::RcsTable>>(target.model);
       json["table"] = table.name();
