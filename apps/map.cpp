@@ -40,6 +40,9 @@ struct MapOptions {
   sim::MapOver over = sim::MapOver::ground;
   std::vector<double> min, max, power;
   double noise_figure = 0.0;
+  std::string precoder = "mean";
+  std::optional<uint64_t> beam;
+  std::vector<uint32_t> oversampling;
   uint32_t side = 960;
   MapFiles files;
   bool inside = false, beyond_scene = false, no_pictures = false, resume = false, json = false, quiet = false;
@@ -51,7 +54,12 @@ constexpr double default_height_m = 1.5;
 sim::MapRequest map_request(const MapOptions& options, const sim::ChannelConfig& channel,
                             const sim::Scenario& scenario) {
   check_instant(options.instant.sequence, options.instant.tick, scenario);
-  for (const std::string& name : options.files.quantities) sim::map_quantity(name);
+  sim::MapPrecoder precoder{sim::map_precoding(options.precoder), options.beam, {}};
+  if (!options.oversampling.empty())
+    precoder.oversampling = std::array{options.oversampling[0], options.oversampling[1]};
+  for (const std::string& name : options.files.quantities)
+    if (sim::map_quantity(name).precoded && precoder.precoding == sim::MapPrecoding::mean)
+      throw_user_error("--quantities: expected --precoder for '{}', found none", name);
   const auto corner = [](const std::vector<double>& xy) {
     return xy.empty() ? std::nullopt : std::optional(dvec2(xy[0], xy[1]));
   };
@@ -63,6 +71,7 @@ sim::MapRequest map_request(const MapOptions& options, const sim::ChannelConfig&
   request.power_dbm = options.power;
   request.bandwidth_hz = options.bandwidth;
   request.noise_figure_db = options.noise_figure;
+  request.precoder = precoder;
   request.inside_solids = options.inside;
   request.beyond_scene = options.beyond_scene;
   sim::check_map_request(request, channel);
@@ -155,6 +164,13 @@ Json json_of(const MapOptions& options, const sim::ChannelSnapshot& snapshot, co
                    {"noise_figure_db", map.power().noise_figure_db},
                    {"temperature_k", sim::MapPower::temperature_k},
                    {"power_dbm", decibels(map.power().noise_w()) + 30.0}};
+  if (map.precoding() != sim::MapPrecoding::mean) {
+    json["precoder"] = {{"name", options.precoder}};
+    if (options.beam) json["precoder"]["beam"] = *options.beam;
+    if (map.precoding() != sim::MapPrecoding::maximum_ratio)
+      json["precoder"]["oversampling"] =
+          options.oversampling.empty() ? std::vector<uint32_t>{1, 1} : options.oversampling;
+  }
   json["effects"] = Json::object();
   for (const sim::Effect* effect : plan.all()) json["effects"][effect->name] = effect->on;
   json["quantities"] = options.files.quantities;
@@ -172,7 +188,7 @@ void solve(const MapOptions& options, sim::RadioMapRun& map, MapJournal& journal
   progress.update(static_cast<int64_t>(done()));
   try {
     const TerminalWatch watch(options.quiet);
-    map.solve(done(), [&](std::span<const rf::LinkStatistics> links) {
+    map.solve(done(), [&](std::span<const sim::MapLink> links) {
       journal.append(links);
       progress.update(static_cast<int64_t>(done()));
       return !interrupted();
@@ -316,6 +332,17 @@ void add_radio(CLI::App& command, MapOptions& options) {
       ->delimiter(',');
   command.add_option("--bandwidth", options.bandwidth, "of the noise, Hz [the channel's]");
   command.add_option("--noise-figure", options.noise_figure, "of the receiver, dB")->capture_default_str();
+  command
+      .add_option("--precoder", options.precoder,
+                  "of the transmitters: mean (over their ports), beam, best_beam, maximum_ratio")
+      ->capture_default_str();
+  command.add_option("--beam", options.beam, "index of the DFT beam of --precoder beam")
+      ->check(integer_of(0, int64_t{1} << 40));
+  command
+      .add_option("--oversampling", options.oversampling,
+                  "DFT beams per element, along the rows and along the columns [1 1]")
+      ->expected(2)
+      ->check(integer_of(1, 32));
 }
 
 }  // namespace

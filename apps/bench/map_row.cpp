@@ -44,8 +44,8 @@ nlohmann::json map_row(const ScenarioOptions& scenario_options, const RunOptions
   size_t solved = 0;
   for (size_t cell = 0; cell < map.cells().grid.cells(); ++cell) solved += map.cells().solved(cell);
   uint64_t paths = 0;
-  map.solve(0, [&](std::span<const rf::LinkStatistics> links) {
-    for (const rf::LinkStatistics& link : links) paths += link.paths;
+  map.solve(0, [&](std::span<const sim::MapLink> links) {
+    for (const sim::MapLink& link : links) paths += link.paths;
     return true;
   });
   nlohmann::json row{{"ms", milliseconds_since(begin)},

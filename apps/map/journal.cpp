@@ -18,13 +18,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view mark = "greatx map 1\n";
+constexpr std::string_view mark = "greatx map 2\n";
 constexpr const char* journal_file = "links.part";
-constexpr size_t numbers = 12;                      ///< doubles of a link on disk
+constexpr size_t numbers = 14;                      ///< doubles of a link on disk
 constexpr uint64_t most_links = uint64_t{1} << 24;  ///< largest number of links of a block
 using Stored = std::array<double, numbers>;
 
-Stored stored(const rf::LinkStatistics& link) {
+Stored stored(const sim::MapLink& link) {
   return {static_cast<double>(link.paths),
           link.line_of_sight ? 1.0 : 0.0,
           link.path_gain,
@@ -36,11 +36,13 @@ Stored stored(const rf::LinkStatistics& link) {
           link.arrival_azimuth_spread,
           link.arrival_zenith_spread,
           link.mean_doppler_hz,
-          link.doppler_spread_hz};
+          link.doppler_spread_hz,
+          link.beam_gain,
+          static_cast<double>(link.beam)};
 }
 
-rf::LinkStatistics loaded(const Stored& s) {
-  rf::LinkStatistics link;
+sim::MapLink loaded(const Stored& s) {
+  sim::MapLink link;
   link.paths = static_cast<uint32_t>(s[0]);
   link.line_of_sight = s[1] != 0.0;
   link.path_gain = s[2];
@@ -53,6 +55,8 @@ rf::LinkStatistics loaded(const Stored& s) {
   link.arrival_zenith_spread = s[9];
   link.mean_doppler_hz = s[10];
   link.doppler_spread_hz = s[11];
+  link.beam_gain = s[12];
+  link.beam = static_cast<int32_t>(s[13]);
   return link;
 }
 
@@ -170,10 +174,10 @@ void MapJournal::read_blocks(uint64_t begin) {
   file_.truncate(bytes_);
 }
 
-void MapJournal::append(std::span<const rf::LinkStatistics> links) {
+void MapJournal::append(std::span<const sim::MapLink> links) {
   if (links.empty()) return;
   std::vector<Stored> payload;
-  for (const rf::LinkStatistics& link : links) payload.push_back(stored(link));
+  for (const sim::MapLink& link : links) payload.push_back(stored(link));
   const BlockHead head = head_of(bytes_, std::as_bytes(std::span(payload)), payload.size());
   io::Bytes bytes;
   io::append(bytes, std::as_bytes(std::span(&head, 1)));

@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/files/file.h"
-#include "rf/channel/statistics.h"
+#include "sim/channel/map_precoder.h"
 
 namespace greatx::apps {
 
@@ -32,9 +32,9 @@ class MapJournal {
   /// Returns true if the folder holds the finished map.
   bool finished() const { return finished_; }
   /// Returns all links so far, [cells, tx].
-  const std::vector<rf::LinkStatistics>& links() const { return links_; }
+  const std::vector<sim::MapLink>& links() const { return links_; }
   /// Appends a block of links, in memory and on disk.
-  void append(std::span<const rf::LinkStatistics> links);
+  void append(std::span<const sim::MapLink> links);
   /// Removes the journal. Called when all files of the map, including map.json, are in place.
   void finish();
 
@@ -46,7 +46,7 @@ class MapJournal {
   io::File file_;
   uint64_t bytes_ = 0;
   bool finished_ = false;
-  std::vector<rf::LinkStatistics> links_;
+  std::vector<sim::MapLink> links_;
 };
 
 /// The file that describes a finished map.

@@ -40,12 +40,12 @@ Json write_picture(const fs::path& folder, const std::string& name, const Array&
   return {{"file", file}, {"shows", shows}};
 }
 
-std::vector<const sim::MapQuantity*> chosen(const MapFiles& files) {
+std::vector<const sim::MapQuantity*> chosen(const sim::RadioMap& map, const MapFiles& files) {
   std::vector<const sim::MapQuantity*> quantities;
-  for (const sim::MapQuantity& quantity : sim::map_quantities())
+  for (const sim::MapQuantity* quantity : sim::map_quantities_of(map.precoding))
     if (files.quantities.empty() ||
-        std::find(files.quantities.begin(), files.quantities.end(), quantity.name) != files.quantities.end())
-      quantities.push_back(&quantity);
+        std::find(files.quantities.begin(), files.quantities.end(), quantity->name) != files.quantities.end())
+      quantities.push_back(quantity);
   return quantities;
 }
 
@@ -60,7 +60,7 @@ Json write_pictures(const fs::path& folder, const sim::RadioMap& map, const MapS
   Json pictures = Json::array();
   std::vector<MapLayer> layers;
   const std::vector<std::string> shown = overview(map.transmitters());
-  for (const sim::MapQuantity* quantity : chosen(files)) {
+  for (const sim::MapQuantity* quantity : chosen(map, files)) {
     const MapLayer layer = map_layer(map, *quantity, {}, stage.transmitters);
     pictures.push_back(write_picture(folder, quantity->name, draw_map(stage, layer), layer.title));
     if (std::find(shown.begin(), shown.end(), quantity->name) != shown.end()) layers.push_back(layer);
@@ -129,7 +129,7 @@ std::string MapTotals::text(const std::vector<MapMarker>& transmitters) const {
 Json write_map_files(const fs::path& folder, const sim::RadioMap& map, const MapStage& stage,
                      const MapFiles& files) {
   Json arrays = Json::array();
-  for (const sim::MapQuantity* quantity : chosen(files))
+  for (const sim::MapQuantity* quantity : chosen(map, files))
     arrays.push_back(write_array(folder, quantity->name, quantity->unit, quantity->description,
                                  sim::map_array(map, *quantity)));
   arrays.push_back(write_array(folder, "z", "m",

@@ -170,7 +170,7 @@ std::string clipping(const MapScale& scale) {
 
 /// Returns the unit in which a quantity is shown (dB, degrees, nanoseconds), and the conversion to this unit.
 std::pair<std::string, double (*)(double)> shown(const sim::MapQuantity& quantity) {
-  if (quantity.name == "path_gain" || quantity.name == "k_factor")
+  if (quantity.name == "path_gain" || quantity.name == "beam_gain" || quantity.name == "k_factor")
     return {"dB", [](double v) { return decibels(v); }};
   if (quantity.unit == "s") return {"ns", [](double v) { return 1e9 * v; }};
   if (quantity.unit == "rad") return {"deg", [](double v) { return degrees(v); }};

@@ -20,7 +20,9 @@ class Array:
 
     pattern             pattern of one element: "isotropic" (default), "short_dipole", "half_wave_dipole",
                         "tr38901"
-    pattern_file        CSV file with a pattern, in place of `pattern`
+    pattern_file        file with a pattern, in place of `pattern`: CSV, MSI Planet (.msi, .pln), HFSS (.ffd)
+    pattern_frequency_hz, pattern_power_w   frequency of the .ffd file, power in W that makes its fields
+    pattern_vertical    "down" (default) or "up": how the vertical angles of an MSI Planet file grow
     polarization        "v" (default) or "h": one port per element; "vh" or "slant" (+45 and -45 degrees):
                         two ports
     slant_deg           one port per element with this slant, in place of `polarization`
@@ -43,6 +45,9 @@ class Array:
     column_spacing_wl: Optional[float] = None
     elements_wl: Optional[Sequence[Sequence[float]]] = None
     pattern_file: Optional[Union[str, "os.PathLike[str]"]] = None
+    pattern_frequency_hz: Optional[float] = None
+    pattern_power_w: Optional[float] = None
+    pattern_vertical: Optional[str] = None
 
     def as_sensor(self, name: str, orientation_deg: Any = None) -> Dict[str, Any]:
         """Returns the array as an item of a scenario's `sensors`."""

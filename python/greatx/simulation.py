@@ -46,6 +46,10 @@ _PLACES = [
     (r"--power", "power_dbm"),
     (r"--bandwidth", "bandwidth_hz"),
     (r"--noise-figure", "noise_figure_db"),
+    (r"--precoder (\w+)", r"precoder \1"),
+    (r"--precoder", "precoder"),
+    (r"--beam", "beam"),
+    (r"--oversampling", "oversampling"),
     (r"--beyond-scene", "beyond_scene=True"),
 ]
 
@@ -411,9 +415,7 @@ class Simulation:
         what = (
             f"no channel {name!r}"
             if name is not None
-            else "several channels: say which"
-            if channels
-            else "no channel"
+            else "several channels: say which" if channels else "no channel"
         )
         raise Error(
             f"{self.name}: has {what}; channels: {', '.join(channels) or 'none: add_channel() makes one'}"
@@ -487,6 +489,9 @@ class Simulation:
         power_dbm: Optional[Union[float, Sequence[float]]] = None,
         bandwidth_hz: Optional[float] = None,
         noise_figure_db: float = 0.0,
+        precoder: str = "mean",
+        beam: Optional[int] = None,
+        oversampling: Optional[Tuple[int, int]] = None,
         array: Optional[Array] = None,
         orientation_deg: Optional[Sequence[float]] = None,
         inside_solids: bool = False,
@@ -504,6 +509,11 @@ class Simulation:
         power_dbm         power of each transmitter, or of all; by default the channel's, else 30
         bandwidth_hz, noise_figure_db   bandwidth B and noise factor F (in dB) of the noise k 290 K B F; by
                           default the channel's bandwidth
+        precoder          of the transmitters: "mean" over their ports, "beam", "best_beam", "maximum_ratio"
+                          (docs/map.md)
+        beam              of precoder "beam": index of a DFT beam, as in greatx.precoding.cross_polarized(
+                          dft_panel(rows, columns, oversampling)), or in dft_panel() for one polarization
+        oversampling      DFT beams per element along the rows and the columns; by default (1, 1)
         array, orientation_deg          the receiver's antenna; by default one isotropic element of vertical
                           polarization
         inside_solids     if true, cells inside solids have values, too
@@ -530,6 +540,9 @@ class Simulation:
                 [] if power_dbm is None else [float(p) for p in np.atleast_1d(power_dbm)],
                 bandwidth_hz,
                 noise_figure_db,
+                precoder,
+                beam,
+                None if oversampling is None else [int(o) for o in oversampling],
                 inside_solids,
                 beyond_scene,
                 self._antenna(array, orientation_deg),

@@ -6,17 +6,17 @@
 
 namespace greatx::python {
 
-MapResult map_result(const sim::RadioMapRun& run, std::span<const rf::LinkStatistics> links,
+MapResult map_result(const sim::RadioMapRun& run, std::span<const sim::MapLink> links,
                      const sim::ChannelConfig& config) {
   const sim::RadioMap map = run.map(links);
   const sim::MapCells& cells = run.cells();
   const int64_t rows = cells.grid.rows, columns = cells.grid.columns;
   MapResult result;
-  for (const sim::MapQuantity& quantity : sim::map_quantities())
+  for (const sim::MapQuantity* quantity : sim::map_quantities_of(run.precoding()))
     result.arrays.push_back(
-        {quantity.name, quantity.unit,
-         (quantity.per_transmitter ? "[tx, row, column] " : "[row, column] ") + quantity.description,
-         sim::map_array(map, quantity)});
+        {quantity->name, quantity->unit,
+         (quantity->per_transmitter ? "[tx, row, column] " : "[row, column] ") + quantity->description,
+         sim::map_array(map, *quantity)});
   std::vector<double> x, y, ends;
   for (int64_t column = 0; column < columns; ++column)
     x.push_back(cells.grid.center(static_cast<size_t>(column)).x);
@@ -35,15 +35,17 @@ MapResult map_result(const sim::RadioMapRun& run, std::span<const rf::LinkStatis
        sim::map_placement(cells)});
   result.arrays.push_back({"transmitter_position", "m", "[tx, xyz] world",
                            Array::of<double>({static_cast<int64_t>(run.transmitters().size()), 3}, ends)});
-  result.facts = nlohmann::ordered_json{{"channel", config.name},
-                                        {"carrier_hz", config.carrier_hz},
-                                        {"transmitters", config.transmitters},
-                                        {"power_dbm", map.power.transmit_dbm},
-                                        {"bandwidth_hz", map.power.bandwidth_hz},
-                                        {"noise_w", map.power.noise_w()},
-                                        {"cell_m", cells.grid.cell_m},
-                                        {"height", cells.height_rule}}
-                     .dump();
+  result.facts =
+      nlohmann::ordered_json{{"channel", config.name},
+                             {"carrier_hz", config.carrier_hz},
+                             {"transmitters", config.transmitters},
+                             {"power_dbm", map.power.transmit_dbm},
+                             {"bandwidth_hz", map.power.bandwidth_hz},
+                             {"noise_w", map.power.noise_w()},
+                             {"precoder", sim::map_precodings[static_cast<size_t>(run.precoding())]},
+                             {"cell_m", cells.grid.cell_m},
+                             {"height", cells.height_rule}}
+          .dump();
   return result;
 }
 

@@ -13,7 +13,7 @@ namespace greatx::python {
 
 /// Returns all quantities of the map, the cells' z [rows, columns], placement [rows, columns], x [columns]
 /// and y [rows], and transmitter_position [tx, 3].
-MapResult map_result(const sim::RadioMapRun& run, std::span<const rf::LinkStatistics> links,
+MapResult map_result(const sim::RadioMapRun& run, std::span<const sim::MapLink> links,
                      const sim::ChannelConfig& config);
 
 }  // namespace greatx::python

@@ -169,13 +169,15 @@ py::object radio_map(Session& session, const std::string& channel, uint32_t sequ
                      const std::optional<std::array<double, 2>>& max_m, double cell_m,
                      std::optional<double> z_m, double height_m, bool over_roofs,
                      const std::vector<double>& power_dbm, std::optional<double> bandwidth_hz,
-                     double noise_figure_db, bool inside_solids, bool beyond_scene,
-                     const std::string& antenna, const py::object& progress) {
+                     double noise_figure_db, const std::string& precoder, std::optional<uint64_t> beam,
+                     const std::optional<std::array<uint32_t, 2>>& oversampling, bool inside_solids,
+                     bool beyond_scene, const std::string& antenna, const py::object& progress) {
   sim::MapRequest request;
   request.cell_m = cell_m;
   request.power_dbm = power_dbm;
   request.bandwidth_hz = bandwidth_hz;
   request.noise_figure_db = noise_figure_db;
+  request.precoder = {sim::map_precoding(precoder), beam, oversampling};
   request.inside_solids = inside_solids;
   request.beyond_scene = beyond_scene;
   if (min_m) request.min_m = dvec2((*min_m)[0], (*min_m)[1]);

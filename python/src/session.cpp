@@ -348,9 +348,9 @@ std::optional<MapResult> Session::radio_map(const std::string& name, uint32_t se
   try {
     sim::RadioMapRun run(snapshot(now, gpu, channel, {sequence, tick, std::nullopt}, bounds), request,
                          std::move(receiver));
-    std::vector<rf::LinkStatistics> links;
+    std::vector<sim::MapLink> links;
     bool stopped = false;
-    run.solve(0, [&](std::span<const rf::LinkStatistics> more) {
+    run.solve(0, [&](std::span<const sim::MapLink> more) {
       links.insert(links.end(), more.begin(), more.end());
       stopped = !go_on(links.size() / run.transmitters().size());
       return !stopped;

@@ -38,6 +38,11 @@ class SimulationExamples(unittest.TestCase):
     def test_radio_map(self):
         self.run_example("radio_map.py", "south/array: serves", "weakest: -", "radio_map.png|no matplotlib")
 
+    def test_precoding(self):
+        self.run_example(
+            "precoding.py", "64 ports", r"zero-forcing .* together \d+", "precoding.png|no matplotlib"
+        )
+
     def test_stream(self):
         self.run_example("stream.py", r"1\.90 s: ", "a beam that is a tick old loses")
 

@@ -31,6 +31,13 @@ void join(const Complex (&out)[4], const ScatterMatrix& s, const Complex (&home)
   product[3] = home[2] * b + home[3] * d;
 }
 
+double sphere_of_leg(const Path& leg) {
+  const bool image = std::all_of(leg.interactions.begin(), leg.interactions.end(), [](const Interaction& i) {
+    return i.type == InteractionType::reflection || i.type == InteractionType::transmission;
+  });
+  return image ? leg.length_m : far_away;
+}
+
 Path echo_path(const Path& out, const Path& home, uint32_t instance, const ScatterMatrix& s) {
   Path path;
   path.interactions = out.interactions;

@@ -35,7 +35,8 @@ dvec3 Aspect::bisector() const {
 ScatterMatrix scatter_in_world(const TargetModel& model, const dquat& orientation, const Aspect& aspect,
                                const EchoKey& key) {
   const dquat back = glm::conjugate(orientation);
-  const ScatterMatrix s = model.scatter({back * aspect.to_source, back * aspect.to_receiver}, key);
+  const ScatterMatrix s = model.scatter(
+      {back * aspect.to_source, back * aspect.to_receiver, aspect.source_m, aspect.receiver_m}, key);
   const Turn in(orientation, aspect.to_source), out(orientation, aspect.to_receiver);
   // S in = [cos sin; -sin cos] of the world's components, and the transpose of that going out.
   const Complex tt = s[0] * in.cos - s[1] * in.sin, tp = s[0] * in.sin + s[1] * in.cos,

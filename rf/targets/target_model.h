@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "core/vec.h"
 #include "rf/antenna/spherical.h"
@@ -27,9 +28,13 @@ using ScatterMatrix = std::array<Complex, 4>;
 
 ScatterMatrix transposed(const ScatterMatrix& s);
 
-/// Holds the directions of an echo, unit vectors that point away from the target.
+inline constexpr double far_away = std::numeric_limits<double>::infinity();
+
+/// Holds the directions of an echo, unit vectors that point away from the target, and the distances to the
+/// points that the waves are spheres about: the ends, or their images. Infinite: a plane wave.
 struct Aspect {
   dvec3 to_source{1.0, 0.0, 0.0}, to_receiver{1.0, 0.0, 0.0};
+  double source_m = far_away, receiver_m = far_away;
   /// Returns the bistatic angle between both directions, rad, in [0, pi].
   double bistatic_angle() const;
   /// Returns the unit vector halfway between both directions; the direction to the source if they are

@@ -132,6 +132,7 @@ void read_radio(Material& material, const json& document, const std::string& wha
     sources = read_radio_fields(field_from_json(*extension, what, "GREATX_radio_material"), sources);
   }
   if (const Field* entry = sidecar.find(material.name)) sources = read_radio_fields(*entry, sources);
+  if (sources.radio) sidecar.extrapolate(material.name, *sources.radio);
   material.radio = std::move(sources.radio);
   material.reflectance_905nm = sources.reflectance_905nm;
   material.reflectance_1550nm = sources.reflectance_1550nm;

@@ -7,6 +7,8 @@
 #include <array>
 #include <cctype>
 #include <span>
+#include <string_view>
+#include <utility>
 
 #include "scene/material/material.h"
 
@@ -59,12 +61,20 @@ constexpr TableMaterial table3[] = {
     {"vinyl_tile",        {{{3.62, 0.0, 0.0051, 0.8422, 1.0, 40.0}}}},
     {"carpet_tile",       {{{2.08, 0.0, 0.0009, 0.82, 1.0, 40.0}}}},
     {"asphalt_concrete",  {{{4.83, 0.0, 0.0108, 1.3969, 1.0, 40.0}}}},
-    {"metal",             {{{1.0, 0.0, 1e7, 0.0, 1.0, 100.0}}}},
+    // The recommendation ends at 100 GHz; the second row is not in it (beyond_table3).
+    {"metal",             {{{1.0, 0.0, 1e7, 0.0, 1.0, 100.0},
+                            {1.0, 0.0, 1e7, 0.0, 100.0, 1000.0}}}},
     {"very_dry_ground",   {{{3.0, 0.0, 0.00015, 2.52, 1.0, 10.0}}}},
     {"medium_dry_ground", {{{15.0, -0.1, 0.035, 1.63, 1.0, 10.0}}}},
     {"wet_ground",        {{{30.0, -0.4, 0.15, 1.30, 1.0, 10.0}}}},
 };
 // clang-format on
+
+/// Says where rows come from that the recommendation does not have. The conductivity of a metal is constant
+/// far below the damping frequency of its electrons (conductors.h), so that of "metal" holds to 1 THz.
+constexpr std::pair<const char*, const char*> beyond_table3[] = {
+    {"metal", "; above 100 GHz the same conductivity (Hagen and Rubens 1903)"},
+};
 
 /// Returns the name in lower case without '_', '-', ' ' and without a leading "itu": "ITU_Ceiling-Board" ->
 /// "ceilingboard".
@@ -86,6 +96,8 @@ std::optional<RadioMedium> itu_medium(const std::string& name) {
     if (comparison_key(material.name) != key) continue;
     RadioMedium medium;
     medium.source = std::string("ITU-R P.2040-4 Table 3, ") + material.name;
+    for (const auto& [beyond, source] : beyond_table3)
+      if (std::string_view(beyond) == material.name) medium.source += source;
     for (const TableRow& row : material.rows) {
       if (row.max_ghz == 0.0) break;
       medium.rows.push_back({row.a, row.b, row.c, row.d, row.min_ghz * 1e9, row.max_ghz * 1e9});

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <limits>
+#include <mutex>
+#include <set>
 
 #include <spdlog/spdlog.h>
 
@@ -51,6 +53,20 @@ const RadioRow* nearest_row(const RadioMedium& medium, double frequency_hz) {
   return best;
 }
 
+/// Warns of an extrapolation, once for each medium of a process: a city has a dozen materials of brick.
+void warn_of_extrapolation(const RadioMedium& medium, double frequency_hz, const std::string& material_name) {
+  static std::mutex mutex;
+  static std::set<std::string> warned;
+  const std::lock_guard lock(mutex);
+  const bool shared = medium.source.starts_with("ITU");  // a name that means the same everywhere
+  if (!warned.insert(shared ? medium.source : material_name + '\n' + medium.source).second) return;
+  spdlog::warn(
+      "beyond_range: material '{}' ({}) is extrapolated to {:g} GHz, outside its ranges ({}); its error is "
+      "unknown{}",
+      material_name, medium.source, frequency_hz / 1e9, ranges_of(medium),
+      shared ? "; other materials of this medium are not named" : "");
+}
+
 }  // namespace
 
 const RadioRow& row_at(const RadioMedium& medium, double frequency_hz, const std::string& material_name) {
@@ -65,11 +81,12 @@ const RadioRow& row_at(const RadioMedium& medium, double frequency_hz, const std
     if (!medium.extrapolate) {
       throw_user_error(
           "material '{}' ({}): {:g} GHz lies outside its ranges ({}); choose another frequency or material, "
-          "or set "
-          "'extrapolate: true' to use the nearest row",
+          "or set 'extrapolate: true' (in radio materials for all: 'beyond_range: extrapolate') to use the "
+          "nearest row",
           material_name, medium.source, frequency_hz / 1e9, ranges_of(medium));
     }
     row = nearest_row(medium, frequency_hz);
+    warn_of_extrapolation(medium, frequency_hz, material_name);
   }
   spdlog::debug("material '{}' ({}) at {:g} GHz: row a={:g} b={:g} c={:g} d={:g}, {:g} to {:g} GHz{}",
                 material_name, medium.source, frequency_hz / 1e9, row->a, row->b, row->c, row->d,

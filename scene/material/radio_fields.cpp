@@ -11,11 +11,14 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "scene/material/conductors.h"
+
 namespace greatx::scene {
 namespace {
 
 constexpr const char* row_keys[] = {"a", "b", "c", "d", "min_hz", "max_hz"};
-const Keys medium_keys{"itu",         "rows", "a", "b", "c", "d", "min_hz", "max_hz", "relative_permittivity",
+const Keys medium_keys{"itu",         "conductor", "rows",   "a",      "b",
+                       "c",           "d",         "min_hz", "max_hz", "relative_permittivity",
                        "conductivity"};
 const Keys layer_keys = medium_keys + Keys{"thickness_m", "extrapolate"};
 const Keys material_keys = Keys{"foliage", "layers"} + layer_keys + Keys{"scattering_coefficient",
@@ -97,6 +100,14 @@ std::optional<RadioMedium> read_itu(const FieldMap& map) {
   return medium;
 }
 
+std::optional<RadioMedium> read_conductor(const FieldMap& map) {
+  const std::optional<Field> field = map.find("conductor");
+  if (!field) return std::nullopt;
+  auto medium = conductor_medium(std::string(field->scalar()));
+  if (!medium) field->fail(fmt::format("one of {}", fmt::join(conductor_names(), ", ")));
+  return medium;
+}
+
 std::optional<RadioMedium> read_rows(const FieldMap& map) {
   const std::optional<Field> field = map.find("rows");
   if (!field) return std::nullopt;
@@ -124,14 +135,14 @@ std::optional<RadioMedium> read_permittivity(const FieldMap& map) {
   return RadioMedium{"explicit permittivity", {row}, false};
 }
 
-/// Reads the medium by exactly one of its four ways. The result is empty if none of them is used.
+/// Reads the medium by exactly one of its five ways. The result is empty if none of them is used.
 std::optional<RadioMedium> read_medium(const FieldMap& map) {
   std::optional<RadioMedium> medium;
-  for (auto* read : {read_itu, read_rows, read_flat_row, read_permittivity}) {
+  for (auto* read : {read_itu, read_conductor, read_rows, read_flat_row, read_permittivity}) {
     auto candidate = read(map);
     if (candidate && medium)
       map.field().refuse(
-          fmt::format("the medium is given twice ({}; {}); expected one of itu, rows, "
+          fmt::format("the medium is given twice ({}; {}); expected one of itu, conductor, rows, "
                       "a/b/c/d, relative_permittivity + conductivity",
                       medium->source, candidate->source));
     if (candidate) medium = std::move(candidate);
@@ -144,7 +155,8 @@ RadioLayer read_layer(const Field& field) {
   RadioLayer layer;
   auto medium = read_medium(map);
   if (!medium)
-    field.refuse("a layer needs a medium (itu, rows, a/b/c/d, or relative_permittivity + conductivity)");
+    field.refuse(
+        "a layer needs a medium (itu, conductor, rows, a/b/c/d, or relative_permittivity + conductivity)");
   medium->extrapolate = boolean(map, "extrapolate").value_or(false);
   layer.medium = std::move(*medium);
   const auto thickness = thickness_of(map);
@@ -177,7 +189,8 @@ void read_wall(const FieldMap& map, std::optional<RadioMaterial>& radio) {
   if (!thickness && !extrapolate) return;
   if (!radio || radio->foliage)
     map.field().refuse(
-        "thickness_m and extrapolate need a medium (itu, rows, a/b/c/d, or relative_permittivity + "
+        "thickness_m and extrapolate need a medium (itu, conductor, rows, a/b/c/d, or relative_permittivity "
+        "+ "
         "conductivity)");
   if (thickness) {
     if (radio->layers.size() != 1)
@@ -230,7 +243,8 @@ void read_surface(const FieldMap& map, std::optional<RadioMaterial>& radio) {
   if (!any_given) return;
   if (!radio || radio->foliage)
     map.field().refuse(
-        "these fields need a medium (itu, rows, a/b/c/d, relative_permittivity + conductivity, or layers)");
+        "these fields need a medium (itu, conductor, rows, a/b/c/d, relative_permittivity + conductivity, or "
+        "layers)");
   if (scattering) radio->scattering_coefficient = *scattering;
   if (pattern) radio->pattern = *pattern;
   if (pattern_exponent) radio->pattern_exponent = *pattern_exponent;

@@ -10,9 +10,11 @@ namespace greatx::scene {
 
 RadioSidecar RadioSidecar::read(const std::filesystem::path& file) {
   const std::string text = InputFile(file, "radio materials", budget::yaml_file).text();
-  const FieldMap root(Field::parse_yaml(text, {file.string(), {}, {}}), {"materials"});
+  const FieldMap root(Field::parse_yaml(text, {file.string(), {}, {}}), {"materials", "beyond_range"});
   RadioSidecar sidecar;
   sidecar.entries_ = root.require("materials", "a map of names or globs").entries();
+  if (const auto beyond = root.find("beyond_range"))
+    sidecar.extrapolate_ = beyond->choice({"refuse", "extrapolate"}) == 1;
   for (const auto& [key, fields] : sidecar.entries_) {
     // Entries that this scene does not use are checked too, as if laid over some medium.
     RadioSources any_medium;
@@ -30,6 +32,14 @@ const Field* RadioSidecar::find(const std::string& material_name) const {
     if (fnmatch(key.c_str(), material_name.c_str(), 0) == 0) return &fields;
   }
   return nullptr;
+}
+
+void RadioSidecar::extrapolate(const std::string& material_name, RadioMaterial& material) const {
+  if (!extrapolate_) return;
+  if (const Field* entry = find(material_name))
+    for (const auto& [key, value] : entry->entries())
+      if (key == "extrapolate") return;
+  for (RadioLayer& layer : material.layers) layer.medium.extrapolate = true;
 }
 
 }  // namespace greatx::scene

@@ -3,11 +3,13 @@
 //
 // Declares the arrays of a channel and fills them for each record, in the same order.
 #include <algorithm>
+#include <cmath>
 
 #include <nlohmann/json.hpp>
 
 #include "core/budget.h"
 #include "core/parallel.h"
+#include "core/units.h"
 #include "rf/channel/coherence.h"
 #include "rf/channel/received.h"
 #include "sim/channel/channel_sensor.h"
@@ -20,14 +22,23 @@ namespace greatx::sim {
 namespace {
 
 /// Describes the layers of each material at the carrier, outermost first; null for materials that no facet
-/// has.
-nlohmann::json describe_walls(const scene::Scene& scene, const rf::RadioSurfaces& surfaces) {
+/// has. `range_hz` is that of the row that the medium has at the carrier, and missing where a medium holds at
+/// every frequency.
+nlohmann::json describe_walls(const scene::Scene& scene, const rf::RadioSurfaces& surfaces,
+                              double carrier_hz) {
   nlohmann::json walls = nlohmann::json::array();
   for (uint32_t material = 0; material < scene.materials.size(); ++material) {
+    const std::vector<rf::DielectricLayer>& front = surfaces.surface(material).front;
     nlohmann::json layers;
-    for (const rf::DielectricLayer& layer : surfaces.surface(material).front)
-      layers.push_back({{"relative_permittivity", {layer.eta.real(), layer.eta.imag()}},
-                        {"thickness_m", layer.thickness_m}});
+    for (size_t i = 0; i < front.size(); ++i) {
+      const scene::RadioMedium& medium = scene.materials[material].radio->layers[i].medium;
+      const scene::RadioRow& row = scene::row_at(medium, carrier_hz, scene.materials[material].name);
+      layers.push_back({{"relative_permittivity", {front[i].eta.real(), front[i].eta.imag()}},
+                        {"thickness_m", front[i].thickness_m},
+                        {"source", medium.source},
+                        {"extrapolated", carrier_hz < row.min_hz || carrier_hz > row.max_hz}});
+      if (std::isfinite(row.max_hz)) layers.back()["range_hz"] = {row.min_hz, row.max_hz};
+    }
     walls.push_back({{"material", scene.materials[material].name}, {"layers", std::move(layers)}});
   }
   return walls;
@@ -43,6 +54,27 @@ nlohmann::json describe_ends(const std::vector<rf::AntennaArray>& arrays, std::s
   return json;
 }
 
+nlohmann::json describe_surface(const TargetSurface& surface, double carrier_hz) {
+  const double wavelength_m = speed_of_light / carrier_hz;
+  nlohmann::json json{{"rows", surface.rows},
+                      {"columns", surface.columns},
+                      {"row_spacing_m", surface.row_spacing_wl * wavelength_m},
+                      {"column_spacing_m", surface.column_spacing_wl * wavelength_m},
+                      {"amplitude", surface.amplitude},
+                      {"bits", surface.bits}};
+  const auto end = [](const SurfaceEnd& aim) {
+    const dvec3& u = aim.direction;
+    return aim.antenna.empty() ? nlohmann::json({u.x, u.y, u.z}) : nlohmann::json(aim.antenna);
+  };
+  if (surface.steer)
+    json["steer"] = {{"from", end(surface.steer->first)}, {"to", end(surface.steer->second)}};
+  if (!surface.phases.empty())
+    for (const double phase : surface.phases) json["phases_deg"].push_back(degrees(phase));
+  else if (!surface.steer)
+    json["phase_deg"] = degrees(surface.phase);
+  return json;
+}
+
 /// Describes the targets with their models; instances as on disk, index + 1.
 nlohmann::json describe_targets(const Experiment& experiment, const ChannelConfig& config) {
   nlohmann::json targets = nlohmann::json::array();
@@ -54,6 +86,8 @@ nlohmann::json describe_targets(const Experiment& experiment, const ChannelConfi
     else if (const auto* tubes = std::get_if<TargetTubes>(&target.model))
       json["tubes"] = {
           {"width_m", tubes->tube_m}, {"budget", tubes->budget}, {"max_bounces", tubes->max_bounces}};
+    else if (const auto* surface = std::get_if<TargetSurface>(&target.model))
+      json["surface"] = describe_surface(*surface, config.carrier_hz);
     else {
       const rf::RcsTable& table = *std::get<std::shared_ptr<const rf::RcsTable>>(target.model);
       json["table"] = table.name();
@@ -177,7 +211,7 @@ std::string ChannelSensor::metadata() const {
   metadata["beam_squint"] = experiment_.plan.beam_squint.on;
   // Off: walls and air have their values at the carrier for every subcarrier.
   metadata["dispersion"] = dispersion_.has_value();
-  metadata["walls"] = describe_walls(experiment_.scene(), radio_->model().surfaces);
+  metadata["walls"] = describe_walls(experiment_.scene(), radio_->model().surfaces, config_.carrier_hz);
   for (const auto& [name, text] : paths_[0]->notes({})) metadata["candidates"][name] = text;
   metadata["candidates"]["bounds"] =
       "sequences_left_out and paths_left_out count at every tick what the guarantee does not hold for";

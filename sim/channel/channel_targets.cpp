@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include "core/hash.h"
+#include "core/units.h"
 #include "rf/targets/echo_path.h"
+#include "rf/targets/surface_target.h"
 
 namespace greatx::sim {
 
@@ -43,7 +45,8 @@ ChannelTargets::ChannelTargets(scene::GpuScene& gpu_scene, rf::CrossingPass& cro
       of_target_(experiment.scene().bodies.size(), false) {
   for (const TargetConfig& target : leg_config_.targets) {
     targets_.push_back(make_target(target, experiment.scenario.seed));
-    if (targets_.back().model != nullptr) points_.push_back(targets_.size() - 1);
+    if (targets_.back().model != nullptr || targets_.back().surface != nullptr)
+      points_.push_back(targets_.size() - 1);
   }
   for (uint32_t body = 1; body < of_target_.size(); ++body)
     for (const Target& target : targets_)
@@ -102,8 +105,38 @@ ChannelTargets::Target ChannelTargets::make_target(const TargetConfig& config, u
     target.model = target.own.get();
   } else if (const auto* table = std::get_if<std::shared_ptr<const rf::RcsTable>>(&config.model)) {
     target.model = table->get();
+  } else if (const auto* surface = std::get_if<TargetSurface>(&config.model)) {
+    target.surface = surface;
+    if (surface->steer)
+      for (const SurfaceEnd* end : {&surface->steer->first, &surface->steer->second})
+        target.aims.push_back(end->antenna.empty() ? ChannelEnd{} : antenna_end(experiment_, end->antenna));
   }
   return target;
+}
+
+/// Sets the phases of a panel for the places of its ends at a tick.
+std::shared_ptr<const rf::TargetModel> ChannelTargets::surface_at(const Target& target,
+                                                                  const rf::EndState& centre,
+                                                                  const TickContext& context) const {
+  const TargetSurface& surface = *target.surface;
+  const double wavelength_m = speed_of_light / leg_config_.carrier_hz;
+  const rf::SurfaceLayout layout{surface.rows, surface.columns, surface.row_spacing_wl * wavelength_m,
+                                 surface.column_spacing_wl * wavelength_m, wavelength_m};
+  std::vector<double> phases(layout.elements(), surface.phase);
+  if (!surface.phases.empty()) phases = surface.phases;
+  if (surface.steer) {
+    const auto aim = [&](const SurfaceEnd& end, const ChannelEnd& antenna) -> rf::SurfaceAim {
+      if (end.antenna.empty()) return {end.direction};
+      const dvec3 towards = glm::conjugate(centre.orientation) *
+                            (state_of(antenna, *experiment_.world, context).position - centre.position);
+      const double distance_m = glm::length(towards);
+      return distance_m > 0.0 ? rf::SurfaceAim{towards / distance_m, distance_m} : rf::SurfaceAim{};
+    };
+    phases = rf::steered_phases(layout, aim(surface.steer->first, target.aims[0]),
+                                aim(surface.steer->second, target.aims[1]));
+  }
+  if (surface.bits > 0) rf::round_phases(phases, surface.bits);
+  return std::make_shared<const rf::SurfaceTarget>(layout, phases, surface.amplitude);
 }
 
 void ChannelTargets::start(const TickContext& context) {
@@ -126,9 +159,11 @@ void ChannelTargets::record(gpu::TickSlot& slot, const TickContext& context) {
   if (tubes_) tubes_->record(slot, context);
   std::vector<TargetState>& states = states_in_flight_[slot.index];
   states.clear();
-  for (const Target& target : targets_)
-    states.push_back(
-        {target.instance, *target.centre.node, state_of(target.centre, *experiment_.world, context)});
+  for (const Target& target : targets_) {
+    states.push_back({target.instance, *target.centre.node,
+                      state_of(target.centre, *experiment_.world, context), nullptr});
+    if (target.surface != nullptr) states.back().surface = surface_at(target, states.back().centre, context);
+  }
   sequence_in_flight_[slot.index] = context.sequence;
 }
 
@@ -163,13 +198,16 @@ bool ChannelTargets::touches_target(const rf::Path& path) const {
 void ChannelTargets::add_echoes_of(size_t point, const End& from, const End& to,
                                    std::vector<rf::Path>& paths) {
   const Target& target = targets_[points_[point]];
-  const rf::EndState& centre = states_[points_[point]].centre;
+  const TargetState& state = states_[points_[point]];
+  const rf::EndState& centre = state.centre;
+  const rf::TargetModel& model = state.surface ? *state.surface : *target.model;
   for (const rf::Path& back : to.solved.links[point].paths) {
     const rf::Path home = rf::reversed(back);
     for (const rf::Path& out : from.solved.links[point].paths) {
       const rf::EchoKey key{number_of_leg(from.number, out), number_of_leg(to.number, back), sequence_};
-      const rf::ScatterMatrix s =
-          rf::scatter_in_world(*target.model, centre.orientation, {out.arrival, home.departure}, key);
+      const rf::ScatterMatrix s = rf::scatter_in_world(
+          model, centre.orientation,
+          {out.arrival, home.departure, rf::sphere_of_leg(out), rf::sphere_of_leg(home)}, key);
       paths.push_back(rf::echo_path(out, home, target.instance, s));
     }
   }

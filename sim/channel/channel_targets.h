@@ -25,6 +25,7 @@ struct TargetState {
   uint32_t instance = 0;  ///< index into Scene::instances
   uint32_t node = 0;
   rf::EndState centre;  ///< the pose of its frame and its velocity, at the centre of its bounds
+  std::shared_ptr<const rf::TargetModel> surface;  ///< a panel with its phases of the tick; null: none
 };
 
 /// Returns the instance of a target: the first one of its body. Throws UserError if the node has no surfaces.
@@ -58,7 +59,9 @@ class ChannelTargets {
     ChannelEnd centre;
     uint32_t instance = 0;
     std::unique_ptr<const rf::TargetModel> own;  ///< null: `model` belongs to the scenario
-    const rf::TargetModel* model = nullptr;      ///< null: a target of tubes
+    const rf::TargetModel* model = nullptr;      ///< null: a target of tubes, or a panel
+    const TargetSurface* surface = nullptr;      ///< a panel, whose phases may follow its ends
+    std::vector<ChannelEnd> aims;  ///< the antennas of its `steer`, from and to, where it names some
   };
   struct End {
     std::unique_ptr<ChannelPaths> legs;
@@ -69,6 +72,8 @@ class ChannelTargets {
   Target make_target(const TargetConfig& config, uint64_t seed) const;
   bool touches_target(const rf::Path& path) const;
   void make_legs(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings);
+  std::shared_ptr<const rf::TargetModel> surface_at(const Target& target, const rf::EndState& centre,
+                                                    const TickContext& context) const;
   void make_tubes(scene::GpuScene& gpu_scene, const rf::ChannelGrid& grid);
   void add_echoes_of(size_t point, const End& from, const End& to, std::vector<rf::Path>& paths);
 

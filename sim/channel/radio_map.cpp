@@ -152,28 +152,28 @@ MapCells place_cells(const MapGrid& grid, const MapHeight& height, const scene::
   return cells;
 }
 
-rf::LinkStatistics no_link() { return rf::link_statistics({}, {}); }
+MapLink no_link() { return {rf::link_statistics({}, {})}; }
 
-RadioMapSolver::RadioMapSolver(ChannelSnapshot& snapshot, MapReceiver receiver)
+RadioMapSolver::RadioMapSolver(ChannelSnapshot& snapshot, MapReceiver receiver, const MapPrecoder& precoder)
     : snapshot_(snapshot), receiver_(std::move(receiver)) {
   const Scenario& scenario = snapshot.experiment().scenario;
   const ChannelConfig& config = scenario.channels[snapshot.channel()];
   carrier_hz_ = config.carrier_hz;
-  for (const std::string& name : config.transmitters)
+  for (const std::string& name : config.transmitters) {
     transmitters_.push_back(antenna_array(scenario, name, carrier_hz_));
+    beams_.emplace_back(precoder, transmitters_.back(), name);
+  }
 }
 
-std::vector<rf::LinkStatistics> RadioMapSolver::statistics_of(
-    std::span<const ChannelSnapshot::Link> links) const {
-  std::vector<rf::LinkStatistics> statistics(links.size());
+std::vector<MapLink> RadioMapSolver::map_links(std::span<const ChannelSnapshot::Link> links) const {
+  std::vector<MapLink> result(links.size());
   parallel_for(links.size(), 0, [&](size_t i) {
     const ChannelSnapshot::Link& link = links[i];
     const rf::ArrayPose transmitter{transmitters_[link.transmitter], link.transmitter_state.orientation};
     const rf::ArrayPose receiver{receiver_.array, receiver_.orientation};
-    statistics[i] =
-        rf::link_statistics(link.paths, rf::path_powers(link.paths, transmitter, receiver, carrier_hz_));
+    result[i] = beams_[link.transmitter].link(link.paths, transmitter, receiver, carrier_hz_);
   });
-  return statistics;
+  return result;
 }
 
 void RadioMapSolver::solve(const MapCells& cells, size_t first, const Take& take) {
@@ -188,9 +188,9 @@ void RadioMapSolver::solve(const MapCells& cells, size_t first, const Take& take
   /// Hands over the waiting links and the cells without values between them; at the end, also those after
   /// them.
   const auto hand_over = [&](bool end) {
-    const std::vector<rf::LinkStatistics> solved = statistics_of(waiting);
+    const std::vector<MapLink> solved = map_links(waiting);
     waiting.clear();
-    std::vector<rf::LinkStatistics> links;
+    std::vector<MapLink> links;
     for (size_t used = 0; next < cells.grid.cells(); ++next) {
       const bool has_values = cells.solved(next);
       if (has_values && used == solved.size()) break;

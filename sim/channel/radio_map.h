@@ -5,7 +5,7 @@
 // The links are bitwise equal to those of a receiver at each centre. sim/channel/radio_map_run.h makes whole
 // maps of these steps.
 //
-//   MapGrid ─► place_cells ─► MapCells { z, placement } ─► RadioMapSolver ─► LinkStatistics [cells, tx]
+//   MapGrid ─► place_cells ─► MapCells { z, placement } ─► RadioMapSolver ─► MapLink [cells, tx]
 //           ─► map_array
 #pragma once
 
@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "rf/channel/statistics.h"
 #include "sim/channel/channel_snapshot.h"
+#include "sim/channel/map_precoder.h"
 #include "sim/channel/radio_map_ground.h"
 
 namespace greatx::sim {
@@ -110,25 +110,26 @@ struct MapReceiver {
 /// Solves the links of a map.
 class RadioMapSolver {
  public:
-  /// `snapshot` outlives this and has all transmitters of the map.
-  RadioMapSolver(ChannelSnapshot& snapshot, MapReceiver receiver);
+  /// `snapshot` outlives this and has all transmitters of the map. Throws UserError like MapBeams.
+  RadioMapSolver(ChannelSnapshot& snapshot, MapReceiver receiver, const MapPrecoder& precoder = {});
 
   /// Hands over the links [cells, tx] of the cells from `first` on, in the order of cells, a few hundred
   /// cells at a time. The links of cells without values have no paths. Ends early if `take` returns false.
   /// The links of a cell depend neither on other cells nor on `first`.
-  using Take = std::function<bool(std::span<const rf::LinkStatistics>)>;
+  using Take = std::function<bool(std::span<const MapLink>)>;
   void solve(const MapCells& cells, size_t first, const Take& take);
 
  private:
-  std::vector<rf::LinkStatistics> statistics_of(std::span<const ChannelSnapshot::Link> links) const;
+  std::vector<MapLink> map_links(std::span<const ChannelSnapshot::Link> links) const;
 
   ChannelSnapshot& snapshot_;
   double carrier_hz_ = 0.0;
   MapReceiver receiver_;
   std::vector<rf::AntennaArray> transmitters_;  ///< [transmitters of the channel]
+  std::vector<MapBeams> beams_;                 ///< [transmitters of the channel]
 };
 
-/// Returns the statistics of a link without paths: the gain is 0, and the means and spreads are NaN.
-rf::LinkStatistics no_link();
+/// Returns a link without paths: the gain is 0, and the means and spreads are NaN.
+MapLink no_link();
 
 }  // namespace greatx::sim

@@ -42,7 +42,10 @@ MapCells cells_of(const MapRequest& request, const ChannelSnapshot& snapshot,
 
 }  // namespace
 
-void check_map_request(const MapRequest& request, const ChannelConfig& config) { power_of(request, config); }
+void check_map_request(const MapRequest& request, const ChannelConfig& config) {
+  power_of(request, config);
+  check_map_precoder(request.precoder);
+}
 
 scene::Bounds map_bounds(const MapRequest& request, const ChannelConfig& config, const scene::Scene& scene) {
   return bounds_of_cells(grid_of(request, config, scene), request.height, scene);
@@ -51,8 +54,9 @@ scene::Bounds map_bounds(const MapRequest& request, const ChannelConfig& config,
 RadioMapRun::RadioMapRun(ChannelSnapshot& snapshot, const MapRequest& request, MapReceiver receiver)
     : receiver_(std::move(receiver)),
       power_(power_of(request, config_of(snapshot))),
+      precoding_(request.precoder.precoding),
       transmitters_(transmitters_of(snapshot)),
       cells_(cells_of(request, snapshot, transmitters_)),
-      solver_(snapshot, receiver_) {}
+      solver_(snapshot, receiver_, request.precoder) {}
 
 }  // namespace greatx::sim

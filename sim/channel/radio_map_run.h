@@ -25,11 +25,12 @@ struct MapRequest {
   std::vector<double> power_dbm;
   std::optional<double> bandwidth_hz;  ///< noise bandwidth; none: that of the channel
   double noise_figure_db = 0.0;
+  MapPrecoder precoder;
   bool inside_solids = false;  ///< cells inside solids have values, too
   bool beyond_scene = false;   ///< the map may extend outside the scene's bounds
 };
 
-/// Checks everything that needs no scene. Throws UserError like map_power().
+/// Checks everything that needs no scene. Throws UserError like map_power() and check_map_precoder().
 void check_map_request(const MapRequest& request, const ChannelConfig& config);
 
 /// Returns the box of the cells for make_experiment(). Throws UserError like map_grid_of().
@@ -39,23 +40,26 @@ scene::Bounds map_bounds(const MapRequest& request, const ChannelConfig& config,
 class RadioMapRun {
  public:
   /// Places the cells. `snapshot` outlives this and has all transmitters of its channel. Its experiment was
-  /// made with map_bounds() as `points`. Throws UserError like the functions above and place_cells().
+  /// made with map_bounds() as `points`. Throws UserError like the functions above,
+  /// place_cells() and MapBeams.
   RadioMapRun(ChannelSnapshot& snapshot, const MapRequest& request, MapReceiver receiver);
 
   const std::vector<dvec3>& transmitters() const { return transmitters_; }  ///< world positions
   const MapReceiver& receiver() const { return receiver_; }
   const MapCells& cells() const { return cells_; }
   const MapPower& power() const { return power_; }
+  MapPrecoding precoding() const { return precoding_; }
 
   /// Solves the links like RadioMapSolver::solve().
   void solve(size_t first, const RadioMapSolver::Take& take) { solver_.solve(cells_, first, take); }
   /// Returns the map. `links` are the links of all cells that solve() has handed over. They and this outlive
   /// the map.
-  RadioMap map(std::span<const rf::LinkStatistics> links) const { return {&cells_, links, power_}; }
+  RadioMap map(std::span<const MapLink> links) const { return {&cells_, links, power_, precoding_}; }
 
  private:
   MapReceiver receiver_;
   MapPower power_;
+  MapPrecoding precoding_;
   std::vector<dvec3> transmitters_;
   MapCells cells_;
   RadioMapSolver solver_;

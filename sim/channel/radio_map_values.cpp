@@ -18,11 +18,11 @@ namespace {
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double boltzmann_j_k = 1.380649e-23;  ///< exact (SI Brochure, 9th edition)
 
-/// Returns the power of one transmitter over the sum of all others and the noise.
+/// Returns the power of one transmitter over the sum of what all others send elsewhere and the noise.
 double sinr(const MapCell& cell, size_t transmitter) {
   double others = cell.noise_w;
   for (size_t t = 0; t < cell.received_w.size(); ++t)
-    if (t != transmitter) others += cell.received_w[t];
+    if (t != transmitter) others += cell.interfering_w[t];
   return cell.received_w[transmitter] / others;
 }
 
@@ -44,8 +44,9 @@ std::vector<MapQuantity> all_quantities() {
       statistic("path_gain", "1",
                 "sum of the paths' powers, mean over all pairs of ports, over the power sent; 0: no path",
                 &S::path_gain),
-      {"rss", "dBm", "received power: the transmitter's + 10 log10 path_gain; -inf: no path", DType::f64,
-       true, [](const MapCell& cell, size_t t) { return rf::dbm(cell.received_w[t]); }, no_value},
+      {"rss", "dBm",
+       "received power: the transmitter's + 10 log10 path_gain (beam_gain with a precoder); -inf: no path",
+       DType::f64, true, [](const MapCell& cell, size_t t) { return rf::dbm(cell.received_w[t]); }, no_value},
       {"sinr", "dB",
        "received power over the sum of the other transmitters' and the noise, if this one serves; -inf: no "
        "path",
@@ -67,6 +68,14 @@ std::vector<MapQuantity> all_quantities() {
        [](const MapCell& cell, size_t t) { return cell.links[t].line_of_sight ? 1.0 : 0.0; }, 0.0},
       {"paths", "1", "number of paths", DType::i32, true,
        [](const MapCell& cell, size_t t) { return static_cast<double>(cell.links[t].paths); }, 0.0},
+      {"beam_gain", "1",
+       "sum of the paths' powers with the precoder, mean over the receiving ports, over the power sent; 0: "
+       "no "
+       "path",
+       DType::f64, true, [](const MapCell& cell, size_t t) { return cell.links[t].beam_gain; }, no_value,
+       true},
+      {"best_beam", "1", "index of the DFT beam; -1: no path, or another precoder", DType::i32, true,
+       [](const MapCell& cell, size_t t) { return static_cast<double>(cell.links[t].beam); }, -1.0, true},
   };
 }
 
@@ -74,13 +83,21 @@ std::vector<MapQuantity> all_quantities() {
 template <typename Use>
 void each_cell(const RadioMap& map, const Use& use) {
   const size_t transmitters = map.transmitters();
-  std::vector<double> sent_w, received_w(transmitters);
+  std::vector<double> sent_w, received_w(transmitters), interfering_w(transmitters);
   for (const double power : map.power.transmit_dbm) sent_w.push_back(rf::watts(power));
-  MapCell cell{{}, received_w, map.power.noise_w()};
+  MapCell cell{{}, received_w, interfering_w, map.power.noise_w()};
   for (size_t i = 0; i < map.cells->grid.cells(); ++i) {
     if (!map.cells->solved(i)) continue;
     cell.links = map.links.subspan(i * transmitters, transmitters);
-    for (size_t t = 0; t < transmitters; ++t) received_w[t] = sent_w[t] * cell.links[t].path_gain;
+    for (size_t t = 0; t < transmitters; ++t) {
+      const MapLink& link = cell.links[t];
+      const bool precoded = map.precoding != MapPrecoding::mean,
+                 one_beam = map.precoding == MapPrecoding::beam;
+      received_w[t] = sent_w[t] * (precoded ? link.beam_gain : link.path_gain);
+      // One beam is the same for everybody. Otherwise, what others send to their own receivers is no beam to
+      // this cell: on the average it comes from all ports alike.
+      interfering_w[t] = sent_w[t] * (one_beam ? link.beam_gain : link.path_gain);
+    }
     use(i, cell);
   }
 }
@@ -128,6 +145,13 @@ int best_server(std::span<const double> received_w) {
 const std::vector<MapQuantity>& map_quantities() {
   static const std::vector<MapQuantity> all = all_quantities();
   return all;
+}
+
+std::vector<const MapQuantity*> map_quantities_of(MapPrecoding precoding) {
+  std::vector<const MapQuantity*> quantities;
+  for (const MapQuantity& quantity : map_quantities())
+    if (!quantity.precoded || precoding != MapPrecoding::mean) quantities.push_back(&quantity);
+  return quantities;
 }
 
 const MapQuantity& map_quantity(const std::string& name) {

@@ -38,8 +38,9 @@ MapPower map_power(std::vector<double> transmit_dbm, std::optional<double> bandw
 
 /// Holds the links of one cell.
 struct MapCell {
-  std::span<const rf::LinkStatistics> links;  ///< [tx]
-  std::span<const double> received_w;         ///< [tx]
+  std::span<const MapLink> links;         ///< [tx]
+  std::span<const double> received_w;     ///< [tx] if this transmitter serves: with its precoder
+  std::span<const double> interfering_w;  ///< [tx] if another one serves
   double noise_w = 0.0;
 };
 /// Returns the transmitter with the highest received power, the first of equals; -1: there is no path.
@@ -52,9 +53,12 @@ struct MapQuantity {
   bool per_transmitter = true;
   std::function<double(const MapCell&, size_t transmitter)> value;
   double without_value = 0.0;  ///< the value of cells without values
+  bool precoded = false;       ///< says nothing in a map without a precoder
 };
 /// Returns all quantities.
 const std::vector<MapQuantity>& map_quantities();
+/// Returns those that a map with such a precoder has.
+std::vector<const MapQuantity*> map_quantities_of(MapPrecoding precoding);
 /// Returns the quantity of a name. Throws UserError naming `--quantities` and all quantities if there is
 /// none.
 const MapQuantity& map_quantity(const std::string& name);
@@ -62,8 +66,9 @@ const MapQuantity& map_quantity(const std::string& name);
 /// Holds a map; `links` is [cells, tx].
 struct RadioMap {
   const MapCells* cells = nullptr;
-  std::span<const rf::LinkStatistics> links;
+  std::span<const MapLink> links;
   MapPower power;
+  MapPrecoding precoding = MapPrecoding::mean;
   size_t transmitters() const { return power.transmit_dbm.size(); }
 };
 /// Return the arrays of the cells, [rows, columns]: the world heights of their centres, and their

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
+#include "rf/antenna/pattern_cuts.h"
 
 namespace greatx::sim {
 namespace {
@@ -45,6 +46,7 @@ nlohmann::json describe_table(const rf::PatternTable& table) {
   json["zeniths"] = table.grid().zeniths;
   json["azimuths"] = table.grid().azimuths;
   json["first_azimuth_deg"] = degrees(table.grid().first_azimuth);
+  json["mean_gain_db"] = decibels(rf::mean_gain(table));
   describe_part(
       table, "f_theta_re", [](const rf::Jones& f) { return f.theta.real(); }, json);
   describe_part(

@@ -30,9 +30,9 @@ bool compute(ChannelSnapshot& snapshot, const MapRequest& request, const std::fu
              SettingResult& result) {
   const Stopwatch watch;
   RadioMapRun run(snapshot, request, {});
-  std::vector<rf::LinkStatistics> links;
+  std::vector<MapLink> links;
   bool stopped = false;
-  run.solve(0, [&](std::span<const rf::LinkStatistics> more) {
+  run.solve(0, [&](std::span<const MapLink> more) {
     links.insert(links.end(), more.begin(), more.end());
     stopped = !go_on();
     return !stopped;

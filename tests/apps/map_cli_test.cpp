@@ -196,6 +196,52 @@ TEST_F(MapCli, AStoppedMapGoesOnToTheSameBytes) {
   EXPECT_THAT(deep.err, HasSubstr("map.json:1: expected JSON nested at most 64 deep"));
 }
 
+TEST_F(MapCli, APrecoderGivesItsOwnArrays) {
+  std::string text = scenario;
+  for (const char* name : {"west", "east"}) {
+    const size_t node = text.find(fmt::format("name: {}", name)), antenna = text.find("type: antenna", node);
+    text.replace(antenna, 13, "type: antenna, columns: 4");
+  }
+  std::ofstream(folder_ / "flat.yaml") << text;
+  const std::string coarse = "--min -110 -80 --max 110 80 --cell 20 --side 220";
+  ASSERT_EQ(map("best", coarse + " --precoder best_beam --oversampling 1 2").code, 0);
+  const json description = json::parse(read_file(path("best/map.json")));
+  EXPECT_EQ(description["request"]["precoder"],
+            json::parse(R"({"name": "best_beam", "oversampling": [1, 2]})"));
+  const auto beams = numbers<int32_t>("best/best_beam.npy");
+  const auto best = numbers("best/beam_gain.npy"), mean = numbers("best/path_gain.npy"),
+             rss = numbers("best/rss.npy");
+  ASSERT_EQ(beams.size(), 2u * 8 * 11);
+  ASSERT_EQ(best.size(), beams.size());
+  for (size_t i = 0; i < best.size(); ++i) {
+    EXPECT_TRUE(beams[i] >= 0 && beams[i] < 8) << beams[i];
+    EXPECT_GT(best[i], 3.0 * mean[i]);  // a neighbour among eight beams loses 0.9 dB of 6 at most
+    EXPECT_LE(best[i], 4.0 * mean[i] * (1.0 + 1e-12));
+    EXPECT_NEAR(rss[i], 30.0 + 10.0 * std::log10(best[i]), 1e-9);
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "best/best_beam.png"));
+  ASSERT_EQ(map("one", coarse + " --precoder beam --beam 3 --oversampling 1 2 --no-pictures").code, 0);
+  const auto one = numbers("one/beam_gain.npy");
+  for (size_t i = 0; i < one.size(); ++i) {
+    EXPECT_LE(one[i], best[i]);
+    if (beams[i] == 3) {
+      EXPECT_EQ(one[i], best[i]);
+    }
+  }
+  EXPECT_THAT(map("one", coarse + " --precoder beam --beam 4 --oversampling 1 2 --no-pictures --resume").err,
+              HasSubstr("/precoder/beam: asked for 4, the folder's has 3"));
+  ASSERT_EQ(map("plain", coarse + " --no-pictures").code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "plain/best_beam.npy"));
+  EXPECT_FALSE(json::parse(read_file(path("plain/map.json")))["request"].contains("precoder"));
+  EXPECT_EQ(numbers("plain/path_gain.npy"), mean);
+  const Outcome asked = map("none", coarse + " --quantities best_beam");
+  EXPECT_EQ(asked.code, 1);
+  EXPECT_THAT(asked.err, HasSubstr("--quantities: expected --precoder for 'best_beam', found none"));
+  const Outcome beyond = map("none", coarse + " --precoder beam --beam 4");
+  EXPECT_EQ(beyond.code, 1);
+  EXPECT_THAT(beyond.err, HasSubstr("--beam: expected 0 to 3, one of the beams of 'west/panel', found 4"));
+}
+
 TEST_F(MapCli, AnyNumberOfThreadsGivesTheSameBytes) {
   cpu_set_t all, one;
   ASSERT_EQ(sched_getaffinity(0, sizeof all, &all), 0);

@@ -302,6 +302,23 @@ def pattern(complex_: bool) -> str:
     return "\n".join(lines) + "\n"
 
 
+def cuts() -> str:
+    """Returns an antenna pattern in the format of MSI Planet."""
+    lines = ["NAME antenna", "FREQUENCY 2100", "GAIN 8.5 dBi", "TILT ELECTRICAL"]
+    for name in ("HORIZONTAL", "VERTICAL"):
+        lines.append(f"{name} 8")
+        lines += [f"{45 * i}.0\t{min(i, 8 - i) * 5}.0" for i in range(8)]
+    return "\n".join(lines) + "\n"
+
+
+def far_field() -> str:
+    """Returns an antenna pattern as HFSS exports it."""
+    lines = ["0 180 5", "-180 180 5", "Frequencies 1", "Frequency 3.5e9"]
+    for theta in range(5):
+        lines += [f"{1 if theta % 4 else 0.5} 0.1 0 {0.2 if theta % 4 else 0}"] * 5
+    return "\n".join(lines) + "\n"
+
+
 def csv() -> list[Case]:
     flight = (
         "# a flight\nt_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n"
@@ -347,6 +364,8 @@ def csv() -> list[Case]:
         "plain.csv": Entry(data=plain.encode()),
         "gain.csv": Entry(data=pattern(False).encode()),
         "field.csv": Entry(data=pattern(True).encode()),
+        "cuts.msi": Entry(data=cuts().encode()),
+        "far.ffd": Entry(data=far_field().encode()),
         "shots.csv": Entry(data=shots.encode()),
         "points.csv": Entry(data=points.encode()),
     }
@@ -369,6 +388,22 @@ def csv() -> list[Case]:
             {
                 "tables.yaml": scenario("plain.csv", "field.csv", "shots.csv"),
                 **pick("plain.csv", "field.csv", "shots.csv"),
+            },
+        ),
+        Case(
+            "csv",
+            ["explain", "tables.yaml"],
+            {
+                "tables.yaml": scenario("plain.csv", "cuts.msi", "shots.csv"),
+                **pick("plain.csv", "cuts.msi", "shots.csv"),
+            },
+        ),
+        Case(
+            "csv",
+            ["explain", "tables.yaml"],
+            {
+                "tables.yaml": scenario("plain.csv", "far.ffd", "shots.csv"),
+                **pick("plain.csv", "far.ffd", "shots.csv"),
             },
         ),
         Case(

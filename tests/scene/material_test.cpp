@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/material/material.h"
 
-#include <gtest/gtest.h>
+#include <cmath>
 
+#include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include "scene/material/conductors.h"
 #include "tests/scene/gltf_writer.h"
 
 namespace greatx::scene {
@@ -65,6 +70,51 @@ TEST(ItuMaterials, NarrowestOverlappingRangeWins) {
   EXPECT_DOUBLE_EQ(row_at(*itu_medium("chipboard"), 100e9, "c").a, 2.58);  // 99 GHz wide against 100
 }
 
+/// Returns the power that a half-space reflects at normal incidence.
+double reflected(std::complex<double> eta) {
+  const std::complex<double> root = std::sqrt(eta);
+  return std::norm((1.0 - root) / (1.0 + root));
+}
+constexpr double vacuum_f_m = 8.8541878128e-12, two_pi = 2.0 * 3.14159265358979323846;
+
+TEST(Conductors, ReflectAsHagenAndRubensFound) {
+  for (const std::string& name : conductor_names()) {
+    const RadioMedium metal = *conductor_medium(name);
+    const double sigma = metal.rows.at(0).c;
+    for (const double hertz : {3.5e9, 28e9, 140e9, 300e9, 1e12}) {
+      const double loss = 2.0 * std::sqrt(2.0 * two_pi * hertz * vacuum_f_m / sigma);
+      const double ours = 1.0 - reflected(relative_permittivity(metal, hertz, name));
+      EXPECT_NEAR(ours, loss, loss * loss) << name << ' ' << hertz;
+      EXPECT_GT(ours, 0.9 * loss);
+    }
+    expect_user_error([&] { row_at(metal, 1.1e12, "roof"); },
+                      {"roof", name, "1100 GHz", "0.001 to 1000 GHz"});
+  }
+  EXPECT_FALSE(conductor_medium("Copper"));
+  EXPECT_FALSE(conductor_medium(""));
+  EXPECT_NEAR(conductor_medium("copper")->rows[0].c, 5.813e7, 1.0);
+}
+
+TEST(Conductors, AreThoseOfDrudeWithinTheStatedError) {
+  // Electrons of copper are damped at 2.2 THz (Ordal et al. 1983): sigma/(1 + j f/2.2 THz), with e^{+jwt}.
+  for (const auto& [hertz, error] : {std::pair(140e9, 4e-5), std::pair(300e9, 2e-4), std::pair(1e12, 6e-4)}) {
+    const std::complex<double> sigma = 5.813e7 / std::complex<double>(1.0, hertz / 2.2e12);
+    const std::complex<double> eta =
+        1.0 - std::complex<double>(0.0, 1.0) * sigma / (two_pi * hertz * vacuum_f_m);
+    EXPECT_NEAR(reflected(relative_permittivity(*conductor_medium("copper"), hertz, "")), reflected(eta),
+                error);
+  }
+}
+
+TEST(ItuMaterials, MetalGoesOnTo1THz) {
+  const RadioMedium metal = *itu_medium("metal");
+  for (const double hertz : {50e9, 100e9, 140e9, 1e12}) EXPECT_NEAR(conductivity("metal", hertz), 1e7, 1.0);
+  EXPECT_EQ(row_at(metal, 100e9, "m").max_hz, 100e9);  // the recommendation's own row as far as it goes
+  expect_user_error([&] { row_at(metal, 1.5e12, "m"); }, {"1500 GHz", "1 to 100 GHz, 100 to 1000 GHz"});
+  expect_user_error([&] { row_at(*itu_medium("asphalt_concrete"), 140e9, "street"); },
+                    {"street", "140 GHz", "1 to 40 GHz", "beyond_range: extrapolate"});
+}
+
 TEST(HardCase, N35_FrequencyInAGapIsAnErrorOrAskedFor) {
   RadioMedium concrete = *itu_medium("concrete");
   expect_user_error([&] { row_at(concrete, 105e9, "north wall"); },
@@ -77,6 +127,32 @@ TEST(HardCase, N35_FrequencyInAGapIsAnErrorOrAskedFor) {
   EXPECT_DOUBLE_EQ(row_at(concrete, 102e9, "wall").a, 5.24);
   EXPECT_DOUBLE_EQ(row_at(concrete, 109e9, "wall").a, 5.17);
   EXPECT_DOUBLE_EQ(row_at(concrete, 400e9, "wall").a, 5.17);
+}
+
+TEST(ItuMaterials, AnExtrapolationIsWarnedOfOnceByName) {
+  std::ostringstream text;
+  const auto before = spdlog::default_logger();
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("", std::make_shared<spdlog::sinks::ostream_sink_mt>(text)));
+  RadioMedium asphalt = *itu_medium("asphalt_concrete");
+  asphalt.extrapolate = true;
+  for (const double hertz : {28e9, 140e9, 150e9}) row_at(asphalt, hertz, "high street");
+  row_at(asphalt, 140e9, "lane");
+  const RadioMedium own{"explicit a, b, c, d", {{2.0, 0.0, 0.1, 0.0, 1e9, 2e9}}, true};
+  for (const char* name : {"tent", "tent", "kiosk"}) row_at(own, 3e9, name);
+  spdlog::set_default_logger(before);
+  EXPECT_NE(
+      text.str().find("beyond_range: material 'high street' (ITU-R P.2040-4 Table 3, asphalt_concrete) is "
+                      "extrapolated to 140 GHz, outside its ranges (1 to 40 GHz)"),
+      std::string::npos)
+      << text.str();
+  EXPECT_EQ(text.str().find("150 GHz"), std::string::npos);
+  EXPECT_EQ(text.str().find("28 GHz"), std::string::npos);
+  EXPECT_EQ(text.str().find("lane"), std::string::npos);
+  const size_t tent = text.str().find("material 'tent' (explicit a, b, c, d) is extrapolated to 3 GHz");
+  ASSERT_NE(tent, std::string::npos);
+  EXPECT_EQ(text.str().find("'tent'", tent + 12), std::string::npos);
+  EXPECT_NE(text.str().find("material 'kiosk'"), std::string::npos);
 }
 
 }  // namespace

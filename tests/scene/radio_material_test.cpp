@@ -307,7 +307,7 @@ TEST(RadioSidecar, ExactNameBeatsGlobAndFirstGlobWins) {
       "  \"*\": { itu: glass }\n"
       "  paint: { itu: metal }\n";
   EXPECT_EQ(load_with_sidecar(yaml, {{"name", "paint"}}).radio->layers.at(0).medium.source,
-            "ITU-R P.2040-4 Table 3, metal");
+            "ITU-R P.2040-4 Table 3, metal; above 100 GHz the same conductivity (Hagen and Rubens 1903)");
   EXPECT_EQ(load_with_sidecar(yaml, {{"name", "pane"}}).radio->layers.at(0).medium.source,
             "ITU-R P.2040-4 Table 3, wood");
   EXPECT_EQ(load_with_sidecar(yaml, {{"name", "other"}}).radio->layers.at(0).medium.source,
@@ -325,6 +325,47 @@ TEST(RadioSidecar, LaysOverNameAndExtension) {
   EXPECT_EQ(over.radio->layers.at(0).medium.source, "ITU-R P.2040-4 Table 3, glass");
   EXPECT_EQ(over.radio->scattering_coefficient, 0.2);
   EXPECT_EQ(over.reflectance_905nm, 0.1f);
+}
+
+TEST(RadioSidecar, BeyondRangeIsForEveryMedium) {
+  const std::string all = "beyond_range: extrapolate\nmaterials:\n";
+  EXPECT_TRUE(
+      load_with_sidecar(all + "  {}\n", {{"name", "itu_marble"}}).radio->layers.at(0).medium.extrapolate);
+  EXPECT_TRUE(load_with_sidecar(all + "  paint: { itu: glass }\n", with_extension({{"itu", "brick"}}))
+                  .radio->layers.at(0)
+                  .medium.extrapolate);
+  EXPECT_FALSE(load_with_sidecar(all + "  itu_marble: { extrapolate: false }\n", {{"name", "itu_marble"}})
+                   .radio->layers.at(0)
+                   .medium.extrapolate);
+  EXPECT_FALSE(load_with_sidecar("beyond_range: refuse\nmaterials: {}\n", {{"name", "itu_marble"}})
+                   .radio->layers.at(0)
+                   .medium.extrapolate);
+  EXPECT_TRUE(load_with_sidecar(all + "  {}\n", with_extension({{"foliage", "weissberger"}})).radio->foliage);
+  expect_user_error(
+      [&] {
+        load_with_sidecar("beyond_range: guess\nmaterials: {}\n", {{"name", "itu_marble"}});
+      },
+      {"radio.yaml:1", "beyond_range", "one of refuse, extrapolate", "'guess'"});
+}
+
+TEST(RadioSidecar, ConductorsByName) {
+  const RadioMaterial roof =
+      *load_with_sidecar("materials:\n  paint: { conductor: zinc, thickness_m: 0.001 }\n",
+                         with_extension({{"itu", "brick"}}))
+           .radio;
+  EXPECT_EQ(roof.layers.at(0).medium.rows.at(0).c, 1.67e7);
+  EXPECT_EQ(roof.layers[0].thickness_m, 0.001);
+  expect_user_error(
+      [&] {
+        load_with_sidecar("materials:\n  paint: { conductor: iron }\n", with_extension({{"itu", "brick"}}));
+      },
+      {"radio.yaml:2", "conductor", "silver, copper", "'iron'"});
+  expect_user_error(
+      [&] {
+        load_with_sidecar("materials:\n  paint: { conductor: zinc, itu: metal }\n",
+                          with_extension({{"itu", "brick"}}));
+      },
+      {"radio.yaml:2", "given twice", "itu, conductor, rows"});
 }
 
 TEST(RadioSidecar, FoliageReplacesAWallAndAWallFoliage) {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include "core/units.h"
 #include "tests/sim/radio_run.h"
@@ -66,6 +67,36 @@ TEST(ChannelOutputs, LineOfSightAndTheRestAddUp) {
     }
     EXPECT_GT(rest, 0.01 * largest) << "there are reflections";
   }
+}
+
+TEST(ChannelOutputs, WallsSayWhereTheirValuesComeFrom) {
+  TinyScene tiny;
+  scene::Material street = radio_material("asphalt_concrete"), flat = radio_material("concrete", 0.2);
+  street.radio->layers[0].medium.extrapolate = true;
+  flat.radio->layers[0].medium = {"explicit permittivity", {{4.0, 0.0, 0.1, 0.0, 0.0, INFINITY}}, false};
+  tiny.object("ground", 0, tiny.material_as(street))
+      .quad({-90, -90, 0}, {90, -90, 0}, {90, 90, 0}, {-90, 90, 0});
+  tiny.object("roof", 0, tiny.material_as(radio_material("metal"))).box({-20, 12, 0}, {70, 20, 30});
+  tiny.object("wall", 0, tiny.material_as(flat)).box({-20, 42, 0}, {70, 50, 30});
+  std::string yaml = scenario("", 1);
+  yaml.replace(yaml.find("carrier_hz: 3500000000"), 22, "carrier_hz: 140e9");
+  const RadioRun r = run(yaml, tiny.build());
+  const nlohmann::json walls = nlohmann::json::parse(r.spec("csi").metadata_json)["walls"];
+  const auto layer = [&](const std::string& name) {
+    for (const nlohmann::json& wall : walls)
+      if (wall["material"] == name) return wall["layers"].at(0);
+    return nlohmann::json();
+  };
+  const nlohmann::json asphalt = layer("asphalt_concrete"), metal = layer("metal"),
+                       plain = layer("concrete wall");
+  EXPECT_EQ(asphalt["source"], "ITU-R P.2040-4 Table 3, asphalt_concrete");
+  EXPECT_EQ(asphalt["extrapolated"], true);
+  EXPECT_EQ(asphalt["range_hz"], nlohmann::json({1e9, 40e9}));
+  EXPECT_EQ(metal["extrapolated"], false);
+  EXPECT_EQ(metal["range_hz"], nlohmann::json({100e9, 1000e9}));
+  EXPECT_EQ(plain["source"], "explicit permittivity");
+  EXPECT_EQ(plain["extrapolated"], false);
+  EXPECT_FALSE(plain.contains("range_hz"));
 }
 
 TEST(ChannelOutputs, TapsAreTheSincsOfThePaths) {

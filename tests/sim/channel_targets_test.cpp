@@ -422,7 +422,7 @@ TEST_F(ChannelTargets, BadInputIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal("targets: [{class: person, tr38901: human}]"),
               HasSubstr("'person', which no node has"));
   EXPECT_THAT(refusal("targets: [{nodes: drone}]"),
-              HasSubstr("expected a table of scattering (or 'tubes' or 'tr38901')"));
+              HasSubstr("expected a table of scattering (or 'tubes', 'tr38901' or 'surface')"));
   EXPECT_THAT(refusal("targets: [{nodes: drone, tr38901: bird}]"), HasSubstr("uav_small, uav_large, human"));
   EXPECT_THAT(refusal("targets: [{nodes: drone, tr38901: human}, {nodes: 'd*', tr38901: human}]"),
               HasSubstr("expected every node once, found a second target 'drone'"));

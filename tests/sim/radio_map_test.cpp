@@ -79,10 +79,11 @@ class Site {
   }
   const Experiment& experiment() const { return experiment_; }
   ChannelSnapshot& snapshot() { return snapshot_; }
-  std::vector<rf::LinkStatistics> solve(const MapCells& cells, size_t first = 0, size_t most = ~size_t{0}) {
-    RadioMapSolver solver(snapshot_, {});
-    std::vector<rf::LinkStatistics> links;
-    solver.solve(cells, first, [&](std::span<const rf::LinkStatistics> more) {
+  std::vector<MapLink> solve(const MapCells& cells, size_t first = 0, size_t most = ~size_t{0},
+                             const MapPrecoder& precoder = {}) {
+    RadioMapSolver solver(snapshot_, {}, precoder);
+    std::vector<MapLink> links;
+    solver.solve(cells, first, [&](std::span<const MapLink> more) {
       links.insert(links.end(), more.begin(), more.end());
       return links.size() < most;
     });
@@ -95,7 +96,7 @@ class Site {
 };
 
 /// Expects the same bits, where any NaN equals any other.
-void expect_same(const std::vector<rf::LinkStatistics>& a, const std::vector<rf::LinkStatistics>& b) {
+void expect_same(const std::vector<MapLink>& a, const std::vector<MapLink>& b) {
   ASSERT_EQ(a.size(), b.size());
   const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
   for (size_t i = 0; i < a.size(); ++i)
@@ -104,6 +105,7 @@ void expect_same(const std::vector<rf::LinkStatistics>& a, const std::vector<rf:
                 same(a[i].delay_spread_s, b[i].delay_spread_s) && same(a[i].k_factor, b[i].k_factor) &&
                 same(a[i].departure_azimuth_spread, b[i].departure_azimuth_spread) &&
                 same(a[i].departure_zenith_spread, b[i].departure_zenith_spread) &&
+                same(a[i].beam_gain, b[i].beam_gain) && a[i].beam == b[i].beam &&
                 same(a[i].arrival_azimuth_spread, b[i].arrival_azimuth_spread) &&
                 same(a[i].arrival_zenith_spread, b[i].arrival_zenith_spread))
         << "link " << i;
@@ -227,7 +229,7 @@ TEST(RadioMap, ACellIsAReceiverPutThereToTheBit) {
   for (size_t cell = 0; cell < grid.cells(); cell += 3)
     if (cells.solved(cell)) chosen.push_back(cell), terminals.push_back(cells.point(cell));
   ASSERT_GT(chosen.size(), 20u);
-  const std::vector<rf::LinkStatistics> links = site.solve(cells);
+  const std::vector<MapLink> links = site.solve(cells);
   ASSERT_EQ(links.size(), 2 * grid.cells());
 
   const RadioRun csi = run(two_stations(terminals), street());
@@ -284,8 +286,8 @@ TEST(RadioMapRun, IsItsStepsOneAfterTheOther) {
   cells.solve_inside = true;
   EXPECT_EQ(run.cells().z_m, cells.z_m);
   EXPECT_EQ(run.cells().placement, cells.placement);
-  std::vector<rf::LinkStatistics> links;
-  run.solve(0, [&](std::span<const rf::LinkStatistics> more) {
+  std::vector<MapLink> links;
+  run.solve(0, [&](std::span<const MapLink> more) {
     links.insert(links.end(), more.begin(), more.end());
     return true;
   });
@@ -317,10 +319,10 @@ TEST(RadioMap, AnyPartAndAnyNumberOfThreadsGivesTheSameBits) {
   Site site(two_stations({{100, 0, 1.5}}), street());
   const MapGrid grid = make_map_grid({70, -20}, {130, 20}, 1.9, 2);
   const MapCells cells = site.cells(grid, {{}, 1.5, MapOver::ground});
-  const std::vector<rf::LinkStatistics> whole = site.solve(cells);
+  const std::vector<MapLink> whole = site.solve(cells);
   ASSERT_EQ(whole.size(), 2 * grid.cells());
   // The solution is stopped, and continued from where it was.
-  std::vector<rf::LinkStatistics> parts = site.solve(cells, 0, 100);
+  std::vector<MapLink> parts = site.solve(cells, 0, 100);
   EXPECT_LT(parts.size(), whole.size());
   const auto rest = site.solve(cells, parts.size() / 2);
   parts.insert(parts.end(), rest.begin(), rest.end());
@@ -334,7 +336,7 @@ TEST(RadioMap, AnyPartAndAnyNumberOfThreadsGivesTheSameBits) {
   for (int cpu = 0; CPU_COUNT(&one) == 0; ++cpu)
     if (CPU_ISSET(cpu, &all)) CPU_SET(cpu, &one);
   ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
-  const std::vector<rf::LinkStatistics> alone = site.solve(cells);
+  const std::vector<MapLink> alone = site.solve(cells);
   ASSERT_EQ(sched_setaffinity(0, sizeof all, &all), 0);
   expect_same(alone, whole);
 }
@@ -343,10 +345,10 @@ TEST(RadioMap, CellsInsideSolidsHaveValuesOnRequest) {
   Site site(two_stations({{100, 0, 1.5}}), street());
   const MapGrid grid = make_map_grid({90, 9}, {98, 13}, 2.0, 2);
   MapCells cells = site.cells(grid, {{}, 1.5, MapOver::ground});
-  for (const rf::LinkStatistics& link : site.solve(cells)) EXPECT_EQ(link.paths, 0u);
+  for (const MapLink& link : site.solve(cells)) EXPECT_EQ(link.paths, 0u);
   cells.solve_inside = true;
   size_t paths = 0;
-  for (const rf::LinkStatistics& link : site.solve(cells)) paths += link.paths;
+  for (const MapLink& link : site.solve(cells)) paths += link.paths;
   EXPECT_GT(paths, 0u);
 }
 
@@ -357,12 +359,12 @@ TEST(RadioMap, FreeSpaceIsFriis) {
   Site site(yaml, street());
   const MapGrid grid = make_map_grid({85, -10}, {115, 10}, 5.0, 2);
   const MapCells cells = site.cells(grid, {9.0, 1.5, MapOver::ground});
-  const std::vector<rf::LinkStatistics> links = site.solve(cells);
+  const std::vector<MapLink> links = site.solve(cells);
   const dvec3 stations[] = {{80, 1.1, 5.2}, {120.3, -2.4, 6.1}};
   size_t seen = 0;
   for (size_t cell = 0; cell < grid.cells(); ++cell)
     for (size_t t = 0; t < 2; ++t) {
-      const rf::LinkStatistics& link = links[2 * cell + t];
+      const MapLink& link = links[2 * cell + t];
       if (link.paths == 0) continue;
       const double d = glm::distance(stations[t], cells.point(cell));
       const double gain = std::pow(speed_of_light / carrier_hz / (4.0 * pi * d), 2);
@@ -377,10 +379,83 @@ TEST(RadioMap, FreeSpaceIsFriis) {
   EXPECT_GT(seen, 30u);
 }
 
+TEST(RadioMapPrecoder, GainsOfBeamsAndMaximumRatio) {
+  Site site(two_stations({{100, 0, 1.5}}), street());
+  const MapGrid grid = make_map_grid({84, -18}, {118, 16}, 3.1, 2);
+  const MapCells cells = site.cells(grid, {{}, 1.7, MapOver::ground});
+  const std::vector<MapLink> mean = site.solve(cells),
+                             best = site.solve(cells, 0, ~size_t{0}, {MapPrecoding::best_beam, {}, {{2, 1}}}),
+                             most = site.solve(cells, 0, ~size_t{0}, {MapPrecoding::maximum_ratio, {}, {}});
+  constexpr uint64_t beams = 4 * 2 * 4;  // of 2 x 2 elements, twice as many along the rows, with four phases
+  std::vector<double> largest(mean.size(), 0.0);
+  std::vector<int32_t> which(mean.size(), -1);
+  for (uint64_t beam = 0; beam < beams; ++beam) {
+    const std::vector<MapLink> links = site.solve(cells, 0, ~size_t{0}, {MapPrecoding::beam, beam, {{2, 1}}});
+    for (size_t i = 0; i < links.size(); ++i) {
+      EXPECT_EQ(links[i].beam, links[i].beam_gain > 0.0 ? static_cast<int32_t>(beam) : -1);
+      if (links[i].beam_gain > largest[i]) largest[i] = links[i].beam_gain, which[i] = links[i].beam;
+    }
+  }
+  size_t several = 0, gained = 0;
+  for (size_t i = 0; i < mean.size(); ++i) {
+    EXPECT_EQ(best[i].beam_gain, largest[i]);
+    EXPECT_EQ(best[i].beam, which[i]);
+    EXPECT_EQ(mean[i].beam_gain, mean[i].path_gain);
+    EXPECT_EQ(mean[i].beam, -1);
+    EXPECT_EQ(most[i].beam_gain, 8.0 * mean[i].path_gain);  // eight ports
+    EXPECT_EQ(most[i].path_gain, mean[i].path_gain);
+    EXPECT_LE(best[i].beam_gain, most[i].beam_gain * (1.0 + 1e-12));
+    several += mean[i].paths > 2;
+    gained += best[i].beam_gain > 4.0 * mean[i].path_gain;
+  }
+  EXPECT_GT(several, 20u);
+  EXPECT_GT(gained, 100u);
+}
+
+TEST(RadioMapPrecoder, RefusesWhatDoesNotFit) {
+  const auto refused = [](const MapPrecoder& precoder, const char* text) {
+    EXPECT_THAT([&] { check_map_precoder(precoder); }, ThrowsMessage<UserError>(HasSubstr(text)));
+  };
+  refused({MapPrecoding::beam, {}, {}},
+          "--beam: expected the index of a beam for --precoder beam, found none");
+  refused({MapPrecoding::mean, 3, {}}, "--beam: expected --precoder beam beside it, found mean");
+  refused({MapPrecoding::maximum_ratio, {}, {{1, 1}}},
+          "--oversampling: expected --precoder beam or best_beam beside it, found maximum_ratio");
+  refused({MapPrecoding::best_beam, {}, {{1, 0}}},
+          "--oversampling: expected 1 to 32 beams per element, found 0");
+  refused({MapPrecoding::best_beam, {}, {{33, 1}}}, "found 33");
+  EXPECT_THAT([] { map_precoding("zero_forcing"); },
+              ThrowsMessage<UserError>(HasSubstr("--precoder: expected one of mean, beam, best_beam, "
+                                                 "maximum_ratio, found 'zero_forcing'")));
+  rf::AntennaArray array;
+  array.rows = 2;
+  array.columns = 4;
+  array.polarization = rf::Polarization::slant;
+  EXPECT_THAT(
+      [&] {
+        MapBeams({MapPrecoding::beam, 32, {}}, array, "bs/panel");
+      },
+      ThrowsMessage<UserError>(
+          HasSubstr("--beam: expected 0 to 31, one of the beams of 'bs/panel', found 32")));
+  array.rows = array.columns = 1024;
+  EXPECT_THAT(
+      [&] {
+        MapBeams({MapPrecoding::best_beam, {}, {{32, 32}}}, array, "bs/panel");
+      },
+      ThrowsMessage<UserError>(HasSubstr("--precoder: expected at most 8388608 beams times ports")));
+  array.positions_m = {{0, 0, 0}, {1, 0, 0}};
+  EXPECT_THAT(
+      [&] {
+        MapBeams({MapPrecoding::best_beam, {}, {}}, array, "bs/free");
+      },
+      ThrowsMessage<UserError>(HasSubstr("found elements_wl of 'bs/free'")));
+  MapBeams({MapPrecoding::maximum_ratio, {}, {}}, array, "bs/free");
+}
+
 /// Holds a row of cells of 1 m with the given gains of each transmitter. The last cell is inside a solid.
 struct Table {
   MapCells cells;
-  std::vector<rf::LinkStatistics> links;
+  std::vector<MapLink> links;
   Table(std::vector<std::vector<double>> gains) {
     cells.grid = make_map_grid({0, 0}, {static_cast<double>(gains.size()), 1}, 1.0, 1);
     cells.placement.assign(gains.size(), CellPlacement::free);
@@ -390,11 +465,14 @@ struct Table {
       for (const double gain : cell) {
         links.push_back(no_link());
         links.back().path_gain = gain;
+        links.back().beam_gain = 8.0 * gain;
+        links.back().beam = gain > 0.0 ? static_cast<int32_t>(links.size()) : -1;
         links.back().paths = gain > 0.0 ? 1 : 0;
       }
   }
-  std::vector<double> values(const std::string& name, const MapPower& power) const {
-    const Array array = map_array({&cells, links, power}, map_quantity(name));
+  std::vector<double> values(const std::string& name, const MapPower& power,
+                             MapPrecoding precoding = MapPrecoding::mean) const {
+    const Array array = map_array({&cells, links, power, precoding}, map_quantity(name));
     if (array.dtype == DType::f64) return {array.as<double>().begin(), array.as<double>().end()};
     return {array.as<int32_t>().begin(), array.as<int32_t>().end()};
   }
@@ -427,6 +505,27 @@ TEST(RadioMapValues, PowerInterferenceAndServers) {
   EXPECT_EQ(best[2], 1e-10);
   EXPECT_TRUE(std::isnan(best[3]) && std::isnan(best[4]));
   EXPECT_EQ(best_server(std::vector<double>{1e-9, 2e-9, 2e-9}), 1);  // the first of equals
+}
+
+TEST(RadioMapValues, PrecodersServeAndInterfere) {
+  const Table table({{1e-8, 1e-9}, {0.0, 1e-10}, {1e-3, 1e-3}});
+  const MapPower power{{20.0, 30.0}, 10e6, 3.0};
+  const double noise = power.noise_w();
+  for (const MapPrecoding precoding :
+       {MapPrecoding::best_beam, MapPrecoding::maximum_ratio, MapPrecoding::beam}) {
+    // The other station's beam looks elsewhere, unless it is the same beam for everybody.
+    const double others = precoding == MapPrecoding::beam ? 8.0 : 1.0;
+    const auto rss = table.values("rss", power, precoding), sinr = table.values("sinr", power, precoding);
+    EXPECT_NEAR(rss[0], 10.0 * std::log10(8e-9) + 30.0, 1e-12);
+    EXPECT_NEAR(sinr[0], 10.0 * std::log10(8e-9 / (others * 1e-9 + noise)), 1e-12);
+    EXPECT_NEAR(sinr[4], 10.0 * std::log10(8e-10 / noise), 1e-12);
+    EXPECT_EQ(table.values("best_server", power, precoding), (std::vector<double>{0, 1, -1}));
+    EXPECT_EQ(table.values("path_gain", power, precoding)[0], 1e-8);
+    EXPECT_EQ(table.values("beam_gain", power, precoding)[0], 8e-8);
+    EXPECT_EQ(table.values("best_beam", power, precoding), (std::vector<double>{1, -1, -1, 2, 4, -1}));
+  }
+  EXPECT_EQ(map_quantities_of(MapPrecoding::mean).size() + 2, map_quantities().size());
+  EXPECT_EQ(map_quantities_of(MapPrecoding::best_beam).size(), map_quantities().size());
 }
 
 TEST(RadioMapValues, RefusesPowersThatAreNone) {

@@ -125,7 +125,8 @@ void draw_map_request(sim::MapRequest& request) {
 bool draw_map_colors(MapColors& colors, const WorldOverlays& world, const MapLayerPaint* paint) {
   bool changed = false;
   if (ImGui::BeginCombo("quantity", colors.quantity.c_str())) {
-    for (const sim::MapQuantity& quantity : sim::map_quantities()) {
+    for (const sim::MapQuantity* of_map : sim::map_quantities_of(sim::MapPrecoding::mean)) {
+      const sim::MapQuantity& quantity = *of_map;
       if (ImGui::Selectable(quantity.name.c_str(), quantity.name == colors.quantity)) {
         colors.quantity = quantity.name;
         colors.low.reset();

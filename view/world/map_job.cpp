@@ -69,7 +69,7 @@ void MapJob::compute(const std::shared_ptr<const sim::Experiment>& shown, const 
   sim::RadioMapRun run(snapshot, wish.request, {});
   const std::shared_ptr<const ShownMap> empty = empty_map(wish, run, channel);
   const size_t cells = run.cells().grid.cells(), transmitters = run.transmitters().size();
-  std::vector<rf::LinkStatistics> links;
+  std::vector<sim::MapLink> links;
   links.reserve(cells * transmitters);
   JobClock::time_point published = JobClock::now();
   const auto publish_links = [&] {
@@ -81,7 +81,7 @@ void MapJob::compute(const std::shared_ptr<const sim::Experiment>& shown, const 
     published = JobClock::now();
   };
   progress_ = 0.0;
-  run.solve(0, [&](std::span<const rf::LinkStatistics> more) {
+  run.solve(0, [&](std::span<const sim::MapLink> more) {
     links.insert(links.end(), more.begin(), more.end());
     progress_ = static_cast<double>(links.size()) / static_cast<double>(cells * transmitters);
     seconds_ = seconds_since(begin);

@@ -33,8 +33,8 @@ struct ShownMap {
   MapWish wish;
   sim::MapCells cells;
   sim::MapPower power;
-  std::vector<rf::LinkStatistics> links;  ///< [cells, tx]; of cells that are not done yet: without paths
-  size_t done = 0;                        ///< cells
+  std::vector<sim::MapLink> links;  ///< [cells, tx]; of cells that are not done yet: without paths
+  size_t done = 0;                  ///< cells
   std::vector<apps::MapMarker> transmitters;
 
   bool complete() const { return done == cells.grid.cells(); }

@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "core/units.h"
-#include "sim/scenario/parse/pattern_csv.h"
 #include "sim/scenario/parse/scenario_parse.h"
 
 namespace greatx::sim {
@@ -16,10 +15,36 @@ constexpr uint32_t most_rows = 1024;
 constexpr size_t most_elements = 4096;
 constexpr double least_spacing_wl = 1e-6, most_spacing_wl = 1e6;
 
-/// Loads a pattern. Antennas with the same file share one table.
-std::shared_ptr<const rf::PatternTable> load_pattern(const Field& field, PatternFiles& loaded) {
-  std::shared_ptr<const rf::PatternTable>& table = loaded[field.file()];
-  if (!table) table = std::make_shared<const rf::PatternTable>(load_pattern_csv(field.file()));
+/// Returns what the keys say about a pattern file. Each key belongs to one format.
+PatternOptions parse_pattern_options(const FieldMap& map, PatternFormat format) {
+  const auto find = [&](const char* key, PatternFormat only, const char* files) {
+    const auto f = map.find(key);
+    if (f && format != only)
+      f->fail(fmt::format("'{}' with a pattern_file {} alone", key, files), "another one");
+    return f;
+  };
+  PatternOptions options;
+  if (const auto f = find("pattern_frequency_hz", PatternFormat::ffd, ".ffd"))
+    options.frequency_hz = f->positive(1e6, 1e13);
+  if (const auto f = find("pattern_power_w", PatternFormat::ffd, ".ffd"))
+    options.power_w = f->positive(1e-12, 1e12);
+  if (const auto f = find("pattern_vertical", PatternFormat::msi, ".msi or .pln"))
+    options.vertical_up = f->choice({"down", "up"}) == 1;
+  return options;
+}
+
+/// Loads a pattern. Antennas with the same file and the same options share one table.
+std::shared_ptr<const rf::PatternTable> load_pattern(const FieldMap& map, const Field& field,
+                                                     PatternFiles& loaded) {
+  const PatternOptions options = parse_pattern_options(map, pattern_format(field.file()));
+  std::shared_ptr<const rf::PatternTable>& table = loaded[{field.file(), options}];
+  if (table) return table;
+  try {
+    table = std::make_shared<const rf::PatternTable>(load_pattern_file(field.file(), options));
+  } catch (const PatternOptionError& error) {
+    if (const auto option = map.find(error.key)) option->fail(error.expected, error.found);
+    field.fail(fmt::format("'{}' beside it: {}", error.key, error.expected), error.found);
+  }
   return table;
 }
 
@@ -31,7 +56,10 @@ void parse_pattern(const FieldMap& map, AntennaConfig& antenna, PatternFiles& lo
     antenna.pattern.shape = patterns[f->choice({"isotropic", "short_dipole", "half_wave_dipole", "tr38901"})];
   if (const auto f = map.find("pattern_file")) {
     antenna.pattern.shape = rf::Pattern::imported;
-    antenna.pattern.table = load_pattern(*f, loaded);
+    antenna.pattern.table = load_pattern(map, *f, loaded);
+  } else {
+    for (const char* key : {"pattern_frequency_hz", "pattern_power_w", "pattern_vertical"})
+      if (const auto option = map.find(key)) option->fail("'pattern_file' beside it", "none");
   }
 }
 
@@ -84,9 +112,10 @@ void parse_layout(const FieldMap& map, AntennaConfig& antenna) {
 
 }  // namespace
 
-const Keys antenna_keys{"pattern",    "pattern_file", "polarization", "slant_deg",      "polarization_model",
-                        "plane",      "rows",         "columns",      "row_spacing_wl", "column_spacing_wl",
-                        "elements_wl"};
+const Keys antenna_keys{
+    "pattern",      "pattern_file",   "pattern_frequency_hz", "pattern_power_w", "pattern_vertical",
+    "polarization", "slant_deg",      "polarization_model",   "plane",           "rows",
+    "columns",      "row_spacing_wl", "column_spacing_wl",    "elements_wl"};
 
 AntennaConfig parse_antenna(const FieldMap& map, PatternFiles& loaded) {
   AntennaConfig antenna;

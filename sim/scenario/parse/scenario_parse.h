@@ -10,8 +10,10 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "sim/scenario/parse/pattern_file.h"
 #include "sim/scenario/parse/scenario_values.h"
 #include "sim/scenario/scenario.h"
 
@@ -23,8 +25,9 @@ struct NodeReference {
   Field field;
 };
 
-/// Holds the antenna patterns that a scenario names. Each is read once.
-using PatternFiles = std::map<std::filesystem::path, std::shared_ptr<const rf::PatternTable>>;
+/// Holds the antenna patterns that a scenario names. Each is read once with each choice of options.
+using PatternFiles =
+    std::map<std::pair<std::filesystem::path, PatternOptions>, std::shared_ptr<const rf::PatternTable>>;
 
 /// Holds the tables of scattering that a scenario names. Each is read once.
 using RcsFiles = std::map<std::filesystem::path, std::shared_ptr<const rf::RcsTable>>;

@@ -3,8 +3,11 @@
 //
 // Parses the targets of a channel.
 #include <algorithm>
+#include <cmath>
 #include <fnmatch.h>
 
+#include "core/text.h"
+#include "core/units.h"
 #include "sim/scenario/parse/rcs_csv.h"
 #include "sim/scenario/parse/scenario_parse.h"
 
@@ -61,12 +64,72 @@ std::vector<uint32_t> nodes_of(const FieldMap& map, const std::vector<NodeConfig
   return found;
 }
 
-TargetConfig parse_model(const Field& field, const FieldMap& map, RcsFiles& loaded) {
+/// Parses an end that a panel is steered to.
+SurfaceEnd parse_surface_end(const Field& field, const std::vector<NodeConfig>& nodes) {
+  SurfaceEnd end;
+  if (field.is_scalar()) {
+    end.antenna = field.text();
+    const auto place = find_sensor(nodes, end.antenna);
+    if (!place || !std::holds_alternative<AntennaConfig>(nodes[place->node].sensors[place->sensor].config))
+      field.fail("an antenna as node/sensor, or [azimuth_deg, elevation_deg]",
+                 fmt::format("'{}'", end.antenna));
+    return end;
+  }
+  const std::vector<Field> angles = field.list("angles", 2);
+  if (angles.size() != 2)
+    field.fail("[azimuth_deg, elevation_deg] in the panel's frame", fmt::format("{} numbers", angles.size()));
+  const double azimuth = radians(angles[0].between(-90.0, 90.0)),
+               elevation = radians(angles[1].between(-90.0, 90.0));
+  end.direction = {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                   std::sin(elevation)};
+  return end;
+}
+
+TargetSurface parse_surface(const Field& field, const std::vector<NodeConfig>& nodes) {
+  const FieldMap map(field, {"rows", "columns", "row_spacing_wl", "column_spacing_wl", "amplitude",
+                             "phase_deg", "phases_deg", "steer", "bits"});
+  map.exclude("phase_deg", "phases_deg");
+  map.exclude("phase_deg", "steer");
+  map.exclude("phases_deg", "steer");
+  TargetSurface surface;
+  if (const auto f = map.find("rows")) surface.rows = f->integer32(1, 256);
+  if (const auto f = map.find("columns")) surface.columns = f->integer32(1, 256);
+  if (const auto f = map.find("row_spacing_wl")) surface.row_spacing_wl = f->between(0.05, 0.5);
+  if (const auto f = map.find("column_spacing_wl")) surface.column_spacing_wl = f->between(0.05, 0.5);
+  if (const auto f = map.find("amplitude")) surface.amplitude = f->between(0.0, 1.0);
+  if (const auto f = map.find("bits")) surface.bits = f->integer32(0, 8);
+  if (const auto f = map.find("phase_deg")) surface.phase = radians(f->between(-360.0, 360.0));
+  if (const auto f = map.find("phases_deg")) {
+    for (const Field& item : f->list("phases", 1))
+      surface.phases.push_back(radians(item.between(-360.0, 360.0)));
+    if (surface.phases.size() != size_t{surface.rows} * surface.columns)
+      f->fail(fmt::format("{} phases, one for each of {} x {} elements", surface.rows * surface.columns,
+                          surface.rows, surface.columns),
+              fmt::format("{}", surface.phases.size()));
+  }
+  if (const auto f = map.find("steer")) {
+    const FieldMap ends(*f, {"from", "to"});
+    const auto end = [&](const char* key) {
+      return parse_surface_end(
+          ends.require(key, "an antenna as node/sensor, or [azimuth_deg, elevation_deg]"), nodes);
+    };
+    surface.steer = {end("from"), end("to")};
+  }
+  return surface;
+}
+
+TargetConfig parse_model(const Field& field, const FieldMap& map, const std::vector<NodeConfig>& nodes,
+                         RcsFiles& loaded) {
   TargetConfig target;
   target.where = field.where();
   map.exclude("tr38901", "table");
   map.exclude("tr38901", "tubes");
   map.exclude("table", "tubes");
+  for (const char* other : {"tr38901", "table", "tubes"}) map.exclude(other, "surface");
+  if (const auto f = map.find("surface")) {
+    target.model = parse_surface(*f, nodes);
+    return target;
+  }
   if (const auto f = map.find("tr38901")) {
     target.model = static_cast<rf::Tr38901Kind>(f->choice(std::span(rf::tr38901_kinds)));
     return target;
@@ -80,7 +143,7 @@ TargetConfig parse_model(const Field& field, const FieldMap& map, RcsFiles& load
     target.model = tubes;
     return target;
   }
-  const Field file = map.require("table", "a table of scattering (or 'tubes' or 'tr38901')");
+  const Field file = map.require("table", "a table of scattering (or 'tubes', 'tr38901' or 'surface')");
   const std::filesystem::path path = file.file();
   auto [at, fresh] = loaded.try_emplace(path);
   if (fresh) at->second = load_rcs_csv(path);
@@ -94,8 +157,8 @@ void parse_targets(const FieldMap& map, const std::vector<NodeConfig>& nodes, Rc
                    ChannelConfig& channel) {
   if (const auto f = map.find("targets"))
     for (const Field& item : f->list("targets", 1)) {
-      const FieldMap of(item, {"nodes", "class", "tr38901", "table", "tubes"});
-      TargetConfig target = parse_model(item, of, loaded);
+      const FieldMap of(item, {"nodes", "class", "tr38901", "table", "tubes", "surface"});
+      TargetConfig target = parse_model(item, of, nodes, loaded);
       for (const uint32_t node : nodes_of(of, nodes)) {
         target.node = node;
         if (std::ranges::any_of(channel.targets, [&](const TargetConfig& t) { return t.node == node; }))

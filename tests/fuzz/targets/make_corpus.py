@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the corpus of the targets from the seeds of fuzz.py.
 
-    python3 tests/fuzz/targets/make_corpus.py tests/fuzz/targets/corpus
+python3 tests/fuzz/targets/make_corpus.py tests/fuzz/targets/corpus
 """
 import pathlib
 import sys
@@ -30,6 +30,8 @@ def kind_of(name):
         return "ply"
     if name.endswith(".xml"):
         return "mitsuba"
+    if name.endswith((".msi", ".ffd")):
+        return "antenna_" + name[-3:]
     words = {"flight": "trajectory", "plain": "trajectory", "gain": "antenna", "field": "antenna"}
     words.update({"shots": "shots", "points": "receivers"})
     return words.get(pathlib.PurePath(name).stem) if name.endswith(".csv") else None

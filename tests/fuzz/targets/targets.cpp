@@ -18,6 +18,7 @@
 #include "scene/material/radio_sidecar.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/parse/pattern_csv.h"
+#include "sim/scenario/parse/pattern_file.h"
 #include "sim/scenario/parse/receiver_list.h"
 #include "sim/scenario/parse/shot_csv.h"
 #include "sim/scenario/parse/trajectory_csv.h"
@@ -72,6 +73,12 @@ void read_radio_material(const uint8_t* data, size_t size) {
 void read_antenna(const uint8_t* data, size_t size) {
   (void)sim::load_pattern_csv(written("pattern.csv", data, size));
 }
+void read_antenna_msi(const uint8_t* data, size_t size) {
+  (void)sim::load_pattern_file(written("pattern.msi", data, size), {});
+}
+void read_antenna_ffd(const uint8_t* data, size_t size) {
+  (void)sim::load_pattern_file(written("pattern.ffd", data, size), {});
+}
 void read_shots(const uint8_t* data, size_t size) { (void)sim::load_shots(written("shots.csv", data, size)); }
 void read_trajectory(const uint8_t* data, size_t size) {
   (void)sim::load_way_points(written("way.csv", data, size));
@@ -109,11 +116,21 @@ void read_dataset(const uint8_t* data, size_t size) {
 }
 
 constexpr Target list[] = {
-    {"gltf", read_gltf},           {"scenario", read_scenario}, {"radio_material", read_radio_material},
-    {"antenna", read_antenna},     {"shots", read_shots},       {"trajectory", read_trajectory},
-    {"receivers", read_receivers}, {"ply", read_ply},           {"mitsuba", read_mitsuba},
-    {"picture", read_picture},     {"npy", read_npy},           {"journal", read_journal},
+    {"gltf", read_gltf},
+    {"scenario", read_scenario},
+    {"radio_material", read_radio_material},
+    {"antenna", read_antenna},
+    {"shots", read_shots},
+    {"trajectory", read_trajectory},
+    {"receivers", read_receivers},
+    {"ply", read_ply},
+    {"mitsuba", read_mitsuba},
+    {"picture", read_picture},
+    {"npy", read_npy},
+    {"journal", read_journal},
     {"dataset", read_dataset},
+    {"antenna_msi", read_antenna_msi},
+    {"antenna_ffd", read_antenna_ffd},
 };
 
 }  // namespace
