@@ -130,11 +130,13 @@ struct Midpoints::WedgeJoin {
   GeometricPath path = {}, back = {};
 };
 
-Midpoints::Midpoints(const RadioModel& model, const PathLimits& limits, bool moving_bodies)
+Midpoints::Midpoints(const RadioModel& model, const PathLimits& limits, bool moving_bodies,
+                     std::shared_ptr<EdgeSearch> shared)
     : model_(&model), limits_(limits), moving_bodies_(moving_bodies) {
   if (model.effects.scattering) patches_ = scattering_patches(*model.scene, model.kinds, limits.patch_m);
-  if (model.effects.diffraction && limits.max_reflections_beside_diffraction > 0 && limits.max_depth > 1)
-    suffixes_.emplace(model, limits, moving_bodies);
+  if (!model.effects.diffraction || limits.max_reflections_beside_diffraction == 0 || limits.max_depth < 2)
+    return;
+  edges_ = shared ? std::move(shared) : std::make_shared<EdgeSearch>(model, limits, moving_bodies);
 }
 
 /// Finds the sequences that lead to facets. A candidate sequence that ends with a facet shows that the
@@ -223,7 +225,7 @@ Midpoints::PatchArrivals Midpoints::straight_to_patches(const dvec3& from) const
 }
 
 void Midpoints::set_candidates(const CandidateList& candidates, const ImageTree& tree) {
-  if (suffixes_) suffixes_->move();
+  if (edges_) edges_->move();
   if (model_->effects.diffraction) {
     at_wedges_ = WedgeArrivals(candidates, model_->wedges);
     at_wedges_.place(tree, model_->wedges);
@@ -234,9 +236,14 @@ void Midpoints::set_candidates(const CandidateList& candidates, const ImageTree&
   at_patches_ = arrivals_at_patches(at_facets_, windows, tree);
 }
 
+void Midpoints::set_edge_ways(const CandidateList& ways, const ImageTree& tree) {
+  at_wedges_ = WedgeArrivals(ways, model_->wedges);
+  at_wedges_.place(tree, model_->wedges);
+}
+
 void Midpoints::move(const ImageTree& tree) {
   if (model_->effects.diffraction) at_wedges_.place(tree, model_->wedges);
-  if (suffixes_) suffixes_->move();
+  if (edges_) edges_->move();
   if (model_->effects.scattering) at_patches_ = arrivals_at_patches(at_facets_, {}, tree);
 }
 
@@ -259,38 +266,39 @@ uint32_t Midpoints::most_before(uint32_t after) const {
   return std::min(limits_.max_depth - 1 - after, limits_.max_reflections_beside_diffraction);
 }
 
-/// Returns the wedges at which a prefix and a suffix may meet. The target may reach every wedge on a straight
-/// line.
-std::vector<Midpoints::Meeting> Midpoints::meetings(const Suffixes& suffixes, uint32_t threads) const {
+/// Returns the wedges at which a prefix and a suffix may meet. Without a search at the target, it may reach
+/// every wedge on a straight line.
+std::vector<Midpoints::Meeting> Midpoints::meetings(const CandidateList& suffixes) const {
   std::vector<Meeting> all;
-  for (const uint32_t wedge : at_wedges_.wedges()) all.push_back({wedge, 0});
-  const size_t count = suffixes.list.size();
-  constexpr size_t sequences_at_once = 64;
-  std::vector<std::vector<Meeting>> found((count + sequences_at_once - 1) / sequences_at_once);
-  parallel_for(found.size(), threads, [&](size_t chunk) {
-    std::vector<uint32_t> wedges;
-    const size_t first = std::max<size_t>(1, chunk * sequences_at_once);
-    for (size_t i = first; i < std::min(count, (chunk + 1) * sequences_at_once); ++i) {
-      const uint32_t before = most_before(static_cast<uint32_t>(suffixes.list.sequence(i).size()));
-      suffixes_->wedges_of(suffixes, i, wedges);
-      for (const uint32_t wedge : wedges)
-        if (at_wedges_.least_depth(wedge) <= before)
-          found[chunk].push_back({wedge, static_cast<uint32_t>(i)});
+  if (!edges_)
+    for (const uint32_t wedge : at_wedges_.wedges()) all.push_back({wedge, 0});
+  for (uint32_t i = 0; i < suffixes.size(); ++i) {
+    const auto sequence = suffixes.sequence(i);
+    const uint32_t before = most_before(static_cast<uint32_t>(sequence.size()));
+    for (const uint32_t wedge : suffixes.wedges_of(i)) {
+      if (at_wedges_.least_depth(wedge) > before) continue;
+      // A reflection at one of the wedge's own faces is part of the wedge's field.
+      const scene::Wedge& own = model_->wedges[wedge];
+      if (!sequence.empty() && (own.facet_0 == sequence.back() || own.facet_n == sequence.back())) continue;
+      all.push_back({wedge, i});
     }
-  });
-  for (const std::vector<Meeting>& some : found) all.insert(all.end(), some.begin(), some.end());
+  }
   std::sort(all.begin(), all.end());
   return all;
 }
 
-LeftOut Midpoints::solve_wedges(const ImageTree& tree, const dvec3& target, uint32_t target_body,
-                                uint32_t threads, SuffixMemory& memory,
+LeftOut Midpoints::solve_wedges(const ImageTree& tree, const Target& target, uint32_t threads,
                                 std::vector<GeometricPath>& paths) const {
-  Suffixes straight;
-  straight.list.add({});
-  const Suffixes& suffixes = suffixes_ ? suffixes_->from(target, target_body, threads, memory) : straight;
-  const ImageTree images(model_->facets, target, suffixes.list, opposite(tree.end()));
-  const std::vector<Meeting> all = meetings(suffixes, threads);
+  std::shared_ptr<const EdgeWays> ways;
+  if (edges_) {
+    ways = edges_->from(target.position, target.body, threads, target.keep);
+  } else {
+    EdgeWays straight;
+    straight.list.add({});
+    ways = std::make_shared<const EdgeWays>(std::move(straight));
+  }
+  const ImageTree images(model_->facets, target.position, ways->list, opposite(tree.end()));
+  const std::vector<Meeting> all = meetings(ways->list);
   constexpr size_t meetings_at_once = 1024;
   std::vector<std::vector<GeometricPath>> found((all.size() + meetings_at_once - 1) / meetings_at_once);
   parallel_for(found.size(), threads, [&](size_t i) {
@@ -299,7 +307,7 @@ LeftOut Midpoints::solve_wedges(const ImageTree& tree, const dvec3& target, uint
             found[i]);
   });
   for (std::vector<GeometricPath>& some : found) std::ranges::move(some, std::back_inserter(paths));
-  return suffixes.left_out;
+  return ways->left_out;
 }
 
 /// Joins every prefix with the suffix of each meeting.
@@ -358,8 +366,9 @@ void Midpoints::scatter(const ImageTree& tree, const dvec3& target, size_t numbe
   }
 }
 
-LeftOut Midpoints::solve_patches(const ImageTree& tree, const dvec3& target, uint32_t target_body,
-                                 uint32_t threads, std::vector<GeometricPath>& paths) const {
+LeftOut Midpoints::solve_patches(const ImageTree& tree, const Target& to, uint32_t threads,
+                                 std::vector<GeometricPath>& paths) const {
+  const dvec3& target = to.position;
   LeftOut left_out;
   PatchArrivals at_patches;
   if (limits_.max_reflections_after > 0) {
@@ -367,7 +376,7 @@ LeftOut Midpoints::solve_patches(const ImageTree& tree, const dvec3& target, uin
     search.max_depth = limits_.max_reflections_after + 1;
     search.max_transmissions = model_->effects.transmission ? limits_.max_transmissions : 0;
     search.moving_bodies = moving_bodies_;
-    search.source_body = target_body;
+    search.source_body = to.body;
     search.threads = threads;
     const BeamSearchResult result = BeamSearch(model_->facets, model_->kinds, {}, search).search(target);
     left_out = {result.overflow(), result.complete_depth()};
@@ -382,13 +391,13 @@ LeftOut Midpoints::solve_patches(const ImageTree& tree, const dvec3& target, uin
   return left_out;
 }
 
-LeftOut Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t target_body, uint32_t threads,
-                         SuffixMemory& memory, std::vector<GeometricPath>& paths) const {
+LeftOut Midpoints::solve(const ImageTree& tree, const ImageTree& edge_tree, const Target& target,
+                         uint32_t threads, std::vector<GeometricPath>& paths) const {
   LeftOut left_out;
   if (model_->effects.diffraction && limits_.max_depth > 0)
-    left_out.add(solve_wedges(tree, target, target_body, threads, memory, paths));
+    left_out.add(solve_wedges(edge_tree, target, threads, paths));
   if (!patches_.empty() && !at_patches_.arrivals.empty())
-    left_out.add(solve_patches(tree, target, target_body, threads, paths));
+    left_out.add(solve_patches(tree, target, threads, paths));
   return left_out;
 }
 

@@ -3,20 +3,20 @@
 //
 // Finds paths with a diffraction or a scattering in the middle: reflections lead from the source to a wedge
 // or a patch (prefix) and from there to the target (suffix). Prefixes come from the source's candidates, and
-// suffixes from a search at the target: that of SuffixSearch for wedges, a whole one for patches.
+// suffixes from a search at the target: that of EdgeSearch for wedges, a whole one for patches.
 #pragma once
 
 #include <compare>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "rf/config/path_limits.h"
 #include "rf/geometry/candidates.h"
 #include "rf/geometry/geometry.h"
 #include "rf/geometry/path.h"
+#include "rf/paths/edge_search.h"
 #include "rf/paths/radio_model.h"
-#include "rf/paths/suffix_search.h"
 #include "rf/paths/wedge_arrivals.h"
 
 namespace greatx::rf {
@@ -39,19 +39,31 @@ class Midpoints {
  public:
   /// Every call reads `model`, which must outlive this object. If reflections may follow a diffraction or a
   /// scattering, solve() searches at every target. `moving_bodies`: facets of bodies other than 0 reflect.
-  Midpoints(const RadioModel& model, const PathLimits& limits, bool moving_bodies);
+  /// `shared` may serve other solvers of the same model and limits; null: this object makes its own if it needs
+  /// one.
+  Midpoints(const RadioModel& model, const PathLimits& limits, bool moving_bodies,
+            std::shared_ptr<EdgeSearch> shared);
 
   /// Sets the sequences that lead to wedges and patches. `tree` is built from the same candidates, which list
   /// wedges if diffraction is on. Patches outside the window of their facet are left out, because the beam
   /// does not reach them.
   void set_candidates(const CandidateList& candidates, const ImageTree& tree);
+  /// Sets the sequences that lead from the source to wedges, in place of those that set_candidates() set.
+  void set_edge_ways(const CandidateList& ways, const ImageTree& tree);
   /// Must be called when the source of `tree` or bodies have moved; the windows are then no longer used.
   void move(const ImageTree& tree);
-  /// Appends every path with a diffraction or scattering between the source of the last `tree` and `target`
-  /// (which `target_body` carries), from transmitter to receiver, in an unspecified order. Returns the number
-  /// of sequences that the search at the target left out. `memory` is that of the target.
-  LeftOut solve(const ImageTree& tree, const dvec3& target, uint32_t target_body, uint32_t threads,
-                SuffixMemory& memory, std::vector<GeometricPath>& paths) const;
+  /// Describes the target of solve().
+  struct Target {
+    dvec3 position{0.0};
+    uint32_t body = 0;  ///< the body that carries it; 0: none
+    bool keep = false;  ///< it may be asked for again
+  };
+  /// Appends every path with a diffraction or scattering between the source of the last tree and `target`,
+  /// from transmitter to receiver, in an unspecified order. `tree` and `edge_tree` are those of
+  /// set_candidates() and set_edge_ways(), or the former for both. Returns the number of sequences that the
+  /// search at the target left out.
+  LeftOut solve(const ImageTree& tree, const ImageTree& edge_tree, const Target& target, uint32_t threads,
+                std::vector<GeometricPath>& paths) const;
 
  private:
   /// Holds for every facet the sequences that lead to it: [facets + 1] into `sequences`, ascending.
@@ -90,10 +102,10 @@ class Midpoints {
     auto operator<=>(const Meeting&) const = default;
   };
   uint32_t most_before(uint32_t after) const;
-  std::vector<Meeting> meetings(const Suffixes& suffixes, uint32_t threads) const;
-  LeftOut solve_wedges(const ImageTree& tree, const dvec3& target, uint32_t target_body, uint32_t threads,
-                       SuffixMemory& memory, std::vector<GeometricPath>& paths) const;
-  LeftOut solve_patches(const ImageTree& tree, const dvec3& target, uint32_t target_body, uint32_t threads,
+  std::vector<Meeting> meetings(const CandidateList& suffixes) const;
+  LeftOut solve_wedges(const ImageTree& tree, const Target& target, uint32_t threads,
+                       std::vector<GeometricPath>& paths) const;
+  LeftOut solve_patches(const ImageTree& tree, const Target& target, uint32_t threads,
                         std::vector<GeometricPath>& paths) const;
   void join_at(std::span<const Meeting> at, const ImageTree& tree, const ImageTree& suffixes,
                std::vector<GeometricPath>& paths) const;
@@ -102,7 +114,7 @@ class Midpoints {
   PathLimits limits_;
   bool moving_bodies_;
   std::vector<Patch> patches_;
-  std::optional<SuffixSearch> suffixes_;  ///< set if reflections may follow a diffraction
+  std::shared_ptr<EdgeSearch> edges_;  ///< set if reflections may follow a diffraction
   WedgeArrivals at_wedges_;
   Arrivals at_facets_;
   PatchArrivals at_patches_;

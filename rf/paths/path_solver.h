@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -46,18 +47,23 @@ class PathSolver {
  public:
   /// Every call reads `model`, which must outlive the solver. `moving_bodies`: facets of bodies other than 0
   /// reflect.
-  PathSolver(const RadioModel& model, const PathLimits& limits, bool moving_bodies = false);
+  /// `edges` may be shared by solvers of the same model and limits; null: the solver makes its own if it needs
+  /// one.
+  PathSolver(const RadioModel& model, const PathLimits& limits, bool moving_bodies = false,
+             std::shared_ptr<EdgeSearch> edges = nullptr);
 
   /// Builds the images of `source` for these candidates, which run from the source.
   void set_candidates(const CandidateList& candidates, const dvec3& source, Source end);
+  /// Searches for the ways from the source to wedges, if the candidates list no wedges. `body` carries the
+  /// source (0: none). Must be called after set_candidates().
+  void find_edge_ways(uint32_t body, uint32_t threads);
   /// Must be called when the source or bodies of the model have moved. The candidates stay, but their windows
   /// are dropped.
   void move_source(const dvec3& source);
 
   /// Returns every chain that exists geometrically between the source and `target`, on `threads` threads (0:
-  /// usable_cores()). `memory`, if it is not null, is kept for this target alone and saves it a search at
-  /// later calls.
-  LinkGeometry geometry(const EndState& target, uint32_t threads = 1, SuffixMemory* memory = nullptr) const;
+  /// usable_cores()). `keep`: the target may be asked for again, at rest or by another solver.
+  LinkGeometry geometry(const EndState& target, uint32_t threads = 1, bool keep = false) const;
   /// Appends the segments of the paths, one path after the other.
   void add_segments(std::span<const GeometricPath> paths, const EndState& transmitter,
                     const EndState& receiver, std::vector<Segment>& segments) const;
@@ -79,7 +85,10 @@ class PathSolver {
   const RadioModel* model_;
   PathLimits limits_;
   FieldModel field_;
+  std::shared_ptr<EdgeSearch> edges_;
   std::optional<ImageTree> tree_;
+  std::optional<ImageTree> edge_tree_;  ///< of find_edge_ways(); empty: tree_ serves wedges too
+  LeftOut edge_left_out_;
   std::optional<Midpoints> midpoints_;  ///< empty if neither diffraction nor scattering is on
 };
 

@@ -84,7 +84,7 @@ class Tree {
 void Tree::settle(const Beam& beam, uint32_t depth, uint32_t passed, Found& found) const {
   BeamView view(scene_);
   const uint32_t carrier = depth == 0 && options_.source_body != 0 ? options_.source_body : none;
-  view.look(beam, options_.clearance_m, carrier, wedges_);
+  view.look(beam, options_.clearance_m, carrier, wedges_ && depth < options_.wedge_depth);
   BeamCells cells;
   const size_t first = found.hits.size();
   cells.settle(view, static_cast<uint32_t>(walls_left(depth, passed)), found.hits, found.wedges);
@@ -288,12 +288,12 @@ BeamSearchResult Tree::grow() {
 
 BeamSearch::BeamSearch(const FacetWorld& world, const FacetKinds& kinds, std::span<const scene::Wedge> wedges,
                        const BeamSearchOptions& options)
-    : world_(&world), kinds_(&kinds), wedges_(wedges), options_(options) {
+    : world_(&world), kinds_(&kinds), wedges_(wedges), with_wedges_(!wedges.empty()), options_(options) {
   check();
 }
 
-BeamSearch::BeamSearch(std::shared_ptr<const BeamScene> scene, const BeamSearchOptions& options)
-    : options_(options), scene_(std::move(scene)) {
+BeamSearch::BeamSearch(std::shared_ptr<const BeamScene> scene, const BeamSearchOptions& options, bool wedges)
+    : with_wedges_(wedges), options_(options), scene_(std::move(scene)) {
   check();
 }
 
@@ -307,9 +307,9 @@ BeamSearchResult BeamSearch::search(const dvec3& source) const {
                "source at ({}, {}, {})", source.x, source.y, source.z);
   if (!options_.moving_bodies && scene_ == nullptr)
     scene_ = std::make_shared<const BeamScene>(*world_, *kinds_, wedges_, false);
-  if (scene_) return Tree(*scene_, options_, !wedges_.empty(), source).grow();
+  if (scene_) return Tree(*scene_, options_, with_wedges_, source).grow();
   const BeamScene scene(*world_, *kinds_, wedges_, true);
-  return Tree(scene, options_, !wedges_.empty(), source).grow();
+  return Tree(scene, options_, with_wedges_, source).grow();
 }
 
 uint32_t BeamSearchResult::complete_depth() const {

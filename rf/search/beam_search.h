@@ -46,6 +46,8 @@ struct BeamSearchOptions {
   /// Largest number of facets of the sequences that the search looks for. Sequences that could go on still
   /// get beams. It is less than max_depth if another search takes the last steps (MovingSearch).
   uint32_t stop_depth = ~0u;
+  /// Wedges are looked for behind sequences with fewer facets than this.
+  uint32_t wedge_depth = ~0u;
 };
 
 /// Describes the beam of a sequence that can go on: it leaves the last facet through this rectangle of the
@@ -83,9 +85,9 @@ class BeamSearch {
   /// object.
   BeamSearch(const FacetWorld& world, const FacetKinds& kinds, std::span<const scene::Wedge> wedges,
              const BeamSearchOptions& options);
-  /// Searches in `scene`, and for no wedges. options.moving_bodies has no meaning. search() may be called by
-  /// many threads.
-  BeamSearch(std::shared_ptr<const BeamScene> scene, const BeamSearchOptions& options);
+  /// Searches in `scene`, for its wedges too if asked for. options.moving_bodies has no meaning. search() may
+  /// be called by many threads.
+  BeamSearch(std::shared_ptr<const BeamScene> scene, const BeamSearchOptions& options, bool wedges = false);
   /// Returns every sequence of facets whose beam from `source` (local coordinates) is not proven dark. Must
   /// not be called from two threads at once, unless the scene was given.
   BeamSearchResult search(const dvec3& source) const;
@@ -100,6 +102,7 @@ class BeamSearch {
   const FacetWorld* world_ = nullptr;
   const FacetKinds* kinds_ = nullptr;
   std::span<const scene::Wedge> wedges_;
+  bool with_wedges_ = false;
   BeamSearchOptions options_;
   mutable std::shared_ptr<const BeamScene> scene_;  ///< kept between searches if it cannot move
 };

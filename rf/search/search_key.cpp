@@ -59,7 +59,7 @@ std::string search_key(const FacetWorld& world, const FacetKinds& kinds, std::sp
   // All options are named here, so that a new option causes a compiler error until somebody decides whether
   // it changes the result.
   const auto& [max_depth, max_transmissions, capacity, threads, moving_bodies, source_body, clearance_m,
-               stop_depth] = options;
+               stop_depth, wedge_depth] = options;
   static_cast<void>(threads);
   GREATX_CHECK(!moving_bodies, "the key of a search says nothing of where bodies stand");
   GREATX_CHECK(kinds.size() == world.facet_count(), "kinds of {} facets, the world has {}", kinds.size(),
@@ -73,7 +73,7 @@ std::string search_key(const FacetWorld& world, const FacetKinds& kinds, std::sp
   Sha256 hash;
   hash.update_value(search_version);
   hash.update_value(max_depth).update_value(max_transmissions).update_value(capacity);
-  hash.update_value(source_body).update_value(clearance_m).update_value(stop_depth);
+  hash.update_value(source_body).update_value(clearance_m).update_value(stop_depth).update_value(wedge_depth);
   hash.update_value(static_cast<uint8_t>(!wedges.empty()));  // whether the search looks for wedges
   {
     Numbers numbers(hash);

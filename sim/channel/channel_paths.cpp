@@ -65,11 +65,6 @@ std::shared_ptr<const rf::FacetWorld> RadioWorld::snapshot() {
   return current_;
 }
 
-std::shared_ptr<rf::FixedFacets> RadioWorld::fixed_facets() {
-  if (!fixed_) fixed_ = std::make_shared<rf::FixedFacets>(model_.facets, model_.kinds);
-  return fixed_;
-}
-
 ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings,
                            const Experiment& experiment, std::shared_ptr<RadioWorld> radio, uint32_t channel,
                            ChannelEnds ends)
@@ -84,8 +79,7 @@ ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossin
       ends_(std::move(ends)),
       radio_(std::move(radio)),
       crossings_(crossings) {
-  search_.emplace(&gpu_scene, radio_->model(), experiment.plan, config_, ends_,
-                  [radio = radio_.get()] { return radio->fixed_facets(); });
+  search_.emplace(&gpu_scene, radio_->model(), experiment.plan, config_, ends_, &radio_->searches());
 }
 
 ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings,

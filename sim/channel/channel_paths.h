@@ -42,14 +42,14 @@ class RadioWorld {
   void move_on(const TickContext& context);
   /// Returns the facets in the poses that move_on() set last.
   std::shared_ptr<const rf::FacetWorld> snapshot();
-  /// Returns the facets at rest, which the searches of all transmitters share; made at the first call.
-  std::shared_ptr<rf::FixedFacets> fixed_facets();
+  /// Returns what the searches of all transmitters share.
+  SharedSearches& searches() { return searches_; }
 
  private:
   rf::RadioModel model_;
   rf::Surroundings surroundings_;
   std::vector<std::shared_ptr<rf::FacetWorld>> snapshots_;  ///< those that are not held are reused
-  std::shared_ptr<rf::FixedFacets> fixed_;
+  SharedSearches searches_{model_};
   std::shared_ptr<const rf::FacetWorld> current_;  ///< null: bodies have moved since the last snapshot
 };
 

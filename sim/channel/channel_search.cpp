@@ -37,11 +37,10 @@ rf::MovingSearchOptions moving_options(const ChannelConfig& config, uint32_t wal
 }  // namespace
 
 ChannelSearch::ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& model, const EffectPlan& plan,
-                             const ChannelConfig& config, const ChannelEnds& ends,
-                             std::function<std::shared_ptr<rf::FixedFacets>()> fixed_facets)
+                             const ChannelConfig& config, const ChannelEnds& ends, SharedSearches* shared)
     : model_(model),
       config_(config),
-      fixed_facets_(std::move(fixed_facets)),
+      shared_(shared),
       move_facets_(plan.moving_reflectors.on),
       walls_(plan.transmission.on ? config.walls() : 0),
       transmitter_{.body = ends.transmitter.body, .kept = ends.transmitter.rests} {
@@ -57,10 +56,10 @@ ChannelSearch::ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& m
 void ChannelSearch::choose(const EffectPlan& plan, const ChannelEnds& ends) {
   const bool bounces = plan.reflection.on || plan.diffraction.on || plan.scattering.on;
   if (!all_effects_built || !bounces || config_.limits.max_depth == 0) return;
-  // Diffraction, scattering and rays need everything that the transmitter reaches, not only sequences that
-  // lead to the receivers.
-  const bool whole =
-      config_.candidates == ChannelConfig::Candidates::rays || plan.diffraction.on || plan.scattering.on;
+  // Scattering, rays, and edges that move need everything that the transmitter reaches, not only sequences
+  // that lead to the receivers.
+  const bool whole = config_.candidates == ChannelConfig::Candidates::rays || plan.scattering.on ||
+                     (plan.diffraction.on && move_facets_);
   const bool receivers_rest = std::ranges::all_of(ends.receivers, &ChannelEnd::rests);
   if (config_.search == ChannelConfig::Search::every_tick || (move_facets_ && whole)) {
     way_ = Way::every_tick;
@@ -75,6 +74,12 @@ void ChannelSearch::choose(const EffectPlan& plan, const ChannelEnds& ends) {
                         config_.name);
   else
     way_ = whole ? Way::every_tick : Way::between_ends;
+  if (way_ == Way::between_ends && plan.diffraction.on) {
+    // The paths are the same from both ends, but their fields are not.
+    for (const ChannelEnd& receiver : ends.receivers)
+      fields_from_receiver_.push_back(searched_from(ends.transmitter, receiver) == rf::Source::receiver);
+    return;
+  }
   // Other paths would be found from the other end, and their fields would be others.
   if (plan.diffraction.on || plan.scattering.on) choose_by_link(ends);
 }
@@ -128,13 +133,13 @@ void ChannelSearch::make_beams() {
   moving_searches_.clear();
   if (way_ == Way::between_ends || (once() && move_facets_))
     moving_searches_.emplace_back(model_.facets, model_.kinds, moving_options(config_, walls_, move_facets_),
-                                  fixed_facets_ ? fixed_facets_() : nullptr);
+                                  shared_ ? shared_->fixed_facets() : nullptr);
 }
 
 /// One search from the transmitter serves all points, of which there may be thousands.
 void ChannelSearch::set_points() {
   points_ = true;
-  suffixes_.clear();
+  fields_from_receiver_.clear();
   const bool kept = transmitter_.kept && !(beams_ && move_facets_);
   const bool others = way_ == Way::once_from_receivers || way_ == Way::by_link;
   if (!others && (!beams_ || way_ == Way::every_tick || kept)) return;
@@ -165,7 +170,8 @@ void ChannelSearch::grow_solvers(size_t count) {
   rf::PathLimits limits = config_.limits;
   limits.max_transmissions = config_.walls();
   const bool reflect = move_facets_ && (way_ == Way::every_tick || way_ == Way::by_link);
-  while (fixed_.size() < count) fixed_.emplace_back(model_, limits, reflect);
+  const auto edges = shared_ && !reflect && model_.effects.diffraction ? shared_->edges(limits) : nullptr;
+  while (fixed_.size() < count) fixed_.emplace_back(model_, limits, reflect, edges);
   left_out_.resize(fixed_.size());
   while (!moving_searches_.empty() && moving_searches_.size() < count)
     moving_searches_.push_back(moving_searches_[0]);
@@ -245,9 +251,6 @@ void ChannelSearch::renew(int64_t tick, const dvec3& transmitter, std::span<cons
                           std::span<const Pose> bodies) {
   if (fixed_.empty()) start(transmitter, receivers, bodies);  // set_points() has changed the sources
   if constexpr (!all_effects_built) return fixed_[0].move_source(transmitter);
-  // One takes a megabyte, more or less.
-  constexpr size_t most_suffixes = 64;
-  if (!points_) suffixes_.resize(std::min(receivers.size(), most_suffixes));
   if (!moving_searches_.empty()) seams_.emplace(moving_searches_[0].seams());
   if (way_ == Way::between_ends) return renew_between(transmitter, receivers);
   if (once()) return renew_moving(transmitter, receivers);
@@ -270,6 +273,7 @@ void ChannelSearch::renew_between(const dvec3& transmitter, std::span<const dvec
   const rf::BeamSearchResult tree = beams(sources_[0], transmitter);
   moving_searches_[0].set_tree(tree, transmitter);
   take(0, moving_searches_[0].all(receivers), {tree.overflow(), tree.complete_depth()}, transmitter);
+  if (model_.effects.diffraction) fixed_[0].find_edge_ways(transmitter_.body, 0);
 }
 
 void ChannelSearch::renew_moving(const dvec3& transmitter, std::span<const dvec3> receivers) {
@@ -283,17 +287,38 @@ void ChannelSearch::renew_moving(const dvec3& transmitter, std::span<const dvec3
   }
 }
 
+/// Removes the reflections that are dark in a seam, and says from which end the fields of paths over edges are
+/// computed.
+void ChannelSearch::drop_seams(size_t index, uint32_t transmitter_body,
+                               std::vector<rf::GeometricPath>& paths) const {
+  const auto over_edges =
+      std::stable_partition(paths.begin(), paths.end(), [](const rf::GeometricPath& path) {
+        return std::ranges::none_of(path.interactions, [](const rf::Interaction& i) {
+          return i.type == rf::InteractionType::diffraction;
+        });
+      });
+  std::vector<rf::GeometricPath> edges(std::make_move_iterator(over_edges),
+                                       std::make_move_iterator(paths.end()));
+  paths.erase(over_edges, paths.end());
+  seams_->drop_behind(paths, rf::Source::transmitter, transmitter_body);
+  if (edges.empty()) return;
+  for (rf::GeometricPath& path : edges) path.from_receiver = fields_from_receiver_.at(index);
+  paths.insert(paths.end(), std::make_move_iterator(edges.begin()), std::make_move_iterator(edges.end()));
+  std::ranges::sort(paths, [](const rf::GeometricPath& a, const rf::GeometricPath& b) {
+    return rf::interactions_less(a.interactions, b.interactions);
+  });
+}
+
 rf::LinkGeometry ChannelSearch::geometry(size_t index, const rf::EndState& transmitter,
-                                         const rf::EndState& receiver, uint32_t threads) {
+                                         const rf::EndState& receiver, uint32_t threads) const {
   if constexpr (!all_effects_built) return fixed_[0].geometry(receiver, threads);
   const size_t source = source_of(index);
   const rf::Source end = sources_[source].end;
   const bool from_receiver = end == rf::Source::receiver;
   const rf::EndState& target = from_receiver ? transmitter : receiver;
-  rf::LinkGeometry link =
-      fixed_[source].geometry(target, threads, index < suffixes_.size() ? &suffixes_[index] : nullptr);
+  rf::LinkGeometry link = fixed_[source].geometry(target, threads, !points_);
   link.searched.add(left_out_[source]);
-  if (way_ == Way::between_ends) seams_->drop_behind(link.paths, rf::Source::transmitter, transmitter.body);
+  if (way_ == Way::between_ends) drop_seams(index, transmitter.body, link.paths);
   if (moving_.empty()) return link;
   rf::LinkGeometry more = moving_[source].geometry(target, threads);
   seams_->drop_behind(more.paths, end, from_receiver ? receiver.body : transmitter.body);

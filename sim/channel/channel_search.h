@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -23,16 +22,35 @@
 
 namespace greatx::sim {
 
+/// Holds what the searches from several transmitters share. Everything is made when it is asked for first.
+class SharedSearches {
+ public:
+  explicit SharedSearches(const rf::RadioModel& model) : model_(model) {}
+  std::shared_ptr<rf::FixedFacets> fixed_facets() {
+    if (!fixed_) fixed_ = std::make_shared<rf::FixedFacets>(model_.facets, model_.kinds);
+    return fixed_;
+  }
+  /// `limits` are those of the first call.
+  std::shared_ptr<rf::EdgeSearch> edges(const rf::PathLimits& limits) {
+    if (!edges_) edges_ = std::make_shared<rf::EdgeSearch>(model_, limits, false);
+    return edges_;
+  }
+
+ private:
+  const rf::RadioModel& model_;
+  std::shared_ptr<rf::FixedFacets> fixed_;
+  std::shared_ptr<rf::EdgeSearch> edges_;
+};
+
 /// Chooses the way to search for candidates, runs the searches, and turns candidates into geometric paths.
 class ChannelSearch {
  public:
   /// The ends decide the way to search. All arguments but `ends` must outlive this. If `gpu_scene` is null,
   /// only notes() may be called. Throws UserError if `search: once` is asked for and no end stands still, or
   /// if diffraction is on and candidates come from rays.
-  /// `fixed_facets` is called if the search needs them; empty: the search makes its own.
+  /// `shared` serves the searches from all transmitters of the channel; null: the search makes its own.
   ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& model, const EffectPlan& plan,
-                const ChannelConfig& config, const ChannelEnds& ends,
-                std::function<std::shared_ptr<rf::FixedFacets>()> fixed_facets = {});
+                const ChannelConfig& config, const ChannelEnds& ends, SharedSearches* shared = nullptr);
 
   /// Declares that the receivers are points at rest from now on, perhaps thousands, and may differ at each
   /// call of renew().
@@ -48,10 +66,9 @@ class ChannelSearch {
   void renew(int64_t tick, const dvec3& transmitter, std::span<const dvec3> receivers,
              std::span<const Pose> bodies);
   /// Returns every path that exists geometrically between the transmitter and receiver `index`, and the
-  /// number of candidates that the searches left out. Uses `threads` threads. Changes nothing but what is
-  /// kept for receiver `index` alone, so calls for different receivers may run in parallel.
+  /// number of candidates that the searches left out. Uses `threads` threads. Calls may run in parallel.
   rf::LinkGeometry geometry(size_t index, const rf::EndState& transmitter, const rf::EndState& receiver,
-                            uint32_t threads);
+                            uint32_t threads) const;
   /// Returns the solver for the steps after the geometry of receiver `index`, which do not depend on the
   /// candidates.
   const rf::PathSolver& solver(size_t index) const { return fixed_.at(source_of(index)); }
@@ -93,11 +110,12 @@ class ChannelSearch {
   void take(size_t index, rf::CandidateList list, const rf::LeftOut& left_out, const dvec3& source);
   void renew_between(const dvec3& transmitter, std::span<const dvec3> receivers);
   void renew_source(size_t index, const dvec3& source);
+  void drop_seams(size_t index, uint32_t transmitter_body, std::vector<rf::GeometricPath>& paths) const;
   void renew_moving(const dvec3& transmitter, std::span<const dvec3> receivers);
 
   const rf::RadioModel& model_;
   const ChannelConfig& config_;
-  std::function<std::shared_ptr<rf::FixedFacets>()> fixed_facets_;
+  SharedSearches* shared_;
   bool move_facets_;
   uint32_t walls_;            ///< the most walls that a path may pass
   SearchSource transmitter_;  ///< as a source
@@ -111,10 +129,8 @@ class ChannelSearch {
   /// [sources] `fixed_` holds the candidates of the world at rest, or all candidates. `moving_` holds the
   /// candidates that moving bodies add at this tick; it is used if their facets reflect and an end rests.
   std::vector<rf::PathSolver> fixed_, moving_;
-  std::vector<rf::LeftOut> left_out_;  ///< [fixed_] omissions of the search
-  /// [receivers, of many the first] of the ends that links are not searched from; empty for lists of points,
-  /// which come once.
-  std::vector<rf::SuffixMemory> suffixes_;
+  std::vector<rf::LeftOut> left_out_;       ///< [fixed_] omissions of the search
+  std::vector<bool> fields_from_receiver_;  ///< [receivers] between_ends: of paths over edges
   bool points_ = false;
   std::vector<rf::MovingSearch> moving_searches_;
   std::optional<rf::Seams> seams_;  ///< for the bodies at this tick

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Finds the reflections by which an end may reach wedges. A path with a diffraction has two such ways, one
+// from each end, and they meet at the edge. The way from the source may also come from the source's own
+// candidates, if these list wedges (WedgeArrivals).
+//
+// The end's tree of beams (BeamSearch) is cut off where only a wedge can follow. The wedges that the end sees
+// itself are found exactly. Which wedges the beams behind reflections reach is asked by the pyramids of the
+// beams alone, and not by what stands before the wedges: joining at the edge refuses nearly all pairs, and the
+// crossings see the rest. A search that followed the last beams as well would take five to eighteen times as
+// long.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+#include "rf/config/path_limits.h"
+#include "rf/geometry/candidates.h"
+#include "rf/paths/radio_model.h"
+#include "rf/search/beam_scene.h"
+
+namespace greatx::rf {
+
+/// Holds the sequences of reflections from an end towards wedges, with the wedges that each may reach.
+struct EdgeWays {
+  CandidateList list;  ///< canonical order; [0] is the empty sequence
+  LeftOut left_out;
+};
+
+class EdgeSearch {
+ public:
+  /// `model` must outlive this object. `moving_bodies`: facets of bodies other than 0 reflect and hide.
+  EdgeSearch(const RadioModel& model, const PathLimits& limits, bool moving_bodies);
+
+  /// Must be called when bodies of the model have moved.
+  void move();
+  /// Returns what a search at `end` finds, whose `body` hides nothing from it (0: none). The last answers are
+  /// kept if `keep`. Many threads may call this.
+  std::shared_ptr<const EdgeWays> from(const dvec3& end, uint32_t body, uint32_t threads, bool keep);
+
+ private:
+  struct Answer {
+    dvec3 end{0.0};
+    uint32_t body = 0;
+    std::shared_ptr<const EdgeWays> ways;
+  };
+  std::shared_ptr<const EdgeWays> known(const dvec3& end, uint32_t body) const;
+  EdgeWays search(const dvec3& end, uint32_t body, uint32_t threads) const;
+
+  const RadioModel* model_;
+  PathLimits limits_;
+  bool moving_bodies_;
+  std::shared_ptr<const BeamScene> scene_;
+  std::mutex mutex_;
+  std::vector<Answer> answers_;  ///< a ring
+  size_t next_ = 0;
+};
+
+}  // namespace greatx::rf
