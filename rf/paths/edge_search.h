@@ -7,9 +7,9 @@
 //
 // The end's tree of beams (BeamSearch) is cut off where only a wedge can follow. The wedges that the end sees
 // itself are found exactly. Which wedges the beams behind reflections reach is asked by the pyramids of the
-// beams alone, and not by what stands before the wedges: joining at the edge refuses nearly all pairs, and the
-// crossings see the rest. A search that followed the last beams as well would take five to eighteen times as
-// long.
+// beams alone, and not by what stands before the wedges: joining at the edge refuses nearly all pairs, and
+// the crossings see the rest. A search that followed the last beams as well would take five to eighteen times
+// as long.
 #pragma once
 
 #include <cstdint>

@@ -39,8 +39,8 @@ class Midpoints {
  public:
   /// Every call reads `model`, which must outlive this object. If reflections may follow a diffraction or a
   /// scattering, solve() searches at every target. `moving_bodies`: facets of bodies other than 0 reflect.
-  /// `shared` may serve other solvers of the same model and limits; null: this object makes its own if it needs
-  /// one.
+  /// `shared` may serve other solvers of the same model and limits; null: this object makes its own if it
+  /// needs one.
   Midpoints(const RadioModel& model, const PathLimits& limits, bool moving_bodies,
             std::shared_ptr<EdgeSearch> shared);
 

@@ -47,8 +47,8 @@ class PathSolver {
  public:
   /// Every call reads `model`, which must outlive the solver. `moving_bodies`: facets of bodies other than 0
   /// reflect.
-  /// `edges` may be shared by solvers of the same model and limits; null: the solver makes its own if it needs
-  /// one.
+  /// `edges` may be shared by solvers of the same model and limits; null: the solver makes its own if it
+  /// needs one.
   PathSolver(const RadioModel& model, const PathLimits& limits, bool moving_bodies = false,
              std::shared_ptr<EdgeSearch> edges = nullptr);
 

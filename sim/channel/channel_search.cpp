@@ -287,8 +287,8 @@ void ChannelSearch::renew_moving(const dvec3& transmitter, std::span<const dvec3
   }
 }
 
-/// Removes the reflections that are dark in a seam, and says from which end the fields of paths over edges are
-/// computed.
+/// Removes the reflections that are dark in a seam, and says from which end the fields of paths over edges
+/// are computed.
 void ChannelSearch::drop_seams(size_t index, uint32_t transmitter_body,
                                std::vector<rf::GeometricPath>& paths) const {
   const auto over_edges =
@@ -365,6 +365,14 @@ std::vector<std::pair<std::string, std::string>> ChannelSearch::notes(const rf::
                  ? fmt::format("; {} at least are left out of the beams', beyond the {} that a search keeps",
                                left_out.sequences, rf::BeamSearchOptions{}.capacity)
                  : std::string()));
+  if (beams_ && model_.effects.diffraction)
+    notes.emplace_back(
+        "guarantee_edges",
+        fmt::format("no path over one edge is left out that has up to {} reflections on each "
+                    "side of it and up to {} interactions, and is {:g} mm clear of other edges",
+                    config_.limits.max_reflections_beside_diffraction,
+                    std::min(config_.limits.max_depth, left_out.complete_depth),
+                    1e3 * rf::BeamSearchOptions{}.clearance_m));
   if (beams_ && move_facets_ && (way_ == Way::every_tick || way_ == Way::by_link) &&
       config_.search != ChannelConfig::Search::every_tick)
     notes.emplace_back("reuse",

@@ -30,16 +30,19 @@ class SharedSearches {
     if (!fixed_) fixed_ = std::make_shared<rf::FixedFacets>(model_.facets, model_.kinds);
     return fixed_;
   }
-  /// `limits` are those of the first call.
+  /// Returns the search for ways to edges under these limits. A channel and its legs may have others.
   std::shared_ptr<rf::EdgeSearch> edges(const rf::PathLimits& limits) {
-    if (!edges_) edges_ = std::make_shared<rf::EdgeSearch>(model_, limits, false);
-    return edges_;
+    for (const auto& [known, search] : edges_)
+      if (known.max_depth == limits.max_depth && known.max_transmissions == limits.max_transmissions &&
+          known.max_reflections_beside_diffraction == limits.max_reflections_beside_diffraction)
+        return search;
+    return edges_.emplace_back(limits, std::make_shared<rf::EdgeSearch>(model_, limits, false)).second;
   }
 
  private:
   const rf::RadioModel& model_;
   std::shared_ptr<rf::FixedFacets> fixed_;
-  std::shared_ptr<rf::EdgeSearch> edges_;
+  std::vector<std::pair<rf::PathLimits, std::shared_ptr<rf::EdgeSearch>>> edges_;
 };
 
 /// Chooses the way to search for candidates, runs the searches, and turns candidates into geometric paths.

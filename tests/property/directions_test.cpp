@@ -171,6 +171,16 @@ TEST(Property, BothDirectionsHaveTheSamePaths) {
                [](DrawnCase& drawn) { drawn.diffraction = false; });
 }
 
+/// Without scattering, two ends that move are searched from both.
+TEST(Property, BothDirectionsOverEdges) {
+  for (const uint32_t moving : {0u, 1u, 2u, 3u})
+    check_scenes(fmt::format("directions_edges_{}", moving), directions_differ,
+                 {form_of(false), form_of(true)}, [&](DrawnCase& drawn) {
+                   bend(drawn, 0, moving);
+                   drawn.scattering = drawn.every_tick = false;
+                 });
+}
+
 TEST(Property, BothDirectionsShootTheirRaysFromOneEnd) {
   for (const uint32_t moving : {0u, 3u})
     check_scenes(fmt::format("directions_rays_{}", moving), directions_differ,

@@ -78,6 +78,23 @@ TEST(MovingChannel, BothEndsMove) {
   }
 }
 
+TEST(MovingChannel, BothEndsMoveAndEdgesDiffract) {
+  for (const std::string effects : {", diffraction: on", ", diffraction: on, transmission: off"})
+    for (const std::string rest : {"", ", max_reflections_beside_diffraction: 0"}) {
+      const auto run = [&](const std::string& search) {
+        std::string yaml = street("tx: car/antenna, rx: [uav/antenna]" + rest + search, effects);
+        yaml.replace(yaml.find("moving_reflectors: on"), 21, "moving_reflectors: off");
+        return keep_run(yaml);
+      };
+      const KeptRun between = run(""), whole = run(", search: every_tick");
+      EXPECT_GT(between.counter("csi.paths"), 1000u);
+      EXPECT_THAT(between.note("csi.search"), ::testing::StartsWith("every tick, from both ends"));
+      EXPECT_THAT(between.note("csi.guarantee_edges"), ::testing::HasSubstr("no path over one edge"));
+      EXPECT_LT(between.counter("csi.candidates"), whole.counter("csi.candidates"));
+      expect_same_bytes(between, whole);
+    }
+}
+
 /// The simulator records the next tick before it computes the fields of a tick. The fields need the facets as
 /// they stood at their own tick.
 TEST(MovingChannel, ATickKnowsNothingOfTheTickAfterIt) {
@@ -170,6 +187,8 @@ TEST(SearchedFrom, TheNoteSaysSoAndReflectionsAloneNeedNoOrder) {
   EXPECT_EQ(keep_run(yaml).note("csi.search"),
             "from one end of each link, the same in both directions; every tick");
   yaml.replace(yaml.find("moving_reflectors: on"), 21, "moving_reflectors: off");
+  EXPECT_EQ(keep_run(yaml).note("csi.search"), "every tick, from both ends");
+  yaml.replace(yaml.find("diffraction: on"), 15, "diffraction: on, scattering: on");
   EXPECT_EQ(keep_run(yaml).note("csi.search"),
             "from one end of each link, the same in both directions; once if it rests, else every tick");
   EXPECT_EQ(keep_run(street(links, "")).note("csi.search"), "every tick, from both ends");
