@@ -60,11 +60,8 @@ void warn_of_extrapolation(const RadioMedium& medium, double frequency_hz, const
   const std::lock_guard lock(mutex);
   const bool shared = medium.source.starts_with("ITU");  // a name that means the same everywhere
   if (!warned.insert(shared ? medium.source : material_name + '\n' + medium.source).second) return;
-  spdlog::warn(
-      "beyond_range: material '{}' ({}) is extrapolated to {:g} GHz, outside its ranges ({}); its error is "
-      "unknown{}",
-      material_name, medium.source, frequency_hz / 1e9, ranges_of(medium),
-      shared ? "; other materials of this medium are not named" : "");
+  spdlog::warn("beyond_range: '{}' ({}: {}) is extrapolated to {:g} GHz", material_name, medium.source,
+               ranges_of(medium), frequency_hz / 1e9);
 }
 
 }  // namespace

@@ -392,6 +392,14 @@ def csv() -> list[Case]:
         ),
         Case(
             "csv",
+            ["paths", "tables.yaml", "--brief", "--receivers", "points.csv"],
+            {
+                "tables.yaml": scenario("plain.csv", "gain.csv", "shots.csv"),
+                **pick("plain.csv", "gain.csv", "shots.csv", "points.csv"),
+            },
+        ),
+        Case(
+            "csv",
             ["explain", "tables.yaml"],
             {
                 "tables.yaml": scenario("plain.csv", "cuts.msi", "shots.csv"),
@@ -404,14 +412,6 @@ def csv() -> list[Case]:
             {
                 "tables.yaml": scenario("plain.csv", "far.ffd", "shots.csv"),
                 **pick("plain.csv", "far.ffd", "shots.csv"),
-            },
-        ),
-        Case(
-            "csv",
-            ["paths", "tables.yaml", "--brief", "--receivers", "points.csv"],
-            {
-                "tables.yaml": scenario("plain.csv", "gain.csv", "shots.csv"),
-                **pick("plain.csv", "gain.csv", "shots.csv", "points.csv"),
             },
         ),
     ]
