@@ -41,11 +41,17 @@ std::array<HalfSpace, 5> pyramid(const SequenceBeam& beam, double largest_m) {
   return sides;
 }
 
-/// Sets `wedges` to those of the list of the model that lie in the pyramid of a beam, ascending.
-void wedges_in(const BeamScene& scene, const SequenceBeam& beam, std::vector<uint32_t>& wedges) {
+/// Sets `wedges` to those of the list of the model that lie in the pyramid of a beam, ascending, or to all of
+/// the scene if there is no beam.
+void wedges_in(const BeamScene& scene, const SequenceBeam* beam, std::vector<uint32_t>& wedges) {
   wedges.clear();
-  if (beam.walls == SequenceBeam::none) return;
-  const std::array<HalfSpace, 5> region = pyramid(beam, scene.largest_coordinate());
+  std::array<HalfSpace, 5> sides;
+  std::span<const HalfSpace> region;
+  if (beam != nullptr) {
+    if (beam->walls == SequenceBeam::none) return;
+    sides = pyramid(*beam, scene.largest_coordinate());
+    region = sides;
+  }
   scene.gather_wedges(region, wedges);
   size_t kept = 0;
   for (const uint32_t slot : wedges) {
@@ -60,21 +66,17 @@ void wedges_in(const BeamScene& scene, const SequenceBeam& beam, std::vector<uin
 }
 
 /// Adds the wedges in the pyramids of the sequences with `depth` reflections and more, which have none yet.
-void add_wedges(const BeamScene& scene, const BeamSearchResult& result, uint32_t depth, uint32_t wedges,
-                uint32_t threads, CandidateList& list) {
+void add_wedges(const BeamScene& scene, const BeamSearchResult& result, uint32_t depth, uint32_t threads,
+                CandidateList& list) {
   const size_t count = list.size();
   size_t first = 0;
   while (first < count && list.sequence(first).size() < depth) ++first;
   const size_t last = count - first;
   std::vector<std::vector<uint32_t>> found(last);
-  if (depth > 0)
-    parallel_for((last + beams_at_once - 1) / beams_at_once, threads, [&](size_t chunk) {
-      for (size_t i = chunk * beams_at_once; i < std::min(last, (chunk + 1) * beams_at_once); ++i)
-        wedges_in(scene, result.beams[first + i], found[i]);
-    });
-  if (depth == 0) {  // the beam of the empty sequence is everything
-    for (uint32_t wedge = 0; wedge < wedges; ++wedge) found[0].push_back(wedge);
-  }
+  parallel_for((last + beams_at_once - 1) / beams_at_once, threads, [&](size_t chunk) {
+    for (size_t i = chunk * beams_at_once; i < std::min(last, (chunk + 1) * beams_at_once); ++i)
+      wedges_in(scene, list.sequence(first + i).empty() ? nullptr : &result.beams[first + i], found[i]);
+  });
   list.wedges.resize(list.wedge_offsets[first]);
   for (size_t i = 0; i < last; ++i) {
     list.wedges.insert(list.wedges.end(), found[i].begin(), found[i].end());
@@ -133,8 +135,7 @@ EdgeWays EdgeSearch::search(const dvec3& end, uint32_t body, uint32_t threads) c
   ways.list = std::move(result.list);
   GREATX_CHECK(result.beams.size() == ways.list.size(), "{} beams of {} sequences", result.beams.size(),
                ways.list.size());
-  add_wedges(*scene_, result, std::min(options.stop_depth, options.wedge_depth),
-             static_cast<uint32_t>(model_->wedges.size()), threads, ways.list);
+  add_wedges(*scene_, result, std::min(options.stop_depth, options.wedge_depth), threads, ways.list);
   return ways;
 }
 
