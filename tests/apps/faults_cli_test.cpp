@@ -147,9 +147,11 @@ TEST_F(Faults, OutputRemovedUnderway) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   ASSERT_TRUE(fs::exists(picture));
   kill(child, SIGSTOP);  // so that the removal does not race with new files
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, WUNTRACED), child);  // all of its threads stand still now
+  ASSERT_TRUE(WIFSTOPPED(status));
   fs::remove_all(output);
   kill(child, SIGCONT);
-  int status = 0;
   waitpid(child, &status, 0);
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 1) << "a data set that is gone is not complete";
