@@ -29,20 +29,25 @@ void CsvLine::fail(size_t cell, const std::string& what) const {
   throw_user_error("{}:{}:{}: {}", file, number, cells[cell].column, what);
 }
 
-CsvReader::CsvReader(std::string_view text, std::string_view name) : text_(text), name_(name) {
+TextLines::TextLines(std::string_view text) : text_(text) {
   if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
 }
 
+std::optional<std::string_view> TextLines::next() {
+  if (text_.empty()) return std::nullopt;
+  const size_t end = std::min(text_.find('\n'), text_.size());
+  std::string_view content = text_.substr(0, end);
+  text_.remove_prefix(std::min(end + 1, text_.size()));
+  ++number_;
+  if (content.ends_with('\r')) content.remove_suffix(1);
+  return content;
+}
+
 std::optional<CsvLine> CsvReader::next() {
-  while (!text_.empty()) {
-    const size_t end = std::min(text_.find('\n'), text_.size());
-    std::string_view content = text_.substr(0, end);
-    text_.remove_prefix(std::min(end + 1, text_.size()));
-    ++number_;
-    if (content.ends_with('\r')) content.remove_suffix(1);
-    const size_t first = content.find_first_not_of(" \t");
-    if (first == std::string_view::npos || content[first] == '#') continue;
-    return CsvLine{name_, number_, split(content)};
+  while (const std::optional<std::string_view> content = lines_.next()) {
+    const size_t first = content->find_first_not_of(" \t");
+    if (first == std::string_view::npos || (*content)[first] == '#') continue;
+    return CsvLine{name_, lines_.number(), split(*content)};
   }
   return std::nullopt;
 }

@@ -31,16 +31,29 @@ struct CsvLine {
 };
 
 /// Reads line by line. The text outlives it.
+/// Divides a text into lines, without their ends and without a byte-order mark.
+class TextLines {
+ public:
+  explicit TextLines(std::string_view text);
+  std::optional<std::string_view> next();
+  /// Returns the number of the last line, 1-based.
+  int number() const { return number_; }
+
+ private:
+  std::string_view text_;
+  int number_ = 0;
+};
+
 class CsvReader {
  public:
   /// `name` stands for the file in messages.
-  CsvReader(std::string_view text, std::string_view name);
+  CsvReader(std::string_view text, std::string_view name) : lines_(text), name_(name) {}
   /// Returns the next line with content, or nothing at the end.
   std::optional<CsvLine> next();
 
  private:
-  std::string_view text_, name_;
-  int number_ = 0;
+  TextLines lines_;
+  std::string_view name_;
 };
 
 /// Returns a number that fills a whole cell: "12", "-.5e3", "+1", "inf", "nan". The result is empty if the

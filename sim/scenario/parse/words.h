@@ -20,11 +20,11 @@ class WordReader {
   /// Returns the next line that has words, or nothing at the end.
   std::optional<CsvLine> next();
   /// Returns the number of the last line, 1-based.
-  int line() const { return number_; }
+  int line() const { return lines_.number(); }
 
  private:
-  std::string_view text_, name_, separators_;
-  int number_ = 0;
+  TextLines lines_;
+  std::string_view name_, separators_;
 };
 
 }  // namespace greatx::sim
