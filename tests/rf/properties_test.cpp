@@ -273,18 +273,21 @@ TEST(Properties, EveryPathOverAnEdgeOfTheReferenceAndNoOther) {
   EXPECT_GT(through_walls, 200u);
 }
 
-TEST(Properties, PathsOverEdgesAreTheSameFromBothEnds) {
-  for (const Draw& draw : draws(2, {{3, 0, true}, {4, 1, true}})) {
-    Rig rig(draw.scene, draw.bounds);
-    rig.search(draw.random.transmitter);
-    const Links forward = rig.paths(std::span(draw.random.receivers).first(1));
-    for (size_t r = 0; r < forward.size(); ++r) {
-      rig.search(draw.random.receivers[r]);
-      Links back = rig.paths(std::span(&draw.random.transmitter, 1));
-      for (Path& path : back[0]) std::ranges::reverse(path.vertices);
-      expect_same(Links{forward[r]}, back, draw.name, {.vertex_m = 1e-8, .length_m = 1e-9});
-    }
+/// Compares the paths to the first receiver with those of the reverse link.
+void expect_same_backwards(const Draw& draw) {
+  Rig rig(draw.scene, draw.bounds);
+  rig.search(draw.random.transmitter);
+  const Links forward = rig.paths(std::span(draw.random.receivers).first(1));
+  for (size_t r = 0; r < forward.size(); ++r) {
+    rig.search(draw.random.receivers[r]);
+    Links back = rig.paths(std::span(&draw.random.transmitter, 1));
+    for (Path& path : back[0]) std::ranges::reverse(path.vertices);
+    expect_same(Links{forward[r]}, back, draw.name, {.vertex_m = 1e-8, .length_m = 1e-9});
   }
+}
+
+TEST(Properties, PathsOverEdgesAreTheSameFromBothEnds) {
+  for (const Draw& draw : draws(2, {{3, 0, true}, {4, 1, true}})) expect_same_backwards(draw);
 }
 
 TEST(Properties, TheSearchLeavesOutNothingThatEverySequenceFinds) {
@@ -310,17 +313,7 @@ TEST(Properties, AReceiversPathsDependOnNoOther) {
 }
 
 TEST(Properties, ThePathsOfTheReverseLinkAreTheSame) {
-  for (const Draw& draw : draws(1, {{2, 1}, {3, 0}})) {
-    Rig rig(draw.scene, draw.bounds);
-    rig.search(draw.random.transmitter);
-    const Links forward = rig.paths(std::span(draw.random.receivers).first(1));
-    for (size_t r = 0; r < forward.size(); ++r) {
-      rig.search(draw.random.receivers[r]);
-      Links back = rig.paths(std::span(&draw.random.transmitter, 1));
-      for (Path& path : back[0]) std::ranges::reverse(path.vertices);
-      expect_same(Links{forward[r]}, back, draw.name, {.vertex_m = 1e-8, .length_m = 1e-9});
-    }
-  }
+  for (const Draw& draw : draws(1, {{2, 1}, {3, 0}})) expect_same_backwards(draw);
 }
 
 TEST(Properties, AShiftByUtmCoordinatesChangesNothing) {

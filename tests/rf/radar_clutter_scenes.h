@@ -4,6 +4,10 @@
 // Provides rough materials and radars for tests of clutter.
 #pragma once
 
+#include <cstring>
+
+#include <gtest/gtest.h>
+
 #include "tests/rf/radar_echo_scenes.h"
 
 namespace greatx::rf::testing {
@@ -41,6 +45,21 @@ inline double power_between(const PatchList& list, double from_m, double to_m) {
     if (patch_range(list, i) > from_m && patch_range(list, i) < to_m)
       power += std::norm(patch_amplitude(list, i));
   return power;
+}
+
+/// Expects the same patches from one and from three threads.
+inline void expect_same_on_all_threads(EchoScene& scene, EchoOptions options) {
+  options.threads = 1;
+  const PatchList one = scene.find(options, Pose{}).patches;
+  options.threads = 3;
+  const PatchList three = scene.find(options, Pose{}).patches;
+  const auto expect_same = [](const auto& a, const auto& b) {
+    ASSERT_EQ(a.size(), b.size());
+    EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])), 0);
+  };
+  expect_same(one.re, three.re);
+  expect_same(one.arrival, three.arrival);
+  expect_same(one.delay_s, three.delay_s);
 }
 
 }  // namespace greatx::rf::testing
