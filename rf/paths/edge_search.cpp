@@ -3,55 +3,24 @@
 #include "rf/paths/edge_search.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "rf/search/beam_search.h"
+#include "rf/search/target_images.h"
 
 namespace greatx::rf {
 namespace {
 
-constexpr size_t most_answers = 64;  ///< one takes a megabyte, more or less
 constexpr size_t beams_at_once = 64;
 
-/// Returns the half-spaces of all rays from the image of a beam through its rectangle, behind the rectangle.
-/// Each is wider than the pyramid by the roundings of fp64.
-std::array<HalfSpace, 5> pyramid(const SequenceBeam& beam, double largest_m) {
-  const dvec3 &a = beam.half_a, &b = beam.half_b, to_center = beam.center - beam.image;
-  std::array<HalfSpace, 5> sides;
-  const auto bound = [&](size_t i, dvec3 normal, const dvec3& inside) {
-    const double length = glm::length(normal);
-    if (length > 0.0) normal /= length;
-    if (glm::dot(normal, inside - beam.image) < 0.0) normal = -normal;
-    const double room = 1e-9 + 1e-12 * (largest_m + glm::length(beam.image));
-    sides[i] = {normal, glm::dot(normal, beam.image) - room};
-  };
-  bound(0, glm::cross(to_center + a, b), beam.center);
-  bound(1, glm::cross(to_center - a, b), beam.center);
-  bound(2, glm::cross(to_center + b, a), beam.center);
-  bound(3, glm::cross(to_center - b, a), beam.center);
-  // Behind the mirror; a wedge may lie in its plane.
-  dvec3 normal = glm::cross(a, b);
-  if (const double length = glm::length(normal); length > 0.0) normal /= length;
-  if (glm::dot(normal, to_center) < 0.0) normal = -normal;
-  sides[4] = {normal, glm::dot(normal, beam.center) - 1e-3};
-  return sides;
-}
-
-/// Sets `wedges` to those of the list of the model that lie in the pyramid of a beam, ascending, or to all of
-/// the scene if there is no beam.
-void wedges_in(const BeamScene& scene, const SequenceBeam* beam, std::vector<uint32_t>& wedges) {
+/// Sets `wedges` to those of the list of the model that lie in a region, ascending.
+void wedges_in(const BeamScene& scene, std::span<const HalfSpace> region, std::vector<uint32_t>& wedges) {
   wedges.clear();
-  std::array<HalfSpace, 5> sides;
-  std::span<const HalfSpace> region;
-  if (beam != nullptr) {
-    if (beam->walls == SequenceBeam::none) return;
-    sides = pyramid(*beam, scene.largest_coordinate());
-    region = sides;
-  }
   scene.gather_wedges(region, wedges);
   size_t kept = 0;
   for (const uint32_t slot : wedges) {
@@ -65,9 +34,18 @@ void wedges_in(const BeamScene& scene, const SequenceBeam* beam, std::vector<uin
   std::sort(wedges.begin(), wedges.end());
 }
 
-/// Adds the wedges in the pyramids of the sequences with `depth` reflections and more, which have none yet.
-void add_wedges(const BeamScene& scene, const BeamSearchResult& result, uint32_t depth, uint32_t threads,
-                CandidateList& list) {
+/// Does the same for the beam of a sequence. The beam of the empty sequence is everything.
+void wedges_behind(const BeamScene& scene, std::span<const uint32_t> sequence, const SequenceBeam& beam,
+                   double extent_m, std::vector<uint32_t>& wedges) {
+  if (sequence.empty()) return wedges_in(scene, {}, wedges);
+  if (beam.walls == SequenceBeam::none) return;
+  const auto pyramid = make_pyramid(beam, scene.facet(scene.index_of(sequence.back())), extent_m);
+  if (pyramid) wedges_in(scene, pyramid->region(), wedges);
+}
+
+/// Adds the wedges behind the sequences with `depth` reflections and more, which have none yet.
+void add_wedges(const BeamScene& scene, const BeamSearchResult& result, uint32_t depth, double extent_m,
+                uint32_t threads, CandidateList& list) {
   const size_t count = list.size();
   size_t first = 0;
   while (first < count && list.sequence(first).size() < depth) ++first;
@@ -75,7 +53,7 @@ void add_wedges(const BeamScene& scene, const BeamSearchResult& result, uint32_t
   std::vector<std::vector<uint32_t>> found(last);
   parallel_for((last + beams_at_once - 1) / beams_at_once, threads, [&](size_t chunk) {
     for (size_t i = chunk * beams_at_once; i < std::min(last, (chunk + 1) * beams_at_once); ++i)
-      wedges_in(scene, list.sequence(first + i).empty() ? nullptr : &result.beams[first + i], found[i]);
+      wedges_behind(scene, list.sequence(first + i), result.beams[first + i], extent_m, found[i]);
   });
   list.wedges.resize(list.wedge_offsets[first]);
   for (size_t i = 0; i < last; ++i) {
@@ -95,29 +73,11 @@ void EdgeSearch::move() {
   if (scene_ && !moving_bodies_) return;
   scene_ = std::make_shared<const BeamScene>(model_->facets, model_->kinds, model_->wedges, moving_bodies_);
   answers_.clear();
-  next_ = 0;
-}
-
-std::shared_ptr<const EdgeWays> EdgeSearch::known(const dvec3& end, uint32_t body) const {
-  for (const Answer& answer : answers_)
-    if (answer.end == end && answer.body == body) return answer.ways;
-  return nullptr;
 }
 
 std::shared_ptr<const EdgeWays> EdgeSearch::from(const dvec3& end, uint32_t body, uint32_t threads,
                                                  bool keep) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (auto ways = known(end, body)) return ways;
-  }
-  const auto ways = std::make_shared<const EdgeWays>(search(end, body, threads));
-  const std::lock_guard lock(mutex_);
-  if (!keep || known(end, body)) return ways;
-  if (answers_.size() < most_answers)
-    answers_.push_back({end, body, ways});
-  else
-    answers_[std::exchange(next_, (next_ + 1) % most_answers)] = {end, body, ways};
-  return ways;
+  return answers_.get({end, body}, keep, [&] { return search(end, body, threads); });
 }
 
 EdgeWays EdgeSearch::search(const dvec3& end, uint32_t body, uint32_t threads) const {
@@ -135,7 +95,10 @@ EdgeWays EdgeSearch::search(const dvec3& end, uint32_t body, uint32_t threads) c
   ways.list = std::move(result.list);
   GREATX_CHECK(result.beams.size() == ways.list.size(), "{} beams of {} sequences", result.beams.size(),
                ways.list.size());
-  add_wedges(*scene_, result, std::min(options.stop_depth, options.wedge_depth), threads, ways.list);
+  const double extent_m =
+      std::max({scene_->largest_coordinate(), std::abs(end.x), std::abs(end.y), std::abs(end.z)});
+  add_wedges(*scene_, result, std::min(options.stop_depth, options.wedge_depth), extent_m, threads,
+             ways.list);
   return ways;
 }
 

@@ -14,15 +14,13 @@
 
 #include <cstdint>
 #include <memory>
-#include <mutex>
-#include <span>
-#include <vector>
 
 #include "core/vec.h"
 #include "rf/config/path_limits.h"
 #include "rf/geometry/candidates.h"
 #include "rf/paths/radio_model.h"
 #include "rf/search/beam_scene.h"
+#include "rf/search/kept_answers.h"
 
 namespace greatx::rf {
 
@@ -44,21 +42,19 @@ class EdgeSearch {
   std::shared_ptr<const EdgeWays> from(const dvec3& end, uint32_t body, uint32_t threads, bool keep);
 
  private:
-  struct Answer {
+  struct Question {
     dvec3 end{0.0};
     uint32_t body = 0;
-    std::shared_ptr<const EdgeWays> ways;
+    bool operator==(const Question&) const = default;
   };
-  std::shared_ptr<const EdgeWays> known(const dvec3& end, uint32_t body) const;
+  static constexpr size_t most_answers = 64;  ///< one takes a megabyte, more or less
   EdgeWays search(const dvec3& end, uint32_t body, uint32_t threads) const;
 
   const RadioModel* model_;
   PathLimits limits_;
   bool moving_bodies_;
   std::shared_ptr<const BeamScene> scene_;
-  std::mutex mutex_;
-  std::vector<Answer> answers_;  ///< a ring
-  size_t next_ = 0;
+  KeptAnswers<Question, EdgeWays> answers_{most_answers};
 };
 
 }  // namespace greatx::rf

@@ -134,9 +134,10 @@ Midpoints::Midpoints(const RadioModel& model, const PathLimits& limits, bool mov
                      std::shared_ptr<EdgeSearch> shared)
     : model_(&model), limits_(limits), moving_bodies_(moving_bodies) {
   if (model.effects.scattering) patches_ = scattering_patches(*model.scene, model.kinds, limits.patch_m);
-  if (!model.effects.diffraction || limits.max_reflections_beside_diffraction == 0 || limits.max_depth < 2)
-    return;
-  edges_ = shared ? std::move(shared) : std::make_shared<EdgeSearch>(model, limits, moving_bodies);
+  if (!model.effects.diffraction || limits.max_depth == 0) return;
+  search_target_ = limits.max_reflections_beside_diffraction > 0 && limits.max_depth > 1;
+  edges_ = std::move(shared);
+  if (!edges_ && search_target_) edges_ = std::make_shared<EdgeSearch>(model, limits, moving_bodies);
 }
 
 /// Finds the sequences that lead to facets. A candidate sequence that ends with a facet shows that the
@@ -225,6 +226,8 @@ Midpoints::PatchArrivals Midpoints::straight_to_patches(const dvec3& from) const
 }
 
 void Midpoints::set_candidates(const CandidateList& candidates, const ImageTree& tree) {
+  edge_tree_.reset();
+  edge_left_out_ = {};
   if (edges_) edges_->move();
   if (model_->effects.diffraction) {
     at_wedges_ = WedgeArrivals(candidates, model_->wedges);
@@ -236,9 +239,13 @@ void Midpoints::set_candidates(const CandidateList& candidates, const ImageTree&
   at_patches_ = arrivals_at_patches(at_facets_, windows, tree);
 }
 
-void Midpoints::set_edge_ways(const CandidateList& ways, const ImageTree& tree) {
-  at_wedges_ = WedgeArrivals(ways, model_->wedges);
-  at_wedges_.place(tree, model_->wedges);
+void Midpoints::find_edge_ways(const ImageTree& tree, uint32_t body, uint32_t threads) {
+  GREATX_CHECK(edges_, "no search for the ways to wedges");
+  const auto ways = edges_->from(tree.source(), body, threads, true);
+  edge_left_out_ = ways->left_out;
+  edge_tree_.emplace(model_->facets, tree.source(), ways->list, tree.end());
+  at_wedges_ = WedgeArrivals(ways->list, model_->wedges);
+  at_wedges_.place(*edge_tree_, model_->wedges);
 }
 
 void Midpoints::move(const ImageTree& tree) {
@@ -270,17 +277,14 @@ uint32_t Midpoints::most_before(uint32_t after) const {
 /// every wedge on a straight line.
 std::vector<Midpoints::Meeting> Midpoints::meetings(const CandidateList& suffixes) const {
   std::vector<Meeting> all;
-  if (!edges_)
+  if (!search_target_)
     for (const uint32_t wedge : at_wedges_.wedges()) all.push_back({wedge, 0});
   for (uint32_t i = 0; i < suffixes.size(); ++i) {
     const auto sequence = suffixes.sequence(i);
     const uint32_t before = most_before(static_cast<uint32_t>(sequence.size()));
     for (const uint32_t wedge : suffixes.wedges_of(i)) {
-      if (at_wedges_.least_depth(wedge) > before) continue;
-      // A reflection at one of the wedge's own faces is part of the wedge's field.
-      const scene::Wedge& own = model_->wedges[wedge];
-      if (!sequence.empty() && (own.facet_0 == sequence.back() || own.facet_n == sequence.back())) continue;
-      all.push_back({wedge, i});
+      if (at_wedges_.least_depth(wedge) <= before && leads_to(sequence, model_->wedges[wedge]))
+        all.push_back({wedge, i});
     }
   }
   std::sort(all.begin(), all.end());
@@ -290,7 +294,7 @@ std::vector<Midpoints::Meeting> Midpoints::meetings(const CandidateList& suffixe
 LeftOut Midpoints::solve_wedges(const ImageTree& tree, const Target& target, uint32_t threads,
                                 std::vector<GeometricPath>& paths) const {
   std::shared_ptr<const EdgeWays> ways;
-  if (edges_) {
+  if (search_target_) {
     ways = edges_->from(target.position, target.body, threads, target.keep);
   } else {
     EdgeWays straight;
@@ -391,11 +395,11 @@ LeftOut Midpoints::solve_patches(const ImageTree& tree, const Target& to, uint32
   return left_out;
 }
 
-LeftOut Midpoints::solve(const ImageTree& tree, const ImageTree& edge_tree, const Target& target,
-                         uint32_t threads, std::vector<GeometricPath>& paths) const {
-  LeftOut left_out;
+LeftOut Midpoints::solve(const ImageTree& tree, const Target& target, uint32_t threads,
+                         std::vector<GeometricPath>& paths) const {
+  LeftOut left_out = edge_left_out_;
   if (model_->effects.diffraction && limits_.max_depth > 0)
-    left_out.add(solve_wedges(edge_tree, target, threads, paths));
+    left_out.add(solve_wedges(edge_tree_ ? *edge_tree_ : tree, target, threads, paths));
   if (!patches_.empty() && !at_patches_.arrivals.empty())
     left_out.add(solve_patches(tree, target, threads, paths));
   return left_out;

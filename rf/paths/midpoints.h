@@ -9,6 +9,7 @@
 #include <compare>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "rf/config/path_limits.h"
@@ -48,8 +49,9 @@ class Midpoints {
   /// wedges if diffraction is on. Patches outside the window of their facet are left out, because the beam
   /// does not reach them.
   void set_candidates(const CandidateList& candidates, const ImageTree& tree);
-  /// Sets the sequences that lead from the source to wedges, in place of those that set_candidates() set.
-  void set_edge_ways(const CandidateList& ways, const ImageTree& tree);
+  /// Searches for the ways from the source of `tree`, which `body` carries (0: none), to wedges. They take
+  /// the place of those that set_candidates() set. There must be a `shared` search.
+  void find_edge_ways(const ImageTree& tree, uint32_t body, uint32_t threads);
   /// Must be called when the source of `tree` or bodies have moved; the windows are then no longer used.
   void move(const ImageTree& tree);
   /// Describes the target of solve().
@@ -58,11 +60,10 @@ class Midpoints {
     uint32_t body = 0;  ///< the body that carries it; 0: none
     bool keep = false;  ///< it may be asked for again
   };
-  /// Appends every path with a diffraction or scattering between the source of the last tree and `target`,
-  /// from transmitter to receiver, in an unspecified order. `tree` and `edge_tree` are those of
-  /// set_candidates() and set_edge_ways(), or the former for both. Returns the number of sequences that the
-  /// search at the target left out.
-  LeftOut solve(const ImageTree& tree, const ImageTree& edge_tree, const Target& target, uint32_t threads,
+  /// Appends every path with a diffraction or scattering between the source of the last `tree` and `target`,
+  /// from transmitter to receiver, in an unspecified order. Returns the number of sequences that the searches
+  /// for ways to wedges and patches left out.
+  LeftOut solve(const ImageTree& tree, const Target& target, uint32_t threads,
                 std::vector<GeometricPath>& paths) const;
 
  private:
@@ -114,7 +115,10 @@ class Midpoints {
   PathLimits limits_;
   bool moving_bodies_;
   std::vector<Patch> patches_;
-  std::shared_ptr<EdgeSearch> edges_;  ///< set if reflections may follow a diffraction
+  std::shared_ptr<EdgeSearch> edges_;
+  bool search_target_ = false;          ///< reflections may follow a diffraction
+  std::optional<ImageTree> edge_tree_;  ///< of find_edge_ways(); empty: the tree of the candidates
+  LeftOut edge_left_out_;
   WedgeArrivals at_wedges_;
   Arrivals at_facets_;
   PatchArrivals at_patches_;

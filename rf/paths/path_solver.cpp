@@ -142,24 +142,19 @@ void keep_most(LinkGeometry& link, uint64_t most) {
 
 PathSolver::PathSolver(const RadioModel& model, const PathLimits& limits, bool moving_bodies,
                        std::shared_ptr<EdgeSearch> edges)
-    : model_(&model), limits_(limits), field_(model.field_model()), edges_(std::move(edges)) {
+    : model_(&model), limits_(limits), field_(model.field_model()) {
   if (model.effects.diffraction || model.effects.scattering)
-    midpoints_.emplace(model, limits, moving_bodies, edges_);
+    midpoints_.emplace(model, limits, moving_bodies, std::move(edges));
 }
 
 void PathSolver::set_candidates(const CandidateList& candidates, const dvec3& source, Source end) {
   tree_.emplace(model_->facets, source, candidates, end);
-  edge_tree_.reset();
-  edge_left_out_ = {};
   if (midpoints_) midpoints_->set_candidates(candidates, *tree_);
 }
 
 void PathSolver::find_edge_ways(uint32_t body, uint32_t threads) {
-  GREATX_CHECK(tree_ && midpoints_ && edges_, "ways to wedges without candidates, diffraction or a search");
-  const auto ways = edges_->from(tree_->source(), body, threads, true);
-  edge_left_out_ = ways->left_out;
-  edge_tree_.emplace(model_->facets, tree_->source(), ways->list, tree_->end());
-  midpoints_->set_edge_ways(ways->list, *edge_tree_);
+  GREATX_CHECK(tree_ && midpoints_, "ways to wedges without candidates or diffraction");
+  midpoints_->find_edge_ways(*tree_, body, threads);
 }
 
 void PathSolver::move_source(const dvec3& source) {
@@ -180,9 +175,7 @@ LinkGeometry PathSolver::geometry(const EndState& end, uint32_t threads, bool ke
   if (!model_->effects.reflection)
     std::erase_if(link.paths, [](const GeometricPath& path) { return !path.interactions.empty(); });
   if (all_effects_built && midpoints_) {
-    link.searched = midpoints_->solve(*tree_, edge_tree_ ? *edge_tree_ : *tree_, {target, end.body, keep},
-                                      threads, link.paths);
-    link.searched.add(edge_left_out_);
+    link.searched = midpoints_->solve(*tree_, {target, end.body, keep}, threads, link.paths);
     std::sort(link.paths.begin(), link.paths.end(), less);
   }
   keep_most(link, limits_.max_paths);

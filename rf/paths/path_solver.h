@@ -85,10 +85,7 @@ class PathSolver {
   const RadioModel* model_;
   PathLimits limits_;
   FieldModel field_;
-  std::shared_ptr<EdgeSearch> edges_;
   std::optional<ImageTree> tree_;
-  std::optional<ImageTree> edge_tree_;  ///< of find_edge_ways(); empty: tree_ serves wedges too
-  LeftOut edge_left_out_;
   std::optional<Midpoints> midpoints_;  ///< empty if neither diffraction nor scattering is on
 };
 

@@ -10,17 +10,13 @@
 namespace greatx::rf {
 
 WedgeArrivals::WedgeArrivals(const CandidateList& candidates, std::span<const scene::Wedge> wedges) {
-  const auto leads_to = [&](std::span<const uint32_t> facets, uint32_t index) {
-    const scene::Wedge& wedge = wedges[index];
-    return facets.empty() || (facets.back() != wedge.facet_0 && facets.back() != wedge.facet_n);
-  };
   if (candidates.wedges.size() > ~0u)
     throw_user_error("paths: {} sequences that lead to wedges, expected at most {}; a smaller max_depth",
                      candidates.wedges.size(), ~0u);
   offsets_.assign(wedges.size() + 1, 0);
   for (uint32_t sequence = 0; sequence < candidates.size(); ++sequence)
     for (const uint32_t wedge : candidates.wedges_of(sequence))
-      offsets_[wedge + 1] += leads_to(candidates.sequence(sequence), wedge);
+      offsets_[wedge + 1] += leads_to(candidates.sequence(sequence), wedges[wedge]);
   for (uint32_t i = 0; i < wedges.size(); ++i) {
     if (offsets_[i + 1] > 0) reached_.push_back(i);
     offsets_[i + 1] += offsets_[i];
@@ -31,7 +27,7 @@ WedgeArrivals::WedgeArrivals(const CandidateList& candidates, std::span<const sc
   for (uint32_t sequence = 0; sequence < candidates.size(); ++sequence)
     for (const uint32_t wedge : candidates.wedges_of(sequence)) {
       const auto facets = candidates.sequence(sequence);
-      if (!leads_to(facets, wedge)) continue;
+      if (!leads_to(facets, wedges[wedge])) continue;
       depths_[next[wedge]] = static_cast<uint8_t>(facets.size());
       sequences_[next[wedge]++] = sequence;
     }

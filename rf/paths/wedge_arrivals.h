@@ -19,12 +19,17 @@
 
 namespace greatx::rf {
 
+/// Returns false if a sequence ends with a reflection at one of the wedge's own faces: that reflection is
+/// part of the wedge's field (edge_dyadic).
+inline bool leads_to(std::span<const uint32_t> sequence, const scene::Wedge& wedge) {
+  return sequence.empty() || (sequence.back() != wedge.facet_0 && sequence.back() != wedge.facet_n);
+}
+
 /// Holds for every wedge the sequences of one candidate list that lead to it.
 class WedgeArrivals {
  public:
   WedgeArrivals() = default;
-  /// Leaves out sequences that end with a reflection at one of the wedge's own faces: that reflection is part
-  /// of the wedge's field (edge_dyadic). Throws UserError beyond 2^32 - 1 pairs.
+  /// Leaves out sequences that do not lead to a wedge (leads_to). Throws UserError beyond 2^32 - 1 pairs.
   WedgeArrivals(const CandidateList& candidates, std::span<const scene::Wedge> wedges);
 
   /// Places the images of the sequences beside the edges. Must be called before joined(), and again when the

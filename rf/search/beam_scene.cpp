@@ -159,6 +159,8 @@ BeamScene::BeamScene(const FacetWorld& world, const FacetKinds& kinds, std::span
       for (uint32_t& vertex : triangle) vertex = vertex_of[place++];
     add(world, index, kinds[index], triangles);
   }
+  index_of_.assign(world.facet_count(), none);
+  for (uint32_t i = 0; i < facet_count(); ++i) index_of_[facets_[i].index] = i;
   add_wedges(wedges);
   std::vector<scene::Bounds> boxes;
   boxes.reserve(facets_.size());
@@ -226,13 +228,11 @@ void BeamScene::add_polygons(BeamFacet& facet, std::span<const std::array<uint32
 }
 
 void BeamScene::add_wedges(std::span<const scene::Wedge> wedges) {
-  std::vector<uint32_t> facet_of(world_->facet_count(), ~0u);
-  for (uint32_t i = 0; i < facet_count(); ++i) facet_of[facets_[i].index] = i;
   for (uint32_t index = 0; index < wedges.size(); ++index) {
     const scene::Wedge& wedge = wedges[index];
     BeamWedge made{wedge.a, wedge.b, index};
-    if (wedge.facet_0 != scene::no_facet) made.faces[0] = facet_of[wedge.facet_0];
-    if (wedge.facet_n != scene::no_facet) made.faces[1] = facet_of[wedge.facet_n];
+    if (wedge.facet_0 != scene::no_facet) made.faces[0] = index_of(wedge.facet_0);
+    if (wedge.facet_n != scene::no_facet) made.faces[1] = index_of(wedge.facet_n);
     if (made.faces[0] > made.faces[1]) std::swap(made.faces[0], made.faces[1]);
     if (made.faces[0] == ~0u) continue;
     if (wedge.body != 0) {

@@ -64,6 +64,9 @@ class BeamScene {
   const FacetWorld& world() const { return *world_; }
   uint32_t facet_count() const { return static_cast<uint32_t>(facets_.size()); }
   const BeamFacet& facet(uint32_t index) const { return facets_[index]; }
+  static constexpr uint32_t none = ~0u;
+  /// Returns the index here of a facet of the world; none if it was left out.
+  uint32_t index_of(uint32_t facet) const { return index_of_[facet]; }
   std::span<const BeamPolygon> polygons(const BeamFacet& facet) const {
     return std::span(polygons_).subspan(facet.first_polygon, facet.polygon_count);
   }
@@ -94,6 +97,7 @@ class BeamScene {
   const FacetWorld* world_;
   std::vector<dvec3> vertices_;
   std::vector<BeamFacet> facets_;
+  std::vector<uint32_t> index_of_;  ///< [facets of the world]
   std::vector<BeamPolygon> polygons_;
   std::vector<uint32_t> corners_;
   std::vector<BeamWedge> wedges_;

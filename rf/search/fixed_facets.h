@@ -7,11 +7,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "core/vec.h"
 #include "rf/search/beam_scene.h"
+#include "rf/search/kept_answers.h"
 
 namespace greatx::rf {
 
@@ -19,10 +19,7 @@ class FixedFacets {
  public:
   FixedFacets(const FacetWorld& world, const FacetKinds& kinds);
 
-  static constexpr uint32_t none = ~0u;
   const std::shared_ptr<const BeamScene>& scene() const { return scene_; }
-  /// Returns the index in scene() of a facet of the world; none if it moves.
-  uint32_t index_of(uint32_t facet) const { return index_[facet]; }
 
   using Facets = std::shared_ptr<const std::vector<uint32_t>>;
   /// Returns the facets, ascending in scene(), that `target` may see if nothing moves, behind at most `walls`
@@ -30,18 +27,16 @@ class FixedFacets {
   Facets seen_from(const dvec3& target, uint32_t walls, uint32_t threads);
 
  private:
-  struct Answer {
+  struct Question {
     dvec3 target{0.0};
     uint32_t walls = 0;
-    Facets facets;
+    bool operator==(const Question&) const = default;
   };
-  Facets find(const dvec3& target, uint32_t walls, uint32_t threads) const;
+  static constexpr size_t most_answers = 256;
+  std::vector<uint32_t> find(const dvec3& target, uint32_t walls, uint32_t threads) const;
 
   std::shared_ptr<const BeamScene> scene_;
-  std::vector<uint32_t> index_;  ///< [facets of the world]
-  std::mutex mutex_;
-  std::vector<Answer> answers_;  ///< a ring
-  size_t next_ = 0;
+  KeptAnswers<Question, std::vector<uint32_t>> answers_{most_answers};
 };
 
 }  // namespace greatx::rf

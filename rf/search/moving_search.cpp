@@ -108,7 +108,7 @@ struct MovingSearch::Walk {
     pyramid.apex = beam.image;
     if (!sequence.empty()) {
       const std::optional<Pyramid> made =
-          make_pyramid(beam, fixed.facet(search.fixed_->index_of(sequence.back())), extent_m);
+          make_pyramid(beam, fixed.facet(fixed.index_of(sequence.back())), extent_m);
       if (!made) return;
       pyramid = *made;
     }

@@ -15,7 +15,10 @@ constexpr uint32_t dark = 1u << 16;
 }  // namespace
 
 void Seams::drop_behind(std::vector<GeometricPath>& paths, Source source, uint32_t source_body) const {
-  std::erase_if(paths, [&](const GeometricPath& path) { return is_behind(path, source, source_body); });
+  const auto reflects = [](const Interaction& i) { return i.type == InteractionType::reflection; };
+  std::erase_if(paths, [&](const GeometricPath& path) {
+    return std::ranges::all_of(path.interactions, reflects) && is_behind(path, source, source_body);
+  });
 }
 
 bool Seams::is_behind(const GeometricPath& path, Source source, uint32_t source_body) const {

@@ -26,11 +26,11 @@ class Seams {
         max_depth_(max_depth),
         max_transmissions_(max_transmissions) {}
 
-  /// Removes paths that are dark in a seam. Paths may have reflections only. A leg passes a facet in a seam
-  /// if this facet is crossed within `reach_m` before the leg's point of reflection and stands at an angle to
-  /// the facet of the reflection. A path is removed if its legs pass an opaque facet in this way, or more
-  /// walls than the path may pass. Legs run from the source. On the first leg, facets of `source_body`, which
-  /// carries the source (0: none), do not count.
+  /// Removes reflected paths that are dark in a seam. Paths with other interactions stay. A leg passes a
+  /// facet in a seam if this facet is crossed within `reach_m` before the leg's point of reflection and
+  /// stands at an angle to the facet of the reflection. A path is removed if its legs pass an opaque facet in
+  /// this way, or more walls than the path may pass. Legs run from the source. On the first leg, facets of
+  /// `source_body`, which carries the source (0: none), do not count.
   void drop_behind(std::vector<GeometricPath>& paths, Source source, uint32_t source_body) const;
 
  private:

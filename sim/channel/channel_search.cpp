@@ -287,28 +287,6 @@ void ChannelSearch::renew_moving(const dvec3& transmitter, std::span<const dvec3
   }
 }
 
-/// Removes the reflections that are dark in a seam, and says from which end the fields of paths over edges
-/// are computed.
-void ChannelSearch::drop_seams(size_t index, uint32_t transmitter_body,
-                               std::vector<rf::GeometricPath>& paths) const {
-  const auto over_edges =
-      std::stable_partition(paths.begin(), paths.end(), [](const rf::GeometricPath& path) {
-        return std::ranges::none_of(path.interactions, [](const rf::Interaction& i) {
-          return i.type == rf::InteractionType::diffraction;
-        });
-      });
-  std::vector<rf::GeometricPath> edges(std::make_move_iterator(over_edges),
-                                       std::make_move_iterator(paths.end()));
-  paths.erase(over_edges, paths.end());
-  seams_->drop_behind(paths, rf::Source::transmitter, transmitter_body);
-  if (edges.empty()) return;
-  for (rf::GeometricPath& path : edges) path.from_receiver = fields_from_receiver_.at(index);
-  paths.insert(paths.end(), std::make_move_iterator(edges.begin()), std::make_move_iterator(edges.end()));
-  std::ranges::sort(paths, [](const rf::GeometricPath& a, const rf::GeometricPath& b) {
-    return rf::interactions_less(a.interactions, b.interactions);
-  });
-}
-
 rf::LinkGeometry ChannelSearch::geometry(size_t index, const rf::EndState& transmitter,
                                          const rf::EndState& receiver, uint32_t threads) const {
   if constexpr (!all_effects_built) return fixed_[0].geometry(receiver, threads);
@@ -318,7 +296,15 @@ rf::LinkGeometry ChannelSearch::geometry(size_t index, const rf::EndState& trans
   const rf::EndState& target = from_receiver ? transmitter : receiver;
   rf::LinkGeometry link = fixed_[source].geometry(target, threads, !points_);
   link.searched.add(left_out_[source]);
-  if (way_ == Way::between_ends) drop_seams(index, transmitter.body, link.paths);
+  if (way_ == Way::between_ends) {
+    seams_->drop_behind(link.paths, rf::Source::transmitter, transmitter.body);
+    // Both ends are searched from, and one of them computes the fields of paths over edges.
+    if (!fields_from_receiver_.empty())
+      for (rf::GeometricPath& path : link.paths)
+        if (std::ranges::find(path.interactions, rf::InteractionType::diffraction, &rf::Interaction::type) !=
+            path.interactions.end())
+          path.from_receiver = fields_from_receiver_[index];
+  }
   if (moving_.empty()) return link;
   rf::LinkGeometry more = moving_[source].geometry(target, threads);
   seams_->drop_behind(more.paths, end, from_receiver ? receiver.body : transmitter.body);

@@ -113,7 +113,6 @@ class ChannelSearch {
   void take(size_t index, rf::CandidateList list, const rf::LeftOut& left_out, const dvec3& source);
   void renew_between(const dvec3& transmitter, std::span<const dvec3> receivers);
   void renew_source(size_t index, const dvec3& source);
-  void drop_seams(size_t index, uint32_t transmitter_body, std::vector<rf::GeometricPath>& paths) const;
   void renew_moving(const dvec3& transmitter, std::span<const dvec3> receivers);
 
   const rf::RadioModel& model_;
