@@ -191,15 +191,11 @@ void ClutterPatches::cover(const ClutterParts::Part& part, const Polygon& piece,
   const double side = side_of(facet, piece, from, to, scatterers_in_a_cell, ends);
   const CellField field = cells_.turned(part.tube, ends.turn);
   spread(part.facet, piece, side, world, out, [&](const dvec3& point, uint64_t draw) {
-    const dvec3 arm = point - from;
-    Leg there{{}, glm::length(arm), {}};
-    there.in = arm / there.length_m;
+    Leg there(from, point);
     there.field = field.towards(there.in);
     Complex sent;
     if (ends.element) {
-      const dvec3 back = point - to;
-      Leg home{{}, glm::length(back), {}};
-      home.in = back / home.length_m;
+      Leg home(to, point);
       home.field = field_towards(*ends.element, home.in);
       sent = amplitude(facet, there, home, side, draw);
     } else {
@@ -218,9 +214,7 @@ struct ClutterPatches::Over {
 
   /// Returns the wave that seems to come from the image. `field` is that of the tube which met the mirror.
   Leg leg(const dvec3& point, const CellField& field) const {
-    const dvec3 arm = point - image;
-    Leg leg{{}, glm::length(arm), {}};
-    leg.in = arm / leg.length_m;
+    Leg leg(image, point);
     const dvec3 departure = mirrored_direction(mirror, radar, point);
     const SurfaceBounce at = bounce_of(surfaces, mirror, field.towards(departure), departure);
     leg.field = at.reflected;
@@ -262,14 +256,12 @@ void ClutterPatches::cover_over(const ClutterParts::Part& part, const Polygon& p
     if (both)
       out.push_back({amplitude(facet, there, there, side, draw), point, part.facet, part.mirror, Way::both});
     if (!once) return;
-    const dvec3 arm = point - radar;
-    const uint32_t tube = ends.sight.grid.tube_at(arm);
+    const uint32_t tube = ends.sight.grid.tube_at(point - radar);
     if (tube == RayGrid::outside) return;
     const dvec3 lit = facet.distance(radar) > 0.0 ? facet.normal : -facet.normal;
     if (!ends.sight.tracer.clear(ends.sight.view, EchoTracer::lifted(point, lit), radar, part.facet)) return;
     if (tube != direct_tube) direct_tube = tube, direct_field = cells_.turned(tube, ends.turn);
-    Leg home{{}, glm::length(arm), {}};
-    home.in = arm / home.length_m;
+    Leg home(radar, point);
     home.field = direct_field.towards(home.in);
     // The way out directly and home over the mirror is the reciprocal of this one.
     const Complex sent = amplitude(facet, there, home, side, draw);

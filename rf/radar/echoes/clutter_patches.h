@@ -35,6 +35,7 @@
 #include "rf/radar/echoes/element_cells.h"
 #include "rf/radar/echoes/polygon.h"
 #include "rf/radar/echoes/ray_grid.h"
+#include "rf/radar/echoes/tube_beam.h"
 #include "rf/radar/signal/patches.h"
 #include "rf/surface/clutter_table.h"
 
@@ -68,11 +69,6 @@ struct Scatterer {
   uint32_t mirror = ClutterParts::no_mirror;
   Over over = Over::none;
 };
-
-/// Returns the image of a point in the plane of a mirror.
-inline dvec3 mirrored(const PosedFacet& mirror, const dvec3& point) {
-  return point - 2.0 * mirror.distance(point) * mirror.normal;
-}
 
 /// Returns the unit vector from `end` to the place on the mirror where it shows `point`.
 inline dvec3 mirrored_direction(const PosedFacet& mirror, const dvec3& end, const dvec3& point) {
@@ -111,6 +107,10 @@ class ClutterPatches {
     dvec3 in{1, 0, 0};  ///< unit vector, away from the element or its image
     double length_m = 0.0;
     FieldVector field;
+    /// The way to a point, without a field yet.
+    Leg(const dvec3& from, const dvec3& point) : length_m(glm::length(point - from)) {
+      in = (point - from) / length_m;
+    }
   };
   /// A resolution cell around a place on a facet.
   struct Cell {

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "rf/radar/echoes/surface_bounce.h"
+#include "rf/radar/echoes/tube_beam.h"
 
 namespace greatx::rf {
 namespace {
@@ -56,8 +57,7 @@ FieldVector EchoField::incident(const EchoPoint& point, dvec3& direction) const 
 }
 
 dvec3 EchoField::mirrored_receiver(uint32_t facet) const {
-  const PosedFacet& mirror = world_.facet(facet);
-  return receiver_at_ - 2.0 * mirror.distance(receiver_at_) * mirror.normal;
+  return mirrored(world_.facet(facet), receiver_at_);
 }
 
 Complex EchoField::density(const EchoPoint& point) const {

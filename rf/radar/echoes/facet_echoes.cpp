@@ -40,9 +40,7 @@ bool FacetEchoes::chosen(uint32_t facet, const PosedFacet* mirror) const {
   const PosedFacet& posed = world.facet(facet);
   if (posed.body != 0 && ends_.own_body != 0 && posed.owner == ends_.own_body) return false;
   // Distances are those of the images of places behind the mirror.
-  const auto seen_at = [&](const dvec3& p) {
-    return mirror == nullptr ? p : p - 2.0 * mirror->distance(p) * mirror->normal;
-  };
+  const auto seen_at = [&](const dvec3& p) { return mirror == nullptr ? p : mirrored(*mirror, p); };
   const double side = std::abs(posed.distance(seen_at(ends_.source)));
   const dvec3 center = seen_at(posed.centroid), arm = center - ends_.source;
   const double distance = glm::length(arm);

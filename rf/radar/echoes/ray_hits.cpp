@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "rf/radar/echoes/mirrors.h"
+#include "rf/radar/echoes/tube_beam.h"
 #include "shaders/shared/radar.h"
 
 namespace greatx::rf {
@@ -77,7 +78,7 @@ void RayHits::find_seen(const RayGrid& grid, const FacetWorld& world, const dvec
         if (about(at, nothing)) seen |= shared::radar_sees_receiver;
         if (max_bounces < mirror_bounces || bounce < 2 || !mirrors(world, mirror, own)) continue;
         const PosedFacet& plane = world.facet(mirror);
-        if (about(at - 2.0 * plane.distance(at) * plane.normal, mirror)) seen |= shared::radar_sees_over;
+        if (about(mirrored(plane, at), mirror)) seen |= shared::radar_sees_over;
       }
     }
   });

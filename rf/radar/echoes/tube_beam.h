@@ -12,6 +12,11 @@
 
 namespace greatx::rf {
 
+/// Returns the image of a point in the plane of a mirror.
+inline dvec3 mirrored(const PosedFacet& mirror, const dvec3& point) {
+  return point - 2.0 * mirror.distance(point) * mirror.normal;
+}
+
 /// Holds the axes of a beam. Rays leave `source` along axis + u e1 + v e2. Straight lines of the (u, v) plane
 /// are planes through the source, so that triangles are polygons there. A reflection mirrors all four
 /// vectors, and the (u, v) of a ray stays the same.
@@ -43,7 +48,7 @@ struct TubeBeam {
   TubeBeam mirrored(const PosedFacet& facet) const {
     TubeBeam beam = *this;
     const auto flip = [&](dvec3& v) { v -= 2.0 * glm::dot(facet.normal, v) * facet.normal; };
-    beam.source -= 2.0 * facet.distance(source) * facet.normal;
+    beam.source = rf::mirrored(facet, source);
     flip(beam.axis), flip(beam.e1), flip(beam.e2);
     return beam;
   }
