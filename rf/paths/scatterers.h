@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Finds paths with a scattering in the middle: reflections lead from the source to a patch (prefix) and from
+// there to the target (suffix). Prefixes come from the source's candidates, and suffixes from a search at the
+// target.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rf/config/path_limits.h"
+#include "rf/geometry/candidates.h"
+#include "rf/geometry/geometry.h"
+#include "rf/geometry/path.h"
+#include "rf/paths/radio_model.h"
+
+namespace greatx::rf {
+
+/// Holds a piece of a facet that scatters as a whole.
+struct Patch {
+  uint32_t facet = 0;
+  uint32_t number = 0;  ///< number of the patch on its facet
+  dvec3 center{0.0};    ///< in the frame of its body
+  double area_m2 = 0.0;
+};
+
+/// Cuts every facet whose material scatters into triangles with sides of at most `side_m`, in the order of
+/// the facet's triangles. Each cut halves the longest side. Throws UserError if there are more than `most`
+/// patches.
+std::vector<Patch> scattering_patches(const scene::Scene& scene, const FacetKinds& kinds, double side_m,
+                                      size_t most = 10'000'000);
+
+inline Source opposite(Source end) {
+  return end == Source::transmitter ? Source::receiver : Source::transmitter;
+}
+
+/// Turns a path that runs from the receiver, because the search did, into one from the transmitter.
+void turn_to_transmitter(GeometricPath& path);
+
+class Scatterers {
+ public:
+  /// Every call reads `model`, which must outlive this object. `moving_bodies`: facets of bodies other than 0
+  /// reflect. Throws UserError as scattering_patches() does.
+  Scatterers(const RadioModel& model, const PathLimits& limits, bool moving_bodies);
+
+  /// Sets the sequences that lead to patches. `tree` is built from the same candidates. Patches outside the
+  /// window of their facet are left out, because the beam does not reach them.
+  void set_candidates(const CandidateList& candidates, const ImageTree& tree);
+  /// Must be called when the source of `tree` or bodies have moved; the windows are then no longer used.
+  void move(const ImageTree& tree);
+  /// Appends every path with a scattering between the source of the last `tree` and `target`, from
+  /// transmitter to receiver, in an unspecified order. `target_body` carries the target (0: none). Returns
+  /// the number of sequences that the search for ways to patches left out.
+  LeftOut solve(const ImageTree& tree, const dvec3& target, uint32_t target_body, uint32_t threads,
+                std::vector<GeometricPath>& paths) const;
+
+ private:
+  /// Holds for every facet the sequences that lead to it: [facets + 1] into `sequences`, ascending.
+  struct Arrivals {
+    std::vector<uint32_t> offsets, sequences;
+  };
+  /// Holds the whole way of a sequence from its end of the path to a patch.
+  struct PatchArrival {
+    uint32_t first = 0, depth = 0;  ///< range in PatchArrivals::facets and points, outwards
+    dvec3 from{0.0};                ///< vertex before the patch
+    double length_m = 0.0;          ///< unfolded length to the patch's centre
+  };
+  struct PatchArrivals {
+    std::vector<uint32_t> offsets;  ///< [patches + 1] into arrivals
+    std::vector<PatchArrival> arrivals;
+    std::vector<uint32_t> facets;
+    std::vector<dvec3> points;
+    std::span<const PatchArrival> of(size_t patch) const {
+      return std::span(arrivals).subspan(offsets[patch], offsets[patch + 1] - offsets[patch]);
+    }
+  };
+  Arrivals arrivals_at_facets(const CandidateList& candidates, uint32_t most_reflections,
+                              std::vector<PlaneWindow>& windows) const;
+  PatchArrivals arrivals_at_patches(const Arrivals& at_facets, const std::vector<PlaneWindow>& windows,
+                                    const ImageTree& tree) const;
+  PatchArrivals straight_to_patches(const dvec3& from) const;
+  dvec3 center(const Patch& patch) const;
+  void scatter(const ImageTree& tree, const dvec3& target, size_t patch, const PatchArrivals& suffixes,
+               std::vector<GeometricPath>& paths) const;
+
+  const RadioModel* model_;
+  PathLimits limits_;
+  bool moving_bodies_;
+  std::vector<Patch> patches_;
+  Arrivals at_facets_;
+  PatchArrivals at_patches_;
+};
+
+}  // namespace greatx::rf
