@@ -8,7 +8,7 @@
 
 #include "apps/selftest/catalogue.h"
 #include "core/units.h"
-#include "rf/field/utd.h"
+#include "rf/edges/utd.h"
 #include "scene/description/wedges.h"
 
 namespace greatx::apps::selftest {

@@ -11,7 +11,8 @@
 #include "core/units.h"
 #include "rf/antenna/field_vector.h"
 #include "rf/atmosphere/foliage.h"
-#include "rf/field/diffraction.h"
+#include "rf/edges/diffraction.h"
+#include "rf/edges/two_edges.h"
 #include "rf/surface/incidence.h"
 
 namespace greatx::rf {
@@ -29,9 +30,12 @@ bool bends(InteractionType type) {
 struct Runs {
   std::vector<size_t> vertices;   ///< [runs + 1] vertices where the path turns, with both ends
   std::vector<dvec3> directions;  ///< [runs] unit vectors
-  size_t bend = 0;  ///< the run that starts at the diffraction or scattering; 0: the path has none
-  double before_m = 0.0, after_m = 0.0;  ///< unfolded lengths on both sides of the bend
-  bool scattered = false;                ///< the bend is a scattering, from which the wave spreads anew
+  /// The runs that start at a diffraction or a scattering. They part the path: the longest run of each part
+  /// gives its directions.
+  size_t bends[2] = {0, 0};
+  size_t bend_count = 0;
+  double parts_m[3] = {0.0, 0.0, 0.0};  ///< [bends + 1] unfolded lengths of the parts
+  bool scattered = false;               ///< the bend is a scattering, from which the wave spreads anew
 };
 
 /// Sets the directions of the runs [first, last), which reflections join. Returns the sum of their lengths.
@@ -66,17 +70,21 @@ Runs runs_of(const GeometricPath& path, const FacetWorld& world) {
   for (size_t i = 0; i < path.interactions.size(); ++i) {
     if (path.interactions[i].type == InteractionType::transmission) continue;
     if (bends(path.interactions[i].type)) {
-      GREATX_CHECK(runs.bend == 0, "path with more than one diffraction or scattering");
-      runs.bend = runs.vertices.size();
-      runs.scattered = path.interactions[i].type == InteractionType::scattering;
+      runs.scattered |= path.interactions[i].type == InteractionType::scattering;
+      GREATX_CHECK(runs.bend_count < (runs.scattered ? 1u : 2u),
+                   "path with more than one scattering or two diffractions");
+      runs.bends[runs.bend_count++] = runs.vertices.size();
     }
     runs.vertices.push_back(i + 1);
   }
   runs.vertices.push_back(path.vertices.size() - 1);
   const size_t count = runs.vertices.size() - 1;
   runs.directions.resize(count);
-  if (runs.bend > 0) runs.before_m = set_directions(path, world, 0, runs.bend, runs);
-  runs.after_m = set_directions(path, world, runs.bend, count, runs);
+  for (size_t part = 0, first = 0; part <= runs.bend_count; ++part) {
+    const size_t last = part < runs.bend_count ? runs.bends[part] : count;
+    runs.parts_m[part] = set_directions(path, world, first, last, runs);
+    first = last;
+  }
   return runs;
 }
 
@@ -130,13 +138,40 @@ class Travelling {
         {m.ss * te, m.sp * tm, m.ps * te, m.pp * tm});
   }
 
-  /// The result also spreads by the whole length from there on (edge_dyadic).
+  /// The results spread by the whole length from there on (edge_dyadic).
   void diffract(const scene::Wedge& wedge, const dvec3& in, const dvec3& out, double before_m, double after_m,
                 const EdgeSides& sides) {
     const auto share = [this](uint32_t material, double cosine) { return specular_share(material, cosine); };
     const EdgeDyadic edge =
         edge_dyadic(wedge, in, out, before_m, after_m, *model_.world, *model_.surfaces, share, sides);
     for (FieldVector& field : columns_) field = edge.apply(field);
+  }
+
+  /// Arrives at the first of two edges. What lies between them acts on two unit fields until the second.
+  void leave_first_edge(const dvec3& between) {
+    at_first_edge_[0] = columns_[0], at_first_edge_[1] = columns_[1];
+    axes_[0] = theta_hat(between), axes_[1] = phi_hat(between);
+    for (int i = 0; i < 2; ++i) {
+      columns_[i] = {};
+      columns_[i].add(1.0, axes_[i]);
+    }
+  }
+  void diffract_at_both(const scene::Wedge& first, const scene::Wedge& second, const TwoEdgeRays& rays) {
+    const auto share = [this](uint32_t material, double cosine) { return specular_share(material, cosine); };
+    const auto between = [this](const FieldVector& field) {
+      FieldVector sum;
+      for (int i = 0; i < 2; ++i) {
+        FieldVector part = columns_[i];
+        part.scale(field.along(axes_[i]));
+        sum.re += part.re, sum.im += part.im;
+      }
+      return sum;
+    };
+    const TwoEdgeMatrix edges =
+        two_edge_matrix(first, second, rays, *model_.world, *model_.surfaces, share, between);
+    FieldVector behind[2];
+    for (int i = 0; i < 2; ++i) behind[i] = edges.apply(at_first_edge_[i]);
+    columns_[0] = behind[0], columns_[1] = behind[1];
   }
 
  private:
@@ -160,6 +195,8 @@ class Travelling {
 
   const FieldModel& model_;
   FieldVector columns_[2];
+  FieldVector at_first_edge_[2];
+  dvec3 axes_[2];  ///< of the ray between two edges
 };
 
 double foliage_amplitude(const FieldModel& model, double depth_m) {
@@ -184,15 +221,36 @@ Complex reflection_weight(const GeometricPath& path, const FieldModel& model, si
                                   2.0 * pi / model.surfaces->wavelength_m(), path.edges_diffract >> i & 1u);
 }
 
+/// Takes the field along a diffraction, the bend `bend` of the path.
+void diffract(const GeometricPath& path, const FieldModel& model, const Runs& runs, size_t bend,
+              Travelling& field) {
+  const auto wedge = [&](size_t which) {
+    const Interaction& interaction = path.interactions[runs.vertices[runs.bends[which]] - 1];
+    return posed(wedge_of(model, interaction), *model.world);
+  };
+  const auto before = [&](size_t which) { return runs.directions[runs.bends[which] - 1]; };
+  const dvec3& out = runs.directions[runs.bends[bend]];
+  if (runs.bend_count == 1)
+    return field.diffract(wedge(0), before(0), out, runs.parts_m[0], runs.parts_m[1], path.edge_sides[0]);
+  if (bend == 0) return field.leave_first_edge(out);
+  field.diffract_at_both(wedge(0), wedge(1),
+                         {before(0),
+                          before(1),
+                          out,
+                          runs.parts_m[0],
+                          runs.parts_m[1],
+                          runs.parts_m[2],
+                          {path.edge_sides[0], path.edge_sides[1]}});
+}
+
 /// Takes the field along the path, through the air and every interaction.
 void travel(const GeometricPath& path, const FieldModel& model, const Runs& runs, Travelling& field) {
   const FacetWorld& world = *model.world;
-  size_t run = 0;
-  double before_m = 0.0;  // since the transmitter or the bend
+  size_t run = 0, part = 0;
+  double before_m = 0.0;  // since the transmitter or the last bend
   for (size_t i = 0; i <= path.interactions.size(); ++i) {
     const dvec3& in = runs.directions[run];
     const double segment_m = glm::length(path.vertices[i + 1] - path.vertices[i]);
-    const double part_m = run < runs.bend ? runs.before_m : runs.after_m;
     before_m += segment_m;
     field.through_air(in, segment_m);
     if (i == path.interactions.size()) break;
@@ -201,24 +259,22 @@ void travel(const GeometricPath& path, const FieldModel& model, const Runs& runs
     switch (interaction.type) {
       case InteractionType::reflection:
         field.reflect(world.facet(interaction.element), in, out,
-                      reflection_weight(path, model, i, in, out, before_m, part_m));
+                      reflection_weight(path, model, i, in, out, before_m, runs.parts_m[part]));
         break;
       case InteractionType::transmission:
         field.transmit(world.facet(interaction.element), in);
         break;
       case InteractionType::scattering:
         field.scatter(world.facet(interaction.element), interaction, path.patch_area_m2, in, out);
-        before_m = 0.0;
         break;
       case InteractionType::diffraction:
-        field.diffract(posed(wedge_of(model, interaction), world), in, out, runs.before_m, runs.after_m,
-                       path.edge_sides);
-        before_m = 0.0;
+        diffract(path, model, runs, part, field);
         break;
       case InteractionType::none:
       case InteractionType::target:  // a path over a target is two paths to this function (rf/targets)
         GREATX_CHECK(false, "interaction {} is of type {}", i, static_cast<int>(interaction.type));
     }
+    if (bends(interaction.type)) ++part, before_m = 0.0;
   }
 }
 
@@ -226,7 +282,7 @@ void travel(const GeometricPath& path, const FieldModel& model, const Runs& runs
 void set_transfer(const GeometricPath& path, const FieldModel& model, const Runs& runs,
                   Complex (&transfer)[4]) {
   Travelling field(model, runs.directions.front());
-  double spreading = runs.scattered ? 1.0 / (runs.before_m * runs.after_m) : 1.0 / path.length_m;
+  double spreading = runs.scattered ? 1.0 / (runs.parts_m[0] * runs.parts_m[1]) : 1.0 / path.length_m;
   if constexpr (all_effects_built) {
     travel(path, model, runs, field);
     spreading *= foliage_amplitude(model, path.foliage_m);
@@ -246,6 +302,9 @@ GeometricPath reversed(GeometricPath path) {
   path.edges_diffract = bits;
   std::reverse(path.interactions.begin(), path.interactions.end());
   std::reverse(path.vertices.begin(), path.vertices.end());
+  const auto edges = std::count_if(path.interactions.begin(), path.interactions.end(),
+                                   [](const auto& i) { return i.type == InteractionType::diffraction; });
+  if (edges == 2) std::swap(path.edge_sides[0], path.edge_sides[1]);
   return path;
 }
 

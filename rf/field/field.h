@@ -65,7 +65,7 @@ struct FieldModel {
 ///   before and s after the patch, M and f_s of rf/surface/scattering.h, and r of the smooth wall. The power
 ///   S^2 Gamma^2 |E|^2 cos(theta_i) dA leaves the patch, where Gamma^2 is the mean of |r_TE|^2 and |r_TM|^2,
 ///   weighted by the power in each.
-/// - Diffraction. edge_dyadic (rf/field/diffraction.h), whose faces reflect with the same rho and S.
+/// - Diffraction. edge_dyadic (rf/edges/diffraction.h), whose faces reflect with the same rho and S.
 /// - Air. Each segment loses its dB in theta_hat and phi_hat of its direction. Foliage takes foliage_db of
 ///   the depth.
 /// - Transfer. The theta and phi components at the receiver of the two unit fields at the transmitter, with

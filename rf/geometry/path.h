@@ -11,6 +11,7 @@
 // - Channel: frequency_response sums over paths for all ports and subcarriers, in complex64.
 #pragma once
 
+#include <array>
 #include <compare>
 #include <complex>
 #include <cstdint>
@@ -72,7 +73,7 @@ struct GeometricPath {
   double patch_area_m2 = 0.0;  ///< area of the scattering patch; 0 if the path is not scattered
   /// Bit i: the diffraction at the edges of the facet of interaction i, a reflection, is in other paths.
   uint32_t edges_diffract = 0;
-  EdgeSides edge_sides = {};  ///< of its diffraction
+  std::array<EdgeSides, 2> edge_sides = {};  ///< of its diffractions, in the order of the path
   /// The field is computed as if the receiver sent. A diffraction at a lossy wedge and a scattering have
   /// other fields from each side, so both directions of a link compute theirs from the same end.
   bool from_receiver = false;
@@ -96,11 +97,11 @@ struct Path {
   std::vector<dvec3> vertices;  ///< [interactions + 2], local coordinates
   double length_m = 0.0;
   double foliage_m = 0.0;
-  double patch_area_m2 = 0.0;   ///< as in GeometricPath
-  uint32_t edges_diffract = 0;  ///< as in GeometricPath
-  EdgeSides edge_sides = {};    ///< as in GeometricPath
-  bool from_receiver = false;   ///< as in GeometricPath
-  double delay_s = 0.0;         ///< length / c
+  double patch_area_m2 = 0.0;                ///< as in GeometricPath
+  uint32_t edges_diffract = 0;               ///< as in GeometricPath
+  std::array<EdgeSides, 2> edge_sides = {};  ///< as in GeometricPath
+  bool from_receiver = false;                ///< as in GeometricPath
+  double delay_s = 0.0;                      ///< length / c
   /// nu = (1/lambda)(v_tx . k_0 - v_rx . k_n + sum v_i . (k_i - k_{i-1})); approaching ends give nu > 0.
   double doppler_hz = 0.0;
   dvec3 departure{0.0};  ///< unit, world axes, leaving the transmitter

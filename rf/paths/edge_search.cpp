@@ -73,6 +73,17 @@ void EdgeSearch::move() {
   if (scene_ && !moving_bodies_) return;
   scene_ = std::make_shared<const BeamScene>(model_->facets, model_->kinds, model_->wedges, moving_bodies_);
   answers_.clear();
+  pairs_.reset();
+}
+
+EdgePairs& EdgeSearch::pairs() {
+  const std::lock_guard lock(pairs_mutex_);
+  if (!pairs_) {
+    const uint32_t walls = model_->effects.transmission ? limits_.max_transmissions : 0;
+    const uint32_t left = limits_.max_depth > 2 ? limits_.max_depth - 2 : 0;
+    pairs_ = std::make_unique<EdgePairs>(scene_, model_->wedges, std::min(walls, left));
+  }
+  return *pairs_;
 }
 
 std::shared_ptr<const EdgeWays> EdgeSearch::from(const dvec3& end, uint32_t body, uint32_t threads,

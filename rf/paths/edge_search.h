@@ -14,10 +14,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 
 #include "core/vec.h"
 #include "rf/config/path_limits.h"
 #include "rf/geometry/candidates.h"
+#include "rf/paths/edge_pairs.h"
 #include "rf/paths/radio_model.h"
 #include "rf/search/beam_scene.h"
 #include "rf/search/kept_answers.h"
@@ -40,6 +42,8 @@ class EdgeSearch {
   /// Returns what a search at `end` finds, whose `body` hides nothing from it (0: none). The last answers are
   /// kept if `keep`. Many threads may call this.
   std::shared_ptr<const EdgeWays> from(const dvec3& end, uint32_t body, uint32_t threads, bool keep);
+  /// Returns which edges may see which in the present world. It is made when it is asked for first.
+  EdgePairs& pairs();
 
  private:
   struct Question {
@@ -54,6 +58,8 @@ class EdgeSearch {
   PathLimits limits_;
   bool moving_bodies_;
   std::shared_ptr<const BeamScene> scene_;
+  std::mutex pairs_mutex_;
+  std::unique_ptr<EdgePairs> pairs_;
   KeptAnswers<Question, EdgeWays> answers_{most_answers};
 };
 

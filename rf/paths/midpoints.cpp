@@ -9,7 +9,8 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/watch.h"
-#include "rf/field/diffraction.h"
+#include "rf/edges/diffraction.h"
+#include "rf/paths/two_edge_paths.h"
 
 namespace greatx::rf {
 
@@ -50,7 +51,8 @@ Midpoints::Midpoints(const RadioModel& model, const PathLimits& limits, bool mov
     : model_(&model), limits_(limits) {
   if (model.effects.scattering) scatterers_.emplace(model, limits, moving_bodies);
   if (!model.effects.diffraction || limits.max_depth == 0) return;
-  search_target_ = limits.max_reflections_beside_diffraction > 0 && limits.max_depth > 1;
+  two_edges_ = limits.max_diffractions > 1 && limits.max_depth > 1;
+  search_target_ = two_edges_ || (limits.max_reflections_beside_diffraction > 0 && limits.max_depth > 1);
   edges_ = std::move(shared);
   if (!edges_ && search_target_) edges_ = std::make_shared<EdgeSearch>(model, limits, moving_bodies);
 }
@@ -138,7 +140,18 @@ LeftOut Midpoints::solve_wedges(const ImageTree& tree, const Target& target, uin
             found[i]);
   });
   for (std::vector<GeometricPath>& some : found) std::ranges::move(some, std::back_inserter(paths));
+  if (two_edges_) add_over_two_edges(tree, images, *ways, threads, paths);
   return ways->left_out;
+}
+
+void Midpoints::add_over_two_edges(const ImageTree& tree, const ImageTree& images, const EdgeWays& ways,
+                                   uint32_t threads, std::vector<GeometricPath>& paths) const {
+  WedgeArrivals at_target(ways.list, model_->wedges, limits_.max_depth - 2);
+  at_target.place(images, model_->wedges);
+  const size_t first = paths.size();
+  join_two_edges(*model_, limits_, edges_->pairs(), {tree, at_wedges_}, {images, at_target}, threads, paths);
+  if (tree.end() == Source::receiver)
+    for (size_t i = first; i < paths.size(); ++i) turn_to_transmitter(paths[i]);
 }
 
 /// Joins every prefix with the suffix of each meeting.

@@ -66,13 +66,16 @@ class Midpoints {
   std::vector<Meeting> meetings(const CandidateList& suffixes) const;
   LeftOut solve_wedges(const ImageTree& tree, const Target& target, uint32_t threads,
                        std::vector<GeometricPath>& paths) const;
+  void add_over_two_edges(const ImageTree& tree, const ImageTree& images, const EdgeWays& ways,
+                          uint32_t threads, std::vector<GeometricPath>& paths) const;
   void join_at(std::span<const Meeting> at, const ImageTree& tree, const ImageTree& suffixes,
                std::vector<GeometricPath>& paths) const;
 
   const RadioModel* model_;
   PathLimits limits_;
   std::shared_ptr<EdgeSearch> edges_;
-  bool search_target_ = false;          ///< reflections may follow a diffraction
+  bool search_target_ = false;  ///< reflections or another edge may follow a diffraction
+  bool two_edges_ = false;
   std::optional<ImageTree> edge_tree_;  ///< of find_edge_ways(); empty: the tree of the candidates
   LeftOut edge_left_out_;
   WedgeArrivals at_wedges_;

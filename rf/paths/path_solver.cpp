@@ -9,7 +9,7 @@
 #include "core/built_effects.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "rf/field/diffraction.h"
+#include "rf/edges/diffraction.h"
 
 namespace greatx::rf {
 
@@ -95,13 +95,15 @@ struct StraightToPatches {
 };
 
 /// Lets most segments of a path with a bend depend on one leader, because such paths are very many and most
-/// of them are blocked. The leader is a segment next to the bend, one that leads straight to an end if there
-/// is one. The others are traced only if the leader is clear. The segments of the path are `segments` from
+/// of them are blocked. The leader is the segment between two bends, or else one next to the bend that leads
+/// straight to an end, if there is one. The others are traced only if the leader is clear. The segments of the path are `segments` from
 /// `first` on.
 void hang_on_one(const GeometricPath& path, size_t bend, size_t first, std::vector<Segment>& segments,
                  StraightToPatches& straight) {
   const bool to_receiver = first + bend + 2 == segments.size(), to_transmitter = bend == 0;
-  const size_t leader = first + (to_receiver || !to_transmitter ? bend + 1 : bend);
+  const bool two_bends =
+      bend + 1 < path.interactions.size() && path.interactions[bend + 1].type == InteractionType::diffraction;
+  const size_t leader = first + (to_receiver || !to_transmitter || two_bends ? bend + 1 : bend);
   for (size_t i = first; i < segments.size(); ++i)
     if (i != leader) segments[i].only_if = static_cast<uint32_t>(leader);
   const Interaction& patch = path.interactions[bend];
@@ -220,30 +222,34 @@ void PathSolver::find_edge_sides(std::vector<GeometricPath>& paths, const FacetW
     return at != paths.end() && at->interactions == other.interactions ? 1 : -1;
   };
   const auto solid = [](const Interaction& i) { return i.type != InteractionType::transmission; };
-  for (GeometricPath& path : paths) {
-    const std::optional<size_t> bend = bend_of(path);
-    if (!bend || path.interactions[*bend].type != InteractionType::diffraction) continue;
-    size_t before = *bend, after = *bend + 2;  // vertices; walls on the way turn nothing
+  const auto sides_at = [&](const GeometricPath& path, size_t bend) {
+    size_t before = bend, after = bend + 2;  // vertices; walls on the way turn nothing
     while (before > 0 && !solid(path.interactions[before - 1])) --before;
     while (after <= path.interactions.size() && !solid(path.interactions[after - 1])) ++after;
-    const uint32_t edge = path.interactions[*bend].element;
+    const uint32_t edge = path.interactions[bend].element;
     const scene::Wedge wedge = posed(model_->wedges[edge], world);
     EdgeSides sides =
-        near_boundaries(wedge, path.vertices[before], path.vertices[*bend + 1], path.vertices[after], room_m);
+        near_boundaries(wedge, path.vertices[before], path.vertices[bend + 1], path.vertices[after], room_m);
     const auto instead = [&](uint32_t facet) {
       other.interactions = path.interactions;
-      other.interactions[*bend] = {InteractionType::reflection, facet};
+      other.interactions[bend] = {InteractionType::reflection, facet};
       return static_cast<int8_t>(exists());
     };
     if (sides.incident != 0) {
       other.interactions = path.interactions;
-      other.interactions.erase(other.interactions.begin() + static_cast<ptrdiff_t>(*bend));
+      other.interactions.erase(other.interactions.begin() + static_cast<ptrdiff_t>(bend));
       sides.incident = static_cast<int8_t>(exists());
     }
     if (sides.reflected_0 != 0) sides.reflected_0 = instead(wedge.facet_0);
     if (sides.reflected_n != 0)
       sides.reflected_n = instead(wedge.facet_n == scene::no_facet ? wedge.facet_0 : wedge.facet_n);
-    path.edge_sides = sides;
+    return sides;
+  };
+  for (GeometricPath& path : paths) {
+    size_t edge = 0;
+    for (size_t i = 0; i < path.interactions.size(); ++i)
+      if (path.interactions[i].type == InteractionType::diffraction)
+        path.edge_sides[edge++] = sides_at(path, i);
   }
 }
 

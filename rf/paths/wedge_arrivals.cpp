@@ -9,12 +9,15 @@
 
 namespace greatx::rf {
 
-WedgeArrivals::WedgeArrivals(const CandidateList& candidates, std::span<const scene::Wedge> wedges) {
+WedgeArrivals::WedgeArrivals(const CandidateList& candidates, std::span<const scene::Wedge> wedges,
+                             uint32_t most_depth) {
   if (candidates.wedges.size() > ~0u)
     throw_user_error("paths: {} sequences that lead to wedges, expected at most {}; a smaller max_depth",
                      candidates.wedges.size(), ~0u);
   offsets_.assign(wedges.size() + 1, 0);
-  for (uint32_t sequence = 0; sequence < candidates.size(); ++sequence)
+  uint32_t count = 0;  // the canonical order is by depth
+  while (count < candidates.size() && candidates.sequence(count).size() <= most_depth) ++count;
+  for (uint32_t sequence = 0; sequence < count; ++sequence)
     for (const uint32_t wedge : candidates.wedges_of(sequence))
       offsets_[wedge + 1] += leads_to(candidates.sequence(sequence), wedges[wedge]);
   for (uint32_t i = 0; i < wedges.size(); ++i) {
@@ -24,7 +27,7 @@ WedgeArrivals::WedgeArrivals(const CandidateList& candidates, std::span<const sc
   sequences_.resize(offsets_.back());
   depths_.resize(offsets_.back());
   std::vector<uint32_t> next(offsets_.begin(), offsets_.end() - 1);
-  for (uint32_t sequence = 0; sequence < candidates.size(); ++sequence)
+  for (uint32_t sequence = 0; sequence < count; ++sequence)
     for (const uint32_t wedge : candidates.wedges_of(sequence)) {
       const auto facets = candidates.sequence(sequence);
       if (!leads_to(facets, wedges[wedge])) continue;

@@ -29,8 +29,10 @@ inline bool leads_to(std::span<const uint32_t> sequence, const scene::Wedge& wed
 class WedgeArrivals {
  public:
   WedgeArrivals() = default;
-  /// Leaves out sequences that do not lead to a wedge (leads_to). Throws UserError beyond 2^32 - 1 pairs.
-  WedgeArrivals(const CandidateList& candidates, std::span<const scene::Wedge> wedges);
+  /// Leaves out sequences that do not lead to a wedge (leads_to), and those of more than `most_depth`
+  /// reflections. Throws UserError beyond 2^32 - 1 pairs.
+  WedgeArrivals(const CandidateList& candidates, std::span<const scene::Wedge> wedges,
+                uint32_t most_depth = ~0u);
 
   /// Places the images of the sequences beside the edges. Must be called before joined(), and again when the
   /// images of `tree` have moved. `wedges`: as in the constructor.

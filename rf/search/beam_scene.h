@@ -75,6 +75,7 @@ class BeamScene {
     return std::span(corners_).subspan(polygon.first, polygon.count);
   }
   const BeamPolygon& polygon(uint32_t index) const { return polygons_[index]; }
+  uint32_t wedge_count() const { return static_cast<uint32_t>(wedges_.size()); }
   /// Wedges are ordered by the first of their faces.
   const BeamWedge& wedge(uint32_t index) const { return wedges_[index]; }
   const dvec3& vertex(uint32_t index) const { return vertices_[index]; }

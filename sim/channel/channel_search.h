@@ -34,7 +34,8 @@ class SharedSearches {
   std::shared_ptr<rf::EdgeSearch> edges(const rf::PathLimits& limits) {
     for (const auto& [known, search] : edges_)
       if (known.max_depth == limits.max_depth && known.max_transmissions == limits.max_transmissions &&
-          known.max_reflections_beside_diffraction == limits.max_reflections_beside_diffraction)
+          known.max_reflections_beside_diffraction == limits.max_reflections_beside_diffraction &&
+          known.max_diffractions == limits.max_diffractions)
         return search;
     return edges_.emplace_back(limits, std::make_shared<rf::EdgeSearch>(model_, limits, false)).second;
   }

@@ -15,7 +15,7 @@
 #include "core/units.h"
 #include "rf/atmosphere/foliage.h"
 #include "rf/channel/frequency_response.h"
-#include "rf/field/diffraction.h"
+#include "rf/edges/diffraction.h"
 #include "rf/field/field.h"
 #include "rf/geometry/geometry.h"
 #include "tests/rf/exhaustive.h"

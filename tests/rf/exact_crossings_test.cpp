@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "rf/field/diffraction.h"
+#include "rf/edges/diffraction.h"
 #include "rf/geometry/geometry.h"
 #include "rf/paths/radio_model.h"
 #include "rf/reference/occluders.h"

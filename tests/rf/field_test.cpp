@@ -10,7 +10,7 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "rf/channel/frequency_response.h"
-#include "rf/field/diffraction.h"
+#include "rf/edges/diffraction.h"
 #include "rf/geometry/geometry.h"
 #include "tests/rf/exhaustive.h"
 #include "tests/rf/scenes.h"

@@ -15,9 +15,9 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "rf/field/boundary_wave.h"
-#include "rf/field/diffraction.h"
+#include "rf/edges/diffraction.h"
 #include "rf/field/field.h"
-#include "rf/field/utd.h"
+#include "rf/edges/utd.h"
 #include "scene/description/wedges.h"
 #include "tests/rf/scenes.h"
 

@@ -11,7 +11,7 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "rf/channel/frequency_response.h"
-#include "rf/field/diffraction.h"
+#include "rf/edges/diffraction.h"
 #include "rf/field/field.h"
 #include "rf/geometry/geometry.h"
 #include "tests/rf/exhaustive.h"

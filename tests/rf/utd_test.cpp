@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/field/utd.h"
+#include "rf/edges/utd.h"
 
 #include <cmath>
 

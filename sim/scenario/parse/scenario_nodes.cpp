@@ -226,6 +226,8 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
                              "time_spacing_s",
                              "max_depth",
                              "max_transmissions",
+                             "max_diffractions",
+                             "two_edge_floor_db",
                              "max_reflections_beside_diffraction",
                              "max_reflections_after",
                              "max_reflections_before_scattering",
@@ -256,6 +258,9 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
   if (const auto f = map.find("max_depth")) channel.limits.max_depth = f->integer32(0, 16);
   if (const auto f = map.find("max_transmissions"))
     channel.limits.max_transmissions = f->integer32(0, ChannelConfig::most_walls);
+  if (const auto f = map.find("max_diffractions")) channel.limits.max_diffractions = f->integer32(1, 2);
+  if (const auto f = map.find("two_edge_floor_db"))
+    channel.limits.two_edge_floor_db = f->positive(1.0, 1000.0);
   if (const auto f = map.find("max_reflections_beside_diffraction"))
     channel.limits.max_reflections_beside_diffraction = f->integer32(0, 4);
   if (const auto f = map.find("max_reflections_after"))

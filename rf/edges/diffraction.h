@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Computes the diffraction at a straight edge: the point on the edge (Keller's cone) and the map between the
-// incident and the diffracted field vector (from the coefficients of rf/field/utd.h). Wedges are posed: in
+// incident and the diffracted field vector (from the coefficients of rf/edges/utd.h). Wedges are posed: in
 // local coordinates, at the present pose of their body.
 #pragma once
 
@@ -12,8 +12,8 @@
 
 #include "core/vec.h"
 #include "rf/antenna/field_vector.h"
+#include "rf/edges/utd.h"
 #include "rf/facets/facet_world.h"
-#include "rf/field/utd.h"
 #include "rf/surface/surfaces.h"
 #include "scene/description/wedges.h"
 
@@ -42,6 +42,14 @@ enum class KellerRefusal : uint8_t {
 /// the dyadic contains that reflection. This function does not detect this case.
 std::optional<dvec3> keller_point(const scene::Wedge& posed, const dvec3& before, const dvec3& after,
                                   KellerRefusal* why = nullptr);
+
+/// Returns the components of a vector across the edge, in (tangent_0, normal_0).
+inline dvec2 across(const scene::Wedge& wedge, const dvec3& vector) {
+  return {glm::dot(wedge.tangent_0, vector), glm::dot(wedge.normal_0, vector)};
+}
+
+/// Returns the tolerance of keller_point() for an edge, metres.
+double edge_tolerance_m(const scene::Wedge& wedge);
 
 /// Tells whether waves can reach `point`: whether it lies in the angle of the exterior, faces included,
 /// within the same tolerance.
@@ -75,6 +83,34 @@ struct EdgeDyadic {
 /// cosine of incidence.
 using SpecularShare = std::function<double(uint32_t material, double cos_theta)>;
 
+/// Names the face of a wedge that a ray runs along.
+enum class GrazedFace : uint8_t { none = 0, face_0, face_n };
+
+/// Holds the dyadic of an edge by terms: dyadic = sum of d_t matrix_t over the UtdTerms t.
+struct EdgeTerms {
+  dvec3 beta_in{0.0}, phi_in{0.0}, beta_out{0.0}, phi_out{0.0};  ///< as in EdgeDyadic
+  double sin_in = 1.0, sin_out = 1.0;                            ///< sines of the angles with the edge
+  UtdFactors factors;
+  Complex matrices[4][4]{};  ///< [UtdTerm][row-major]; zero for a face that does not reflect
+  Complex* matrix(UtdTerm term) { return matrices[static_cast<uint32_t>(term)]; }
+  const Complex* matrix(UtdTerm term) const { return matrices[static_cast<uint32_t>(term)]; }
+};
+/// Returns the terms for the arguments of edge_dyadic(). `in_along` and `out_along` name faces along which
+/// the ray comes and goes: it then has exactly their angle. Such a face does not reflect in these terms.
+EdgeTerms edge_terms(const scene::Wedge& posed, const dvec3& in, const dvec3& out, double before_m,
+                     double after_m, const FacetWorld& world, const RadioSurfaces& surfaces,
+                     const SpecularShare& share = {}, const EdgeSides& sides = {},
+                     GrazedFace in_along = GrazedFace::none, GrazedFace out_along = GrazedFace::none);
+
+/// Describes a face of a wedge as the wave in the exterior meets it.
+struct WedgeFace {
+  uint32_t material = 0;
+  bool from_front = true;
+  double tolerance_m = 0.0;
+  dvec3 normal{0.0};  ///< into the exterior
+};
+WedgeFace face_of(const scene::Wedge& posed, GrazedFace face, const FacetWorld& world);
+
 /// Returns the edge's dyadic for a spherical wave. It includes the spreading A(s', s) = sqrt(s'/(s (s +
 /// s'))), so that
 ///   E(receiver) = e^{-jk(s' + s)}/(s' + s) * dyadic . E_0,
@@ -82,7 +118,13 @@ using SpecularShare = std::function<double(uint32_t material, double cos_theta)>
 /// any other path, by its whole length. `in` and `out` are the unit directions to and from the edge;
 /// `before_m` and `after_m` are s' and s, the whole unfolded lengths on both sides of the edge.
 ///
-///   dyadic = -(d_1 + d_2) I + d_4 M_0 + d_3 M_n,   d of rf/field/utd.h
+///   dyadic = -d_near I - d_far M M + d_4 M_0 + d_3 M_n,   d of rf/edges/utd.h
+///
+/// near and far are the shadow terms of the face near the source and of the other (d_2 and d_1 if that is face
+/// 0). The far term has no boundary; with the reflections at both faces, first the near one, the field of a
+/// lossy wedge tends to zero along a face, as it does over any lossy surface (P. D. Holm, "A new heuristic UTD
+/// diffraction coefficient for nonperfectly conducting wedges", IEEE Trans. AP-48(8), 2000). Luebbers, and Rec.
+/// ITU-R P.526, have I there; for a conductor both are the same.
 ///
 /// M is the reflection of each face between the same unit vectors, at Luebbers' angles, with TE and TM turned
 /// into (beta_0, phi). At normal incidence on the edge M = -diag(r_TE, r_TM). Hence the sum with the direct

@@ -53,6 +53,31 @@ UtdAngles utd_angles(double n, double incident, double observed);
 /// exactly 0 if the observer is exactly on the boundary.
 UtdAngles utd_angles(double n, const dvec2& source, const dvec2& observer);
 
+/// Holds one term as d = amplitude erfcx(e^{j pi/4} sqrt(2 k L) half_sine).
+struct UtdFactor {
+  double amplitude = 0.0;  ///< -+ (1/2) sgn(delta) |sinc(delta/2)| (y cot y)|_{y = delta/2n}
+  double half_sine = 0.0;  ///< |sin(delta/2)|
+  bool lit = true;         ///< the observer is on the lit side of the term's boundary
+};
+struct UtdFactors {
+  UtdFactor factors[4];
+  const UtdFactor& operator[](UtdTerm term) const { return factors[static_cast<uint32_t>(term)]; }
+};
+/// Returns d. `distance_m` is L of utd_terms().
+Complex utd_value(const UtdFactor& factor, double wave_number, double distance_m);
+/// Near a boundary, `sides` may say on which side of it the observer counts.
+UtdFactors utd_factors(const UtdAngles& angles, const EdgeSides& sides = {});
+
+/// Tells whether an observer goes deeper into the shadow of a term's boundary as phi grows (else as phi
+/// falls).
+constexpr bool darkens_with_observer(UtdTerm term) {
+  return term == UtdTerm::shadow_0 || term == UtdTerm::reflection_0;
+}
+/// Does the same for the source and phi'.
+constexpr bool darkens_with_source(UtdTerm term) {
+  return term == UtdTerm::shadow_n || term == UtdTerm::reflection_0;
+}
+
 /// Holds the dimensionless terms d_i = D_i sin(beta_0) / sqrt(L), by UtdTerm, before any reflection
 /// coefficient:
 ///   d = -+ (1/2) sgn(delta) |sinc(delta/2)| (y cot y)|_{y = delta/2n} erfcx(e^{j pi/4} w),
@@ -87,6 +112,7 @@ UtdTerms utd_terms(const UtdAngles& angles, double wave_number, double distance_
 /// observer.
 struct FaceAngles {
   double face_0 = 0.0, face_n = 0.0;
+  bool near_0 = true;  ///< the source counts as near face 0
 };
 FaceAngles luebbers_angles(const UtdAngles& angles);
 

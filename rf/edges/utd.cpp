@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/field/utd.h"
+#include "rf/edges/utd.h"
 
 #include <array>
 #include <cmath>
@@ -64,16 +64,14 @@ int side_said(uint32_t term, const EdgeSides& sides) {
   return term == static_cast<uint32_t>(UtdTerm::reflection_0) ? sides.reflected_0 : sides.reflected_n;
 }
 
-Complex term_value(uint32_t term, double delta, double n, double wave_times_distance, int said) {
+UtdFactor factor_of(uint32_t term, double delta, double n, int said) {
   const double half = 0.5 * delta, sine = std::abs(std::sin(half));
   const double sinc = half == 0.0 ? 1.0 : sine / std::abs(half);
   // The boundary itself belongs to the lit side: delta > 0 for the terms with + pi, delta < 0 for the others.
   const bool lit = said != 0 && std::abs(delta) < near_boundary_rad ? said > 0
                    : delta == 0.0                                   ? true
                                                                     : adds_pi(term) == (delta > 0.0);
-  const double sign = lit ? -1.0 : 1.0;
-  return 0.5 * sign * sinc * y_cot_y(0.5 * delta / n) *
-         erfcx_on_diagonal(std::sqrt(2.0 * wave_times_distance) * sine);
+  return {0.5 * (lit ? -1.0 : 1.0) * sinc * y_cot_y(0.5 * delta / n), sine, lit};
 }
 
 }  // namespace
@@ -152,13 +150,24 @@ bool UtdAngles::in_shadow() const {
   return std::abs(rough) < 0.5 ? past > 0.0 : rough > 0.0;
 }
 
+UtdFactors utd_factors(const UtdAngles& angles, const EdgeSides& sides) {
+  UtdFactors result;
+  for (uint32_t term = 0; term < 4; ++term)
+    result.factors[term] = factor_of(term, angles.delta[term], angles.n, side_said(term, sides));
+  return result;
+}
+
+Complex utd_value(const UtdFactor& factor, double wave_number, double distance_m) {
+  return factor.amplitude * erfcx_on_diagonal(std::sqrt(2.0 * wave_number * distance_m) * factor.half_sine);
+}
+
 UtdTerms utd_terms(const UtdAngles& angles, double wave_number, double distance_m, const EdgeSides& sides) {
   GREATX_CHECK(wave_number > 0.0 && distance_m >= 0.0, "wave number {} rad/m, distance {} m", wave_number,
                distance_m);
+  const UtdFactors factors = utd_factors(angles, sides);
   UtdTerms terms;
   for (uint32_t term = 0; term < 4; ++term)
-    terms.d[term] =
-        term_value(term, angles.delta[term], angles.n, wave_number * distance_m, side_said(term, sides));
+    terms.d[term] = utd_value(factors.factors[term], wave_number, distance_m);
   return terms;
 }
 
@@ -170,8 +179,8 @@ FaceAngles luebbers_angles(const UtdAngles& angles) {
   // is at most 2 pi wide.
   const auto incident_at = [](double incident) { return std::min(std::max(incident, 0.0), pi); };
   const auto leaving_for = [](double observed) { return pi - std::min(std::max(observed, 0.0), 0.5 * pi); };
-  if (nearness >= 0.0) return {incident_at(angles.incident), leaving_for(wide - angles.observed)};
-  return {leaving_for(angles.observed), incident_at(wide - angles.incident)};
+  if (nearness >= 0.0) return {incident_at(angles.incident), leaving_for(wide - angles.observed), true};
+  return {leaving_for(angles.observed), incident_at(wide - angles.incident), false};
 }
 
 }  // namespace greatx::rf

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/field/diffraction.h"
+#include "rf/edges/diffraction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,16 +12,6 @@ namespace greatx::rf {
 namespace {
 
 dvec3 edge_direction(const scene::Wedge& wedge) { return glm::normalize(wedge.b - wedge.a); }
-
-double tolerance_m(const scene::Wedge& wedge) {
-  const double length = glm::distance(wedge.a, wedge.b);
-  return 1e-9 * length + 1e-13 * (glm::length(wedge.a) + length);
-}
-
-/// Returns the components across the edge, in (tangent_0, normal_0).
-dvec2 across(const scene::Wedge& wedge, const dvec3& vector) {
-  return {glm::dot(wedge.tangent_0, vector), glm::dot(wedge.normal_0, vector)};
-}
 
 dvec2 face_n_direction(const scene::Wedge& wedge) { return {std::cos(wedge.n * pi), std::sin(wedge.n * pi)}; }
 
@@ -54,19 +44,7 @@ FaceReflection face_reflection(double angle, double cos_beta0, const ReflectionC
   return {r.r_tm * (d * d) - r.r_te * (c * c), mixed, -mixed, r.r_te * (d * d) - r.r_tm * (c * c)};
 }
 
-/// Describes a face of the wedge as the wave in the exterior meets it.
-struct Face {
-  uint32_t material;
-  bool from_front;
-  double tolerance_m;
-};
-
-Face face_of(uint32_t facet, const dvec3& exterior_normal, const FacetWorld& world) {
-  const PosedFacet& posed_facet = world.facet(facet);
-  return {posed_facet.material, glm::dot(posed_facet.normal, exterior_normal) > 0.0, posed_facet.tolerance_m};
-}
-
-ReflectionCoefficients fresnel(const Face& face, double cos_theta, const RadioSurfaces& surfaces,
+ReflectionCoefficients fresnel(const WedgeFace& face, double cos_theta, const RadioSurfaces& surfaces,
                                const SpecularShare& share) {
   const double cosine = std::clamp(cos_theta, 0.0, 1.0);  // removes only rounding
   ReflectionCoefficients r = surfaces.reflect(face.material, face.from_front, cosine);
@@ -77,6 +55,11 @@ ReflectionCoefficients fresnel(const Face& face, double cos_theta, const RadioSu
 }
 
 }  // namespace
+
+double edge_tolerance_m(const scene::Wedge& wedge) {
+  const double length = glm::distance(wedge.a, wedge.b);
+  return 1e-9 * length + 1e-13 * (glm::length(wedge.a) + length);
+}
 
 scene::Wedge posed(const scene::Wedge& wedge, const FacetWorld& world) {
   if (wedge.body == 0) return wedge;
@@ -92,7 +75,7 @@ scene::Wedge posed(const scene::Wedge& wedge, const FacetWorld& world) {
 std::optional<dvec3> keller_point(const scene::Wedge& wedge, const dvec3& before, const dvec3& after,
                                   KellerRefusal* why) {
   const dvec3 edge = edge_direction(wedge), from = before - wedge.a, to = after - wedge.a;
-  const double length = glm::distance(wedge.a, wedge.b), tolerance = tolerance_m(wedge);
+  const double length = glm::distance(wedge.a, wedge.b), tolerance = edge_tolerance_m(wedge);
   const double z_before = glm::dot(from, edge), z_after = glm::dot(to, edge);
   const double d_before = glm::length(from - z_before * edge), d_after = glm::length(to - z_after * edge);
   KellerRefusal refusal = KellerRefusal::none;
@@ -117,7 +100,7 @@ bool in_exterior(const scene::Wedge& wedge, const dvec3& point) {
   if (at.y >= 0.0 && wedge.n >= 1.0) return true;  // within pi of face 0
   const double angle = std::atan2(at.y, at.x), wide = wedge.n * pi;
   if ((angle < 0.0 ? angle + 2.0 * pi : angle) <= wide) return true;
-  const double tolerance = tolerance_m(wedge) + 1e-13 * glm::length(point);
+  const double tolerance = edge_tolerance_m(wedge) + 1e-13 * glm::length(point);
   return on_face({1.0, 0.0}, at, tolerance) || on_face(face_n_direction(wedge), at, tolerance);
 }
 
@@ -141,48 +124,84 @@ EdgeSides near_boundaries(const scene::Wedge& wedge, const dvec3& before, const 
   return sides;
 }
 
-EdgeDyadic edge_dyadic(const scene::Wedge& wedge, const dvec3& in, const dvec3& out, double before_m,
-                       double after_m, const FacetWorld& world, const RadioSurfaces& surfaces,
-                       const SpecularShare& share, const EdgeSides& sides) {
+WedgeFace face_of(const scene::Wedge& wedge, GrazedFace which, const FacetWorld& world) {
+  GREATX_CHECK(which != GrazedFace::none, "no face");
+  const bool first = which == GrazedFace::face_0;
+  const dvec2 along_n = face_n_direction(wedge);
+  const dvec3 normal = first ? wedge.normal_0 : along_n.y * wedge.tangent_0 - along_n.x * wedge.normal_0;
+  const uint32_t facet = first || wedge.facet_n == scene::no_facet ? wedge.facet_0 : wedge.facet_n;
+  const PosedFacet& posed_facet = world.facet(facet);
+  return {posed_facet.material, glm::dot(posed_facet.normal, normal) > 0.0, posed_facet.tolerance_m, normal};
+}
+
+EdgeTerms edge_terms(const scene::Wedge& wedge, const dvec3& in, const dvec3& out, double before_m,
+                     double after_m, const FacetWorld& world, const RadioSurfaces& surfaces,
+                     const SpecularShare& share, const EdgeSides& sides, GrazedFace in_along,
+                     GrazedFace out_along) {
   const dvec3 edge = edge_direction(wedge);
   const dvec3 turn_in = glm::cross(edge, in), turn_out = glm::cross(edge, out);
-  const double sin_in = glm::length(turn_in), sin_out = glm::length(turn_out);
-  GREATX_CHECK(sin_in > 0.0 && sin_out > 0.0 && before_m > 0.0 && after_m > 0.0 &&
+  EdgeTerms terms;
+  terms.sin_in = glm::length(turn_in), terms.sin_out = glm::length(turn_out);
+  GREATX_CHECK(terms.sin_in > 0.0 && terms.sin_out > 0.0 && before_m > 0.0 && after_m > 0.0 &&
                    std::abs(glm::dot(in - out, edge)) < 1e-3,
                "diffraction from cos(beta_0) {} to {}, {} m before, {} m after", glm::dot(in, edge),
                glm::dot(out, edge), before_m, after_m);
-  EdgeDyadic dyadic;
-  dyadic.phi_in = -turn_in / sin_in;
-  dyadic.beta_in = glm::cross(dyadic.phi_in, in);
-  dyadic.phi_out = turn_out / sin_out;
-  dyadic.beta_out = glm::cross(dyadic.phi_out, out);
+  terms.phi_in = -turn_in / terms.sin_in;
+  terms.beta_in = glm::cross(terms.phi_in, in);
+  terms.phi_out = turn_out / terms.sin_out;
+  terms.beta_out = glm::cross(terms.phi_out, out);
 
-  const dvec2 source = -across(wedge, in), observer = across(wedge, out);
+  const dvec2 face_0(1.0, 0.0), face_n = face_n_direction(wedge);
+  const auto direction = [&](GrazedFace along, const dvec2& free) {
+    return along == GrazedFace::none ? free : along == GrazedFace::face_0 ? face_0 : face_n;
+  };
+  const dvec2 source = direction(in_along, -across(wedge, in)),
+              observer = direction(out_along, across(wedge, out));
   const UtdAngles angles = utd_angles(wedge.n, source, observer);
-  const double distance = before_m / (before_m + after_m) * after_m * sin_in * sin_out;  // L
-  const UtdTerms d = utd_terms(angles, 2.0 * pi / surfaces.wavelength_m(), distance, sides);
-  const Complex direct = -(d[UtdTerm::shadow_n] + d[UtdTerm::shadow_0]);
-  dyadic.matrix[0] = dyadic.matrix[3] = direct;
+  terms.factors = utd_factors(angles, sides);
+  for (const UtdTerm term : {UtdTerm::shadow_n, UtdTerm::shadow_0})
+    terms.matrix(term)[0] = terms.matrix(term)[3] = -1.0;
 
-  const double cos_beta0 = 0.5 * glm::dot(in + out, edge), sin_beta0 = std::sqrt(sin_in * sin_out);
+  const double cos_beta0 = 0.5 * glm::dot(in + out, edge),
+               sin_beta0 = std::sqrt(terms.sin_in * terms.sin_out);
   const FaceAngles at = luebbers_angles(angles);
-  const auto add = [&](UtdTerm term, const Face& face, const dvec2& along, double angle, double towards) {
+  const auto add = [&](UtdTerm term, GrazedFace which, const dvec2& along, double angle, double towards) {
+    if (which == in_along || which == out_along) return;
+    const WedgeFace face = face_of(wedge, which, world);
     if (on_face(along, before_m * source, face.tolerance_m) ||
         on_face(along, after_m * observer, face.tolerance_m))
       return;
     const FaceReflection m =
         face_reflection(angle, towards, fresnel(face, sin_beta0 * std::sin(angle), surfaces, share));
-    dyadic.matrix[0] += d[term] * m.beta_beta;
-    dyadic.matrix[1] += d[term] * m.beta_phi;
-    dyadic.matrix[2] += d[term] * m.phi_beta;
-    dyadic.matrix[3] += d[term] * m.phi_phi;
+    Complex* matrix = terms.matrix(term);
+    matrix[0] = m.beta_beta, matrix[1] = m.beta_phi, matrix[2] = m.phi_beta, matrix[3] = m.phi_phi;
   };
-  const dvec2 face_n = face_n_direction(wedge);
-  const dvec3 normal_n = face_n.y * wedge.tangent_0 - face_n.x * wedge.normal_0;  // into the exterior
-  const uint32_t facet_n = wedge.facet_n == scene::no_facet ? wedge.facet_0 : wedge.facet_n;
-  add(UtdTerm::reflection_0, face_of(wedge.facet_0, wedge.normal_0, world), {1.0, 0.0}, at.face_0, cos_beta0);
+  add(UtdTerm::reflection_0, GrazedFace::face_0, face_0, at.face_0, cos_beta0);
   // As seen from face n the edge runs in the opposite direction.
-  add(UtdTerm::reflection_n, face_of(facet_n, normal_n, world), face_n, at.face_n, -cos_beta0);
+  add(UtdTerm::reflection_n, GrazedFace::face_n, face_n, at.face_n, -cos_beta0);
+  const Complex *m_0 = terms.matrix(UtdTerm::reflection_0), *m_n = terms.matrix(UtdTerm::reflection_n);
+  const auto reflects = [](const Complex* m) { return m[0] != 0.0 || m[1] != 0.0 || m[3] != 0.0; };
+  if (!reflects(m_0) || !reflects(m_n)) return terms;
+  const Complex* first = at.near_0 ? m_0 : m_n;  // the wave meets the nearer face first
+  const Complex* second = at.near_0 ? m_n : m_0;
+  Complex* both = terms.matrix(at.near_0 ? UtdTerm::shadow_n : UtdTerm::shadow_0);
+  for (int row = 0; row < 2; ++row)
+    for (int column = 0; column < 2; ++column)
+      both[2 * row + column] = -(second[2 * row] * first[column] + second[2 * row + 1] * first[2 + column]);
+  return terms;
+}
+
+EdgeDyadic edge_dyadic(const scene::Wedge& wedge, const dvec3& in, const dvec3& out, double before_m,
+                       double after_m, const FacetWorld& world, const RadioSurfaces& surfaces,
+                       const SpecularShare& share, const EdgeSides& sides) {
+  const EdgeTerms terms = edge_terms(wedge, in, out, before_m, after_m, world, surfaces, share, sides);
+  const double wave_number = 2.0 * pi / surfaces.wavelength_m(),
+               distance = before_m / (before_m + after_m) * after_m * terms.sin_in * terms.sin_out;  // L
+  EdgeDyadic dyadic{terms.beta_in, terms.phi_in, terms.beta_out, terms.phi_out};
+  for (uint32_t term = 0; term < 4; ++term) {
+    const Complex d = utd_value(terms.factors.factors[term], wave_number, distance);
+    for (int i = 0; i < 4; ++i) dyadic.matrix[i] += d * terms.matrices[term][i];
+  }
   return dyadic;
 }
 
