@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/units.h"
 
@@ -31,6 +32,11 @@ class PathLength {
     const double du = glm::length(u - zu * t_[edge]), dv = glm::length(v - zv * t_[edge]);
     return du + dv > 0.0 ? (zu * dv + zv * du) / (du + dv) : 0.5 * (zu + zv);
   }
+  double slope_along_first(const dvec2& z) const {
+    const dvec3 p = point(0, z), from = p - before_, to = p - point(1, z);
+    if (glm::length(to) < 1e-9) return std::numeric_limits<double>::quiet_NaN();
+    return glm::dot(t_[0], from) / glm::length(from) + glm::dot(t_[0], to) / glm::length(to);
+  }
   /// Sets the slope of the length and Newton's step. Returns false where the length has no derivative.
   bool newton(const dvec2& z, dvec2& slope, dvec2& step) const {
     const dvec3 p = point(0, z), q = point(1, z);
@@ -54,33 +60,61 @@ class PathLength {
   dvec3 before_, after_;
 };
 
-/// Returns the places of the least length on both lines.
-std::optional<dvec2> least(const PathLength& length, const dvec2& start, const dvec3& before,
-                           const dvec3& after) {
-  dvec2 z = start;
-  for (int turn = 0; turn < 3; ++turn) {
-    z.x = length.between(0, before, length.point(1, z));
-    z.y = length.between(1, length.point(0, z), after);
+/// Returns the slope of the length along the first line at a place on it, with the best place on the second line,
+/// to which `z` is set. The slope rises along the line. NaN where both lines meet.
+double slope_at(const PathLength& length, double place, const dvec3& after, dvec2& z) {
+  z.x = place;
+  z.y = length.between(1, length.point(0, z), after);
+  return length.slope_along_first(z);
+}
+
+/// Returns the places of the least length on both lines, if the first is between `low` and `high`. Nearly all
+/// pairs of edges are refused by the slopes at both ends.
+std::optional<dvec2> least(const PathLength& length, double low, double high, const dvec3& after) {
+  dvec2 z;
+  const double inwards = 1e-6 * (high - low);
+  double at_low = slope_at(length, low, after, z);
+  if (std::isnan(at_low)) at_low = slope_at(length, low += inwards, after, z);
+  if (!(at_low <= 0.0)) return std::nullopt;
+  double at_high = slope_at(length, high, after, z);
+  if (std::isnan(at_high)) at_high = slope_at(length, high -= inwards, after, z);
+  if (!(at_high >= 0.0)) return std::nullopt;
+  // Regula falsi with Illinois' rule, then Newton's method on both places.
+  double weight_low = at_low, weight_high = at_high;
+  int side = 0;
+  for (int i = 0; i < 100 && high - low > 1e-7 * (1.0 + std::abs(low)); ++i) {
+    const double share = weight_high > weight_low ? -weight_low / (weight_high - weight_low) : 0.5;
+    const double place = i % 4 == 3 ? 0.5 * (low + high) : low + share * (high - low);
+    const double slope = slope_at(length, place, after, z);
+    if (std::abs(slope) < 1e-12) break;
+    if (slope < 0.0) {
+      low = place, weight_low = slope;
+      if (side == -1) weight_high *= 0.5;
+      side = -1;
+    } else {
+      high = place, weight_high = slope;
+      if (side == 1) weight_low *= 0.5;
+      side = 1;
+    }
   }
   dvec2 slope, step;
-  double here = length.at(z);
-  for (int iteration = 0; iteration < 40; ++iteration) {
+  for (int i = 0; i < 10; ++i) {
     if (!length.newton(z, slope, step)) return std::nullopt;
-    if (glm::length(step) <= 1e-13 * here) return z + step;
-    double scale = 1.0;
-    dvec2 next = z + step;
-    // Rounding alone may lengthen the path by a little.
-    while (length.at(next) > here * (1.0 + 1e-15) && scale > 1e-3) next = z + (scale *= 0.5) * step;
-    if (scale <= 1e-3) break;
-    z = next;
-    here = length.at(z);
+    z += step;
+    if (glm::length(step) <= 1e-13 * length.at(z)) break;
   }
-  return glm::length(slope) < 1e-9 ? std::optional(z) : std::nullopt;
+  return glm::length(slope) < 1e-6 ? std::optional(z) : std::nullopt;
+}
+
+bool share_a_face(const scene::Wedge& first, const scene::Wedge& second) {
+  const auto has = [&](uint32_t facet) {
+    return facet != scene::no_facet && (facet == second.facet_0 || facet == second.facet_n);
+  };
+  return has(first.facet_0) || has(first.facet_n);
 }
 
 /// Tells whether a point between the edges may be in the exterior of one of them: a common face may be uneven.
 bool nearly_in_exterior(const scene::Wedge& wedge, const dvec3& point) {
-  if (in_exterior(wedge, point)) return true;
   const dvec3 from = point - wedge.a;
   const double x = glm::dot(wedge.tangent_0, from), y = glm::dot(wedge.normal_0, from);
   const double angle = std::atan2(y, x), wide = wedge.n * pi, past = angle < 0.0 ? angle + 2.0 * pi : angle;
@@ -100,9 +134,9 @@ std::optional<KellerPoints> keller_points(const scene::Wedge& first, const scene
   if (!in_exterior(first, before) || !in_exterior(second, after)) return std::nullopt;
   const double lengths[2] = {glm::distance(first.a, first.b), glm::distance(second.a, second.b)};
   const PathLength length(first, second, before, after);
-  const std::optional<dvec2> z = least(length, dvec2(0.5 * lengths[0], 0.5 * lengths[1]), before, after);
-  if (!z) return std::nullopt;
   const double tolerance[2] = {edge_tolerance_m(first), edge_tolerance_m(second)};
+  const std::optional<dvec2> z = least(length, -tolerance[0], lengths[0] + tolerance[0], after);
+  if (!z) return std::nullopt;
   for (int edge = 0; edge < 2; ++edge)
     if (!((*z)[edge] >= -tolerance[edge] && (*z)[edge] <= lengths[edge] + tolerance[edge]))
       return std::nullopt;
@@ -111,8 +145,10 @@ std::optional<KellerPoints> keller_points(const scene::Wedge& first, const scene
   if (from_line(first, before) <= tolerance[0] || from_line(first, points.second) <= tolerance[0] ||
       from_line(second, points.first) <= tolerance[1] || from_line(second, after) <= tolerance[1])
     return std::nullopt;
-  if (!nearly_in_exterior(first, points.second) || !nearly_in_exterior(second, points.first))
-    return std::nullopt;
+  const auto reaches = [&](const scene::Wedge& wedge, const dvec3& point) {
+    return in_exterior(wedge, point) || (share_a_face(first, second) && nearly_in_exterior(wedge, point));
+  };
+  if (!reaches(first, points.second) || !reaches(second, points.first)) return std::nullopt;
   return points;
 }
 

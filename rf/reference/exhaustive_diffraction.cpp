@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -46,6 +47,44 @@ std::optional<dvec3> shortest(const scene::Wedge& wedge, const dvec3& a, const d
   return wedge.a + 0.5 * (low + high) * along;
 }
 
+/// Returns the place on the line of an edge between two points, by unfolding them about it.
+double unfolded_place(const scene::Wedge& wedge, const dvec3& along, const dvec3& a, const dvec3& b) {
+  const double z_a = glm::dot(a - wedge.a, along), z_b = glm::dot(b - wedge.a, along);
+  const double from_a = glm::distance(a, wedge.a + z_a * along),
+               from_b = glm::distance(b, wedge.a + z_b * along);
+  return from_a + from_b > 0.0 ? z_a + (z_b - z_a) * from_a / (from_a + from_b) : z_a;
+}
+
+/// Returns the points of both edges for which the way from `a` to `b` is shortest, if they lie between the ends.
+/// With the best second point for each first one, the slope along the first edge rises.
+std::optional<std::pair<dvec3, dvec3>> shortest(const scene::Wedge& first, const scene::Wedge& second,
+                                                const dvec3& a, const dvec3& b) {
+  const double length_1 = glm::distance(first.a, first.b), length_2 = glm::distance(second.a, second.b);
+  const dvec3 along_1 = (first.b - first.a) / length_1, along_2 = (second.b - second.a) / length_2;
+  dvec3 p(0.0), q(0.0);
+  double z_2 = 0.0;
+  const auto slope = [&](double z) {
+    p = first.a + z * along_1;
+    z_2 = unfolded_place(second, along_2, p, b);
+    q = second.a + z_2 * along_2;
+    const dvec3 from = p - a, to = p - q;
+    return glm::dot(along_1, from) / glm::length(from) + glm::dot(along_1, to) / glm::length(to);
+  };
+  const auto meet = [&](double z) { return std::isnan(slope(z)) || glm::distance(p, q) < 1e-9; };
+  // Where the edges meet, the way has no slope.
+  double low = 0.0, high = length_1;
+  if (meet(low)) low += 1e-6 * length_1;
+  if (meet(high)) high -= 1e-6 * length_1;
+  if (!(slope(low) <= 0.0 && slope(high) >= 0.0)) return std::nullopt;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (slope(middle) <= 0.0 ? low : high) = middle;
+  }
+  slope(0.5 * (low + high));
+  if (z_2 < 0.0 || z_2 > length_2 || glm::distance(p, q) < 1e-3) return std::nullopt;
+  return std::pair(p, q);
+}
+
 /// Holds all sequences from one end, and which of them may lead to which wedge.
 struct Side {
   std::vector<Chain> chains;
@@ -77,6 +116,9 @@ class EdgePaths {
         for (const uint32_t b : after.at[w])
           if (before.chains[a].facets.size() + after.chains[b].facets.size() + 1 <= options_.max_depth)
             try_pair(w, before.chains[a], after.chains[b], paths);
+    for (uint32_t v = 0; options_.max_edges > 1 && v < wedges_.size(); ++v)
+      for (uint32_t w = 0; w < wedges_.size(); ++w)
+        if (v != w) join_pair(v, w, before, after, paths);
     std::sort(paths.begin(), paths.end(), [](const GeometricPath& a, const GeometricPath& b) {
       return interactions_less(a.interactions, b.interactions);
     });
@@ -115,6 +157,29 @@ class EdgePaths {
     }
   }
 
+  void join_pair(uint32_t v, uint32_t w, const Side& before, const Side& after,
+                 std::vector<GeometricPath>& paths) const {
+    for (const uint32_t a : before.at[v])
+      for (const uint32_t b : after.at[w])
+        if (before.chains[a].facets.size() + after.chains[b].facets.size() + 2 <= options_.max_depth)
+          try_both(v, w, before.chains[a], after.chains[b], paths);
+  }
+
+  void try_both(uint32_t v, uint32_t w, const Chain& before, const Chain& after,
+                std::vector<GeometricPath>& paths) const {
+    const scene::Wedge &first = wedges_[v], &second = wedges_[w];
+    const dvec3 &a = before.images.back(), &b = after.images.back();
+    const auto points = shortest(first, second, a, b);
+    if (!points || !outside(first, points->second) || !outside(second, points->first)) return;
+    std::vector<dvec3> out, home;
+    if (!chains_.reflect(before, points->first, out) || !chains_.reflect(after, points->second, home)) return;
+    if (!outside(first, out[out.size() - 2]) || !outside(second, home[home.size() - 2])) return;
+    add_path(before, {v, w}, after, out, home,
+             glm::distance(a, points->first) + glm::distance(points->first, points->second) +
+                 glm::distance(points->second, b),
+             paths);
+  }
+
   void try_pair(uint32_t index, const Chain& before, const Chain& after,
                 std::vector<GeometricPath>& paths) const {
     const scene::Wedge& wedge = wedges_[index];
@@ -124,15 +189,24 @@ class EdgePaths {
     std::vector<dvec3> out, home;
     if (!chains_.reflect(before, *point, out) || !chains_.reflect(after, *point, home)) return;
     if (!outside(wedge, out[out.size() - 2]) || !outside(wedge, home[home.size() - 2])) return;
+    home.pop_back();  // the point is in both
+    add_path(before, {index}, after, out, home, glm::distance(a, *point) + glm::distance(*point, b), paths);
+  }
+
+  /// Adds a path if nothing is in its way. `out` runs from the transmitter to the first edge, `home` from the
+  /// receiver to the last edge, or to the vertex before if there is one edge.
+  void add_path(const Chain& before, const std::vector<uint32_t>& edges, const Chain& after,
+                const std::vector<dvec3>& out, const std::vector<dvec3>& home, double length_m,
+                std::vector<GeometricPath>& paths) const {
     GeometricPath path;
     path.vertices = out;
-    path.vertices.insert(path.vertices.end(), home.rbegin() + 1, home.rend());
+    path.vertices.insert(path.vertices.end(), home.rbegin(), home.rend());
     for (const uint32_t facet : before.facets)
       path.interactions.push_back({InteractionType::reflection, facet, 0});
-    path.interactions.push_back({InteractionType::diffraction, index, 0});
+    for (const uint32_t edge : edges) path.interactions.push_back({InteractionType::diffraction, edge, 0});
     for (auto facet = after.facets.rbegin(); facet != after.facets.rend(); ++facet)
       path.interactions.push_back({InteractionType::reflection, *facet, 0});
-    path.length_m = glm::distance(a, *point) + glm::distance(*point, b);
+    path.length_m = length_m;
     if (chains_.pass_walls(path, {options_.max_depth, options_.max_transmissions, 0, 0}, wedges_))
       paths.push_back(std::move(path));
   }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Finds the reference paths over one edge: every sequence of facets before it and after it is tried at every
-// wedge. It shares no code with rf/search/, rf/paths/ or rf/field/, and finds the point on the edge by
-// bisection instead of Keller's closed form.
+// Finds the reference paths over one edge or two: every sequence of facets before and after them is tried at
+// every wedge and at every pair of wedges. It shares no code with rf/search/, rf/paths/, rf/edges/ or rf/field/,
+// and finds the points on the edges by bisection instead of Keller's closed form and Newton's method.
 #pragma once
 
 #include <cstdint>
@@ -22,13 +22,15 @@ namespace greatx::rf::reference {
 struct DiffractionOptions {
   uint32_t max_depth = 3;          ///< interactions of a path
   uint32_t max_transmissions = 0;  ///< walls (FacetKind::wall) that a whole path may pass
-  uint32_t max_beside = 2;         ///< reflections on each side of the edge
+  uint32_t max_beside = 2;         ///< reflections on each side of the edges
+  uint32_t max_edges = 1;          ///< edges of a path, 1 or 2
 };
 
-/// Returns [receivers] all paths with one diffraction by these rules, in canonical order:
-/// - The point on the edge is where the unfolded path is shortest, and lies between the edge's ends.
-/// - The points before and after it lie in the wedge's exterior.
-/// - No reflection next to the edge is at one of the wedge's own faces, which belongs to the edge's field.
+/// Returns [receivers] all paths with one diffraction or more by these rules, in canonical order:
+/// - The points on the edges are where the unfolded path is shortest, and lie between the edges' ends.
+/// - The points before and after an edge lie in the wedge's exterior.
+/// - No reflection next to an edge is at one of the wedge's own faces, which belongs to the edge's field.
+/// - Between two edges the path is straight. Their points are a millimetre apart at least.
 /// - Reflections and obstruction are those of exhaustive_paths(). The faces of the wedge do not block.
 /// All wedges belong to the static world, and nothing carries the ends. `body_poses` [bodies] are those of
 /// `world`.

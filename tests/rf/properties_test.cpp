@@ -39,7 +39,8 @@ using Links = std::vector<std::vector<Path>>;  ///< [receivers]
 /// Bounds the interactions of a path.
 struct Bounds {
   uint32_t depth = 2, walls = 0;
-  bool edges = false;  ///< paths may have a diffraction
+  bool edges = false;      ///< paths may have a diffraction
+  bool two_edges = false;  ///< or two
 };
 using CandidateSource = std::function<CandidateList(const RadioModel&, const dvec3& transmitter, Bounds)>;
 
@@ -72,6 +73,8 @@ class Rig {
     PathLimits options;
     options.max_depth = bounds_.depth;
     options.max_transmissions = bounds_.walls;
+    options.max_diffractions = bounds_.two_edges ? 2 : 1;
+    options.two_edge_floor_db = 1000.0;
     solver_.emplace(model_, options);
     solver_->set_candidates(candidates(model_, transmitter, bounds_), transmitter, Source::transmitter);
     transmitter_ = transmitter;
@@ -245,14 +248,18 @@ Links over_edges(Links links) {
 }
 
 TEST(Properties, EveryPathOverAnEdgeOfTheReferenceAndNoOther) {
-  size_t paths = 0, on_both_sides = 0, two_after = 0, through_walls = 0;
-  for (const Draw& draw : draws(4, {{2, 1, true}, {3, 0, true}, {4, 1, true}}, 4)) {
+  size_t paths = 0, on_both_sides = 0, two_after = 0, through_walls = 0, over_two = 0, two_and_more = 0;
+  for (const Draw& draw :
+       draws(4, {{2, 1, true}, {3, 0, true}, {4, 1, true}, {2, 0, true, true}, {4, 1, true, true}}, 4)) {
     Rig rig(draw.scene, draw.bounds);
     rig.search(draw.random.transmitter);
-    const auto reference = reference::exhaustive_diffraction(
-        draw.scene, FacetWorld(draw.scene), std::vector<Pose>(1),
-        facet_kinds(draw.scene, Rig::effects_of(draw.bounds)), rig.wedges(), draw.random.transmitter,
-        draw.random.receivers, {.max_depth = draw.bounds.depth, .max_transmissions = draw.bounds.walls});
+    const auto reference =
+        reference::exhaustive_diffraction(draw.scene, FacetWorld(draw.scene), std::vector<Pose>(1),
+                                          facet_kinds(draw.scene, Rig::effects_of(draw.bounds)), rig.wedges(),
+                                          draw.random.transmitter, draw.random.receivers,
+                                          {.max_depth = draw.bounds.depth,
+                                           .max_transmissions = draw.bounds.walls,
+                                           .max_edges = draw.bounds.two_edges ? 2u : 1u});
     expect_same(reference, over_edges(rig.paths(draw.random.receivers)), draw.name);
     for (const auto& link : reference)
       for (const GeometricPath& path : link) {
@@ -261,7 +268,10 @@ TEST(Properties, EveryPathOverAnEdgeOfTheReferenceAndNoOther) {
         const auto reflects = [](const Interaction& i) { return i.type == InteractionType::reflection; };
         const auto before = std::count_if(path.interactions.begin(), edge, reflects),
                    after = std::count_if(edge, path.interactions.end(), reflects);
+        const auto edges =
+            std::ranges::count(path.interactions, InteractionType::diffraction, &Interaction::type);
         ++paths;
+        over_two += edges == 2, two_and_more += edges == 2 && path.interactions.size() > 2;
         on_both_sides += before > 0 && after > 0, two_after += after > 1;
         through_walls += std::ranges::find(path.interactions, InteractionType::transmission,
                                            &Interaction::type) != path.interactions.end();
@@ -271,6 +281,8 @@ TEST(Properties, EveryPathOverAnEdgeOfTheReferenceAndNoOther) {
   EXPECT_GT(on_both_sides, 200u);
   EXPECT_GT(two_after, 200u);
   EXPECT_GT(through_walls, 200u);
+  EXPECT_GT(over_two, 500u);
+  EXPECT_GT(two_and_more, 200u);
 }
 
 /// Compares the paths to the first receiver with those of the reverse link.
@@ -287,7 +299,8 @@ void expect_same_backwards(const Draw& draw) {
 }
 
 TEST(Properties, PathsOverEdgesAreTheSameFromBothEnds) {
-  for (const Draw& draw : draws(2, {{3, 0, true}, {4, 1, true}})) expect_same_backwards(draw);
+  for (const Draw& draw : draws(2, {{3, 0, true}, {4, 1, true}, {3, 1, true, true}}))
+    expect_same_backwards(draw);
 }
 
 TEST(Properties, TheSearchLeavesOutNothingThatEverySequenceFinds) {
