@@ -263,8 +263,12 @@ void add_bench(CLI::App& app) {
   command->add_option("--walls", recall.paths.max_transmissions, "of --recall: of them walls passed")
       ->capture_default_str()
       ->check(integer_of(0, 6));
-  command->add_flag("--edges", recall.paths.edges,
-                    "of --recall: paths over one edge as well, with reflections on both sides of it");
+  command
+      ->add_flag(
+          "--edges{1}", recall.paths.edges,
+          "of --recall: paths over one edge as well, with reflections on both sides of it; --edges=2: over "
+          "two, of any strength")
+      ->check(integer_of(0, 2));
   command->add_option("--max-rays", recall.max_rays_log2, "of --recall: rays from 2^14 to 2^this; 0: none")
       ->capture_default_str()
       ->check(integer_of(0, 24));

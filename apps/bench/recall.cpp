@@ -107,7 +107,9 @@ void add_edges(Case& c, const RecallPaths& sought, const rf::FacetKinds& kinds, 
   const auto found = rf::reference::exhaustive_diffraction(
       scene, world, moment.bodies, kinds, wedges,
       transmitter_position(c.experiment.scenario, *c.experiment.world, moment), receivers,
-      {.max_depth = sought.max_depth, .max_transmissions = sought.max_transmissions});
+      {.max_depth = sought.max_depth,
+       .max_transmissions = sought.max_transmissions,
+       .max_edges = sought.edges});
   for (size_t r = 0; r < found.size(); ++r)
     c.reference.paths[r].insert(c.reference.paths[r].end(), found[r].begin(), found[r].end());
 }
@@ -135,7 +137,7 @@ Case make_case(const RecallOptions& options, const std::string& name) {
   c.reference = rf::reference::exhaustive_paths(
       scene, world, moment.bodies, kinds,
       transmitter_position(c.experiment.scenario, *c.experiment.world, moment), local, exhaustive);
-  if (options.paths.edges) add_edges(c, options.paths, kinds, world, moment, local);
+  if (options.paths.edges > 0) add_edges(c, options.paths, kinds, world, moment, local);
   c.reference_s = seconds_since(begin);
   return c;
 }
@@ -207,7 +209,7 @@ bool measure_beams(gpu::Device& device, const Case& c, bool quiet, nlohmann::jso
 /// Measures plain shooting and bouncing of rays for increasing numbers of rays.
 void measure_rays(gpu::Device& device, const Case& c, const RecallOptions& options, nlohmann::json& result) {
   result["rays"] = nlohmann::json::array();
-  if (options.max_rays_log2 < 14 || options.paths.edges) return;
+  if (options.max_rays_log2 < 14 || options.paths.edges > 0) return;
   if (!options.json)
     std::cout << fmt::format("  {:>8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>9} {:>9}\n", "rays", "candidates",
                              "found", "missing", "doubled", "recall", "search s", "solve s");
@@ -257,7 +259,10 @@ void run_recall(const RecallOptions& options) {
                  "{}: {} facets, {} receivers, {} interactions, of them {} walls{}; reference {:.1f} s\n",
                  c.experiment.scenario.name, c.experiment.scene().facets.size(), c.receivers.size(),
                  options.paths.max_depth, options.paths.max_transmissions,
-                 options.paths.edges ? " and one edge" : "", c.reference_s)
+                 options.paths.edges == 0   ? ""
+                 : options.paths.edges == 1 ? " and one edge"
+                                            : " and two edges",
+                 c.reference_s)
           << std::flush;
     perfect = measure_beams(device, c, options.json, result) && perfect;
     measure_rays(device, c, options, result);

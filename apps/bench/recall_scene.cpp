@@ -71,6 +71,8 @@ sim::Scenario frozen_for_recall(sim::Scenario scenario, const RecallPaths& sough
   channel.limits.max_depth = sought.max_depth;
   channel.limits.max_transmissions = sought.max_transmissions;
   channel.limits.max_reflections_beside_diffraction = rf::PathLimits{}.max_reflections_beside_diffraction;
+  channel.limits.max_diffractions = std::max(1u, sought.edges);
+  channel.limits.two_edge_floor_db = 1000.0;  // the reference has no floor
   channel.search = sim::ChannelConfig::Search::automatic;
   const auto paths = sim::make_node_courses(scenario, 0);
   for (size_t i = 0; i < scenario.nodes.size(); ++i) {
@@ -85,7 +87,7 @@ sim::Scenario frozen_for_recall(sim::Scenario scenario, const RecallPaths& sough
   for (const char* off : {"scattering", "moving_reflectors"}) scenario.effects[off] = sim::Switch::off;
   const auto only_if = [](bool on) { return on ? sim::Switch::on : sim::Switch::off; };
   scenario.effects["transmission"] = only_if(sought.max_transmissions > 0);
-  scenario.effects["diffraction"] = only_if(sought.edges);
+  scenario.effects["diffraction"] = only_if(sought.edges > 0);
   return scenario;
 }
 

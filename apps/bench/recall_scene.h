@@ -17,7 +17,7 @@ namespace greatx::apps {
 struct RecallPaths {
   uint32_t max_depth = 3;          ///< largest number of interactions of a path
   uint32_t max_transmissions = 0;  ///< largest number of transmissions of a path
-  bool edges = false;              ///< paths with a diffraction as well
+  uint32_t edges = 0;              ///< largest number of diffractions of a path, at most 2
 };
 
 /// Returns the scenario with every node at rest at its pose of tick 0, so that the whole world is static. It

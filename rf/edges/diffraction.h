@@ -120,11 +120,11 @@ WedgeFace face_of(const scene::Wedge& posed, GrazedFace face, const FacetWorld& 
 ///
 ///   dyadic = -d_near I - d_far M M + d_4 M_0 + d_3 M_n,   d of rf/edges/utd.h
 ///
-/// near and far are the shadow terms of the face near the source and of the other (d_2 and d_1 if that is face
-/// 0). The far term has no boundary; with the reflections at both faces, first the near one, the field of a
-/// lossy wedge tends to zero along a face, as it does over any lossy surface (P. D. Holm, "A new heuristic UTD
-/// diffraction coefficient for nonperfectly conducting wedges", IEEE Trans. AP-48(8), 2000). Luebbers, and Rec.
-/// ITU-R P.526, have I there; for a conductor both are the same.
+/// near and far are the shadow terms of the face near the source and of the other (d_2 and d_1 if that is
+/// face 0). The far term has no boundary; with the reflections at both faces, first the near one, the field
+/// of a lossy wedge tends to zero along a face, as it does over any lossy surface (P. D. Holm, "A new
+/// heuristic UTD diffraction coefficient for nonperfectly conducting wedges", IEEE Trans. AP-48(8), 2000).
+/// Luebbers, and Rec. ITU-R P.526, have I there; for a conductor both are the same.
 ///
 /// M is the reflection of each face between the same unit vectors, at Luebbers' angles, with TE and TM turned
 /// into (beta_0, phi). At normal incidence on the edge M = -diag(r_TE, r_TM). Hence the sum with the direct

@@ -60,8 +60,8 @@ class PathLength {
   dvec3 before_, after_;
 };
 
-/// Returns the slope of the length along the first line at a place on it, with the best place on the second line,
-/// to which `z` is set. The slope rises along the line. NaN where both lines meet.
+/// Returns the slope of the length along the first line at a place on it, with the best place on the second
+/// line, to which `z` is set. The slope rises along the line. NaN where both lines meet.
 double slope_at(const PathLength& length, double place, const dvec3& after, dvec2& z) {
   z.x = place;
   z.y = length.between(1, length.point(0, z), after);
@@ -113,7 +113,8 @@ bool share_a_face(const scene::Wedge& first, const scene::Wedge& second) {
   return has(first.facet_0) || has(first.facet_n);
 }
 
-/// Tells whether a point between the edges may be in the exterior of one of them: a common face may be uneven.
+/// Tells whether a point between the edges may be in the exterior of one of them: a common face may be
+/// uneven.
 bool nearly_in_exterior(const scene::Wedge& wedge, const dvec3& point) {
   const dvec3 from = point - wedge.a;
   const double x = glm::dot(wedge.tangent_0, from), y = glm::dot(wedge.normal_0, from);

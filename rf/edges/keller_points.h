@@ -10,8 +10,8 @@
 
 namespace greatx::rf {
 
-/// Two planes, or a ray and a plane, that differ by less than this count as one: corners in a file stand off the
-/// planes of their facets.
+/// Two planes, or a ray and a plane, that differ by less than this count as one: corners in a file stand off
+/// the planes of their facets.
 inline constexpr double coplanar_rad = 2e-3, coplanar_m = 2e-3, parallel_rad = 0.035;
 
 /// The points of two edges over which the path from `before` to `after` is shortest.
@@ -26,8 +26,9 @@ std::optional<KellerPoints> keller_points(const scene::Wedge& first, const scene
                                           const dvec3& before, const dvec3& after);
 inline constexpr double least_edge_gap_m = 1e-3;
 
-/// Returns a bound of the loss of a path over two edges against free space over its whole length, dB: the loss
-/// is at least this, for any materials and polarizations. `before` and `after` may be images of the ends.
+/// Returns a bound of the loss of a path over two edges against free space over its whole length, dB: the
+/// loss is at least this, for any materials and polarizations. `before` and `after` may be images of the
+/// ends.
 double least_two_edge_loss_db(const scene::Wedge& first, const scene::Wedge& second, const dvec3& before,
                               const KellerPoints& points, const dvec3& after, double wave_number);
 

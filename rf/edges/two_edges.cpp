@@ -166,14 +166,14 @@ struct GrazingWave {
   Complex slope = 0.0;       ///< with the heights of the apertures
 };
 
-/// Holds the angles at which the ends of the path stand above the common face, negative below it, as seen from
-/// the farther edge. Small angles are meant: sines.
+/// Holds the angles at which the ends of the path stand above the common face, negative below it, as seen
+/// from the farther edge. Small angles are meant: sines.
 struct Elevations {
   double before = 0.0, after = 0.0;
 };
 
-/// Where an end is above the face, other paths hold its wave and its reflection at that angle. At the plane of
-/// the face, for either end, the sum with them is continuous.
+/// Where an end is above the face, other paths hold its wave and its reflection at that angle. At the plane
+/// of the face, for either end, the sum with them is continuous.
 GrazingWave grazing_wave(Complex constant, double wave_number, double length_m, const Elevations& at) {
   if (std::isinf(constant.real())) return {};
   const double above = std::max(0.0, at.before) + std::max(0.0, at.after);

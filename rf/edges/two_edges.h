@@ -38,15 +38,15 @@
 // and theta = (y_1 + y_2)/r_2 by the heights of both apertures, which are the moments of V. D = 0 is a hard
 // face (W = 1), and a large D a soft one (W = -1). The edges of a plate have a common face on each side.
 //
-// Where an end stands above the common face, other paths hold its wave and its reflection, and W goes over into
-// the coefficient of a plane wave, so that the sum is continuous (grazing_wave in the source file).
+// Where an end stands above the common face, other paths hold its wave and its reflection, and W goes over
+// into the coefficient of a plane wave, so that the sum is continuous (grazing_wave in the source file).
 //
-// Errors (`TwoEdges.*`): a conducting block of two wavelengths within 0.2 dB (hard) and 0.35 dB (soft, down to
-// -39 dB) of a boundary integral, blocks with a surface impedance (eta of 6.6 to 400) within 0.4 dB (TE) and
-// 1 dB (TM), ends in the shadow, beside the plane of the roof and above it; 0.05 dB at most where a path
-// appears or ends on a walk round a block of concrete. Approximations: no wave runs back from the second edge to
-// the first; an impedance stands for the common face, which is not rough there and scatters nothing; and those
-// of edge_dyadic().
+// Errors (`TwoEdges.*`): a conducting block of two wavelengths within 0.2 dB (hard) and 0.35 dB (soft, down
+// to -39 dB) of a boundary integral, blocks with a surface impedance (eta of 6.6 to 400) within 0.4 dB (TE)
+// and 1 dB (TM), ends in the shadow, beside the plane of the roof and above it; 0.05 dB at most where a path
+// appears or ends on a walk round a block of concrete. Approximations: no wave runs back from the second edge
+// to the first; an impedance stands for the common face, which is not rough there and scatters nothing; and
+// those of edge_dyadic().
 #pragma once
 
 #include <functional>

@@ -42,9 +42,9 @@ struct FieldModel {
   const FiniteReflectors* reflectors = nullptr;  ///< set if and only if effects.finite_reflectors is on
 };
 
-/// Computes the field along one path with any number of reflections and transmissions and at most one
-/// diffraction or scattering. Velocities are in m/s along local axes; FacetWorld::move gives those of facets
-/// and wedges.
+/// Computes the field along one path with any number of reflections and transmissions, and at most one
+/// scattering or two diffractions, one right after the other. Velocities are in m/s along local axes;
+/// FacetWorld::move gives those of facets and wedges.
 ///
 /// - Directions. A run is a straight part of the path, between two interactions that turn the path; walls
 ///   that the path passes do not split a run. The longest run takes its direction from its ends. The
@@ -65,7 +65,8 @@ struct FieldModel {
 ///   before and s after the patch, M and f_s of rf/surface/scattering.h, and r of the smooth wall. The power
 ///   S^2 Gamma^2 |E|^2 cos(theta_i) dA leaves the patch, where Gamma^2 is the mean of |r_TE|^2 and |r_TM|^2,
 ///   weighted by the power in each.
-/// - Diffraction. edge_dyadic (rf/edges/diffraction.h), whose faces reflect with the same rho and S.
+/// - Diffraction. edge_dyadic (rf/edges/diffraction.h), whose faces reflect with the same rho and S; at two
+///   edges two_edge_matrix (rf/edges/two_edges.h).
 /// - Air. Each segment loses its dB in theta_hat and phi_hat of its direction. Foliage takes foliage_db of
 ///   the depth.
 /// - Transfer. The theta and phi components at the receiver of the two unit fields at the transmitter, with

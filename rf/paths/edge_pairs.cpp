@@ -126,8 +126,9 @@ class EdgePairs::Looker {
     return in_pyramid(wedge_.a, side, corners, box) && in_pyramid(wedge_.b, side, corners, box);
   }
 
-  /// Tells whether the box lies in the pyramid that the polygon cuts out as seen from `apex`. The corners turn
-  /// counter-clockwise as seen from the side of the normal; `side`: the apex is on that side (+1), or not.
+  /// Tells whether the box lies in the pyramid that the polygon cuts out as seen from `apex`. The corners
+  /// turn counter-clockwise as seen from the side of the normal; `side`: the apex is on that side (+1), or
+  /// not.
   static bool in_pyramid(const dvec3& apex, double side, std::span<const dvec3> corners,
                          const scene::Bounds& box) {
     for (size_t i = 0; i < corners.size(); ++i) {

@@ -7,10 +7,10 @@
 //   wedge ─► tree of boxes of the others ─► boxes wholly behind one polygon, or inside the wedge, are cut off
 //         ─► the wedges that are left (once for each wedge, kept while the world rests)
 //
-// The polygon P, which is convex, hides a set of points from an edge if every point lies in the pyramid behind
-// P of both ends of the edge: a line from any place of the edge to a point then meets P between the places
-// where the lines from the ends meet it. Only polygons that the line between both middles meets are tried.
-// Hence the list of an edge is never too short, and somewhat too long.
+// The polygon P, which is convex, hides a set of points from an edge if every point lies in the pyramid
+// behind P of both ends of the edge: a line from any place of the edge to a point then meets P between the
+// places where the lines from the ends meet it. Only polygons that the line between both middles meets are
+// tried. Hence the list of an edge is never too short, and somewhat too long.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@ namespace greatx::rf {
 
 class EdgePairs {
  public:
-  /// `wedges` are those of `scene`, and must outlive this object. `max_walls`: facets of kind wall that a wave
-  /// may pass between two edges.
+  /// `wedges` are those of `scene`, and must outlive this object. `max_walls`: facets of kind wall that a
+  /// wave may pass between two edges.
   EdgePairs(std::shared_ptr<const BeamScene> scene, std::span<const scene::Wedge> wedges, uint32_t max_walls);
 
   /// Returns the wedges that a wedge may see, ascending, without itself. Many threads may call this.

@@ -96,8 +96,8 @@ struct StraightToPatches {
 
 /// Lets most segments of a path with a bend depend on one leader, because such paths are very many and most
 /// of them are blocked. The leader is the segment between two bends, or else one next to the bend that leads
-/// straight to an end, if there is one. The others are traced only if the leader is clear. The segments of the path are `segments` from
-/// `first` on.
+/// straight to an end, if there is one. The others are traced only if the leader is clear. The segments of
+/// the path are `segments` from `first` on.
 void hang_on_one(const GeometricPath& path, size_t bend, size_t first, std::vector<Segment>& segments,
                  StraightToPatches& straight) {
   const bool to_receiver = first + bend + 2 == segments.size(), to_transmitter = bend == 0;

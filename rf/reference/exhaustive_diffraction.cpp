@@ -55,8 +55,8 @@ double unfolded_place(const scene::Wedge& wedge, const dvec3& along, const dvec3
   return from_a + from_b > 0.0 ? z_a + (z_b - z_a) * from_a / (from_a + from_b) : z_a;
 }
 
-/// Returns the points of both edges for which the way from `a` to `b` is shortest, if they lie between the ends.
-/// With the best second point for each first one, the slope along the first edge rises.
+/// Returns the points of both edges for which the way from `a` to `b` is shortest, if they lie between the
+/// ends. With the best second point for each first one, the slope along the first edge rises.
 std::optional<std::pair<dvec3, dvec3>> shortest(const scene::Wedge& first, const scene::Wedge& second,
                                                 const dvec3& a, const dvec3& b) {
   const double length_1 = glm::distance(first.a, first.b), length_2 = glm::distance(second.a, second.b);

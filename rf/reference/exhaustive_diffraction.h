@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Finds the reference paths over one edge or two: every sequence of facets before and after them is tried at
-// every wedge and at every pair of wedges. It shares no code with rf/search/, rf/paths/, rf/edges/ or rf/field/,
-// and finds the points on the edges by bisection instead of Keller's closed form and Newton's method.
+// every wedge and at every pair of wedges. It shares no code with rf/search/, rf/paths/, rf/edges/ or
+// rf/field/, and finds the points on the edges by bisection instead of Keller's closed form and Newton's
+// method.
 #pragma once
 
 #include <cstdint>

@@ -197,11 +197,15 @@ void add_scattering(Table& table, const ChannelConfig& channel) {
                         up_to(table.quick() ? 1 : 2), channel.limits.max_reflections_before_scattering,
                         "reflections between a scattering and the end that is searched from at most"));
   if (table.quick()) return;
-  Knob& beside = table.add_numbers(
-      "max_reflections_beside_diffraction", {"max_reflections_beside_diffraction"}, up_to(2),
-      channel.limits.max_reflections_beside_diffraction, "reflections on each side of a diffraction at most");
-  if (!table.plan().diffraction.on)
-    Table::within(beside, "with diffraction", {effect_change("diffraction", true)});
+  const auto with_edges = [&](Knob& knob) {
+    if (!table.plan().diffraction.on)
+      Table::within(knob, "with diffraction", {effect_change("diffraction", true)});
+  };
+  with_edges(table.add_numbers("max_reflections_beside_diffraction", {"max_reflections_beside_diffraction"},
+                               up_to(2), channel.limits.max_reflections_beside_diffraction,
+                               "reflections on each side of a diffraction at most"));
+  with_edges(table.add_numbers("max_diffractions", {"max_diffractions"}, {1, 2},
+                               channel.limits.max_diffractions, "edges of a path at most"));
 }
 
 void add_csi(Table& table) {

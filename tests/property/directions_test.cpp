@@ -137,12 +137,14 @@ std::optional<std::string> directions_differ(const DrawnCase& drawn) {
   return std::nullopt;
 }
 
-/// Adds diffraction and scattering to a case, every second one with `search: every_tick`, every fourth with
-/// dispersion. The ends move by `moving`: 0 none, 1 the transmitter, 2 the receivers, 3 all.
+/// Adds diffraction and scattering to a case, every second one with `search: every_tick`, every third with
+/// two edges, every fourth with dispersion. The ends move by `moving`: 0 none, 1 the transmitter, 2 the
+/// receivers, 3 all.
 void bend(DrawnCase& drawn, uint32_t after, uint32_t moving) {
   drawn.diffraction = drawn.scattering = true;
   drawn.every_tick = drawn.seed % 2 == 0;
   drawn.dispersion = drawn.seed % 4 == 1;
+  drawn.two_edges = drawn.seed % 3 == 0;
   drawn.reflections_after = after;
   drawn.transmitter_moves = (moving & 1u) != 0;
   drawn.receivers_move = (moving & 2u) != 0;

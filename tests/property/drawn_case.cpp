@@ -193,11 +193,12 @@ void write_case(const DrawnCase& drawn, const Form& form, const std::filesystem:
   const std::string transmitter = "tx/antenna";
   yaml << fmt::format(
       "channels:\n  - {{name: csi, tx: [{}], rx: [{}], rate_hz: 10, carrier_hz: {}, bandwidth_hz: 20e6,\n"
-      "     subcarriers: 16, max_depth: {}, max_reflections_after: {}, scattering_patch_m: 16{}{},\n"
+      "     subcarriers: 16, max_depth: {}, max_reflections_after: {}, scattering_patch_m: 16{}{}{},\n"
       "     outputs: [cfr, paths]}}\n",
       form.swapped ? receivers : transmitter, form.swapped ? transmitter : receivers, drawn.carrier_hz,
       drawn.depth, drawn.reflections_after, drawn.every_tick ? ", search: every_tick" : "",
-      drawn.rays > 0 ? fmt::format(", rays: {}", drawn.rays) : "");
+      drawn.rays > 0 ? fmt::format(", rays: {}", drawn.rays) : "",
+      drawn.two_edges ? ", max_diffractions: 2" : "");
 }
 
 Links run_case(const std::filesystem::path& folder) {

@@ -37,6 +37,7 @@ struct DrawnCase {
   std::vector<dvec3> receivers;  ///< at least one
   uint32_t depth = 2;
   bool transmission = true, diffraction = false, scattering = false, dispersion = false;
+  bool two_edges = false;          ///< max_diffractions: 2
   uint32_t reflections_after = 0;  ///< max_reflections_after
   bool every_tick = false;         ///< search: every_tick
   uint32_t rays = 0;               ///< of `candidates: rays`; 0: beams

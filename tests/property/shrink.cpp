@@ -55,7 +55,7 @@ bool same(const DrawnBox& a, const DrawnBox& b) {
 bool same(const DrawnCase& a, const DrawnCase& b) {
   return a.ground == b.ground && a.transmitter == b.transmitter && a.receivers == b.receivers &&
          a.depth == b.depth && a.transmission == b.transmission && a.diffraction == b.diffraction &&
-         a.scattering == b.scattering && a.dispersion == b.dispersion &&
+         a.scattering == b.scattering && a.dispersion == b.dispersion && a.two_edges == b.two_edges &&
          a.reflections_after == b.reflections_after && a.every_tick == b.every_tick && a.rays == b.rays &&
          a.transmitter_moves == b.transmitter_moves && a.receivers_move == b.receivers_move &&
          a.carrier_hz == b.carrier_hz && a.boxes.size() == b.boxes.size() &&
@@ -80,6 +80,7 @@ std::vector<DrawnCase> smaller(const DrawnCase& drawn) {
   if (drawn.diffraction) add([](DrawnCase& c) { c.diffraction = false; });
   if (drawn.scattering) add([](DrawnCase& c) { c.scattering = false; });
   if (drawn.dispersion) add([](DrawnCase& c) { c.dispersion = false; });
+  if (drawn.two_edges) add([](DrawnCase& c) { c.two_edges = false; });
   if (drawn.reflections_after > 0) add([](DrawnCase& c) { --c.reflections_after; });
   if (drawn.rays > 0) add([](DrawnCase& c) { c.rays = 0; });
   if (drawn.every_tick) add([](DrawnCase& c) { c.every_tick = false; });

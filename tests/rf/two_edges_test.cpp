@@ -112,8 +112,8 @@ struct Shadow {
   dvec2 from, to;  ///< wavelengths
 };
 
-/// Returns the error of the sum over one and two edges against the boundary integral, dB, and the field behind
-/// the block, dB against free space.
+/// Returns the error of the sum over one and two edges against the boundary integral, dB, and the field
+/// behind the block, dB against free space.
 struct Compared {
   double error_db, field_db;
 };
@@ -188,8 +188,8 @@ TEST(TwoEdges, BlockWithASurfaceImpedance) {
   EXPECT_LT(of_denser.y, 1.1);
 }
 
-/// Returns two screens, at y = 0 with the edge at x = 0, and at y = gap with the edge at x = height; edges run
-/// along z.
+/// Returns two screens, at y = 0 with the edge at x = 0, and at y = gap with the edge at x = height; edges
+/// run along z.
 HandScene screens(double gap, double height) {
   HandScene hand;
   const uint32_t of_plates = conductor(hand);
