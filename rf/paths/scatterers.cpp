@@ -6,12 +6,18 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/parallel.h"
+#include "core/random.h"
 #include "core/watch.h"
+#include "rf/paths/scatter_draw.h"
 #include "rf/search/beam_search.h"
 
 namespace greatx::rf {
 
 namespace {
+
+/// Separates the draws of the clocks from every other use of the seed of the run.
+constexpr uint64_t way_clocks = 0x7761792d636c6b73ull;
 
 struct Triangle {
   dvec3 corners[3];
@@ -96,7 +102,13 @@ Scatterers::Scatterers(const RadioModel& model, const PathLimits& limits, bool m
     : model_(&model),
       limits_(limits),
       moving_bodies_(moving_bodies),
-      patches_(scattering_patches(*model.scene, model.kinds, limits.patch_m)) {}
+      patches_(scattering_patches(*model.scene, model.kinds, limits.patch_m)) {
+  if (limits.scattering_budget == 0) return;
+  FacetKinds kinds = model.kinds;
+  for (uint32_t i = 0; i < kinds.size(); ++i)
+    if (model.facets.facet(i).body != 0) kinds[i] = FacetKind::absent;
+  at_rest_.emplace(*model.scene, kinds);
+}
 
 /// Finds the sequences that lead to facets. A candidate sequence that ends with a facet shows that the
 /// sequence without this facet leads to the facet. `windows`: [sequences of the result], the part of the
@@ -187,45 +199,138 @@ Scatterers::PatchArrivals Scatterers::straight_to_patches(const dvec3& from) con
 void Scatterers::set_candidates(const CandidateList& candidates, const ImageTree& tree) {
   std::vector<PlaneWindow> windows;
   at_facets_ = arrivals_at_facets(candidates, limits_.max_reflections_before_scattering, windows);
-  at_patches_ = arrivals_at_patches(at_facets_, windows, tree);
+  place_ways(tree, windows);
 }
 
-void Scatterers::move(const ImageTree& tree) { at_patches_ = arrivals_at_patches(at_facets_, {}, tree); }
+void Scatterers::move(const ImageTree& tree) { place_ways(tree, {}); }
 
-/// Joins every prefix with every suffix at a patch whose centre both reach from the same side.
-void Scatterers::scatter(const ImageTree& tree, const dvec3& target, size_t number,
-                         const PatchArrivals& suffixes, std::vector<GeometricPath>& paths) const {
+void Scatterers::place_ways(const ImageTree& tree, const std::vector<PlaneWindow>& windows) {
+  at_patches_ = arrivals_at_patches(at_facets_, windows, tree);
+  if (!at_rest_) return;
+  std::vector<std::pair<uint32_t, uint32_t>> ways;  // patch, arrival
+  for (uint32_t patch = 0; patch < patches_.size(); ++patch)
+    for (uint32_t i = at_patches_.offsets[patch]; i < at_patches_.offsets[patch + 1]; ++i)
+      ways.emplace_back(patch, i);
+  std::vector<std::optional<LitPatch>> found(ways.size());
+  constexpr size_t ways_at_once = 256;
+  parallel_for((ways.size() + ways_at_once - 1) / ways_at_once, 0, [&](size_t chunk) {
+    checkpoint();
+    for (size_t i = chunk * ways_at_once; i < std::min(ways.size(), (chunk + 1) * ways_at_once); ++i)
+      found[i] = lit_patch(ways[i].first, ways[i].second, tree.source());
+  });
+  std::vector<LitPatch> scatterers;
+  for (const std::optional<LitPatch>& one : found)
+    if (one) scatterers.push_back(*one);
+  tree_ = ScatterTree(std::move(scatterers));
+}
+
+/// Tells whether something that never moves blocks the way from the source to a patch.
+bool Scatterers::dark_for_good(const PatchArrival& way, const Patch& patch, const dvec3& source) const {
+  const uint32_t interactions = way.depth + 1;
+  const uint32_t walls =
+      model_->effects.transmission && interactions < limits_.max_depth
+          ? std::min({limits_.max_depth - interactions, limits_.max_transmissions, shared::crossings_max})
+          : 0;
+  Crossing crossing;
+  for (uint32_t i = 0; i <= way.depth; ++i) {
+    Segment segment{.a = i == 0 ? source : at_patches_.points[way.first + i - 1],
+                    .b = i == way.depth ? center(patch) : at_patches_.points[way.first + i]};
+    if (i > 0) segment.facet_a = at_patches_.facets[way.first + i - 1];
+    segment.facet_b = i == way.depth ? patch.facet : at_patches_.facets[way.first + i];
+    segment.walls = walls;
+    at_rest_->settle(model_->facets, segment, crossing);
+    if (crossing.blocked) return true;
+  }
+  return false;
+}
+
+/// Describes a patch as the wave on a way from the source meets it. None: it is not lit.
+std::optional<LitPatch> Scatterers::lit_patch(uint32_t number, uint32_t arrival, const dvec3& source) const {
+  const Patch& patch = patches_[number];
+  const PatchArrival& way = at_patches_.arrivals[arrival];
+  const PosedFacet& facet = model_->facets.facet(patch.facet);
+  const double side = facet.distance(way.from);
+  if (std::abs(side) <= facet.tolerance_m || dark_for_good(way, patch, source)) return std::nullopt;
+  const auto reflected = [&](const PosedFacet& mirror, const dvec3& in) {
+    const double towards = glm::dot(in, mirror.normal);
+    const ReflectionCoefficients r =
+        model_->surfaces.reflect(mirror.material, towards < 0.0, std::min(1.0, std::abs(towards)));
+    // A share that is too small costs accuracy, and one of 0 would lose power.
+    return std::max(1e-4, 0.5 * (std::norm(r.r_te) + std::norm(r.r_tm)));
+  };
+  LitPatch scatterer;
+  scatterer.position = center(patch);
+  scatterer.normal = side > 0.0 ? facet.normal : -facet.normal;
+  const dvec3 in = glm::normalize(scatterer.position - way.from);
+  const double cos_in = std::max(0.0, -glm::dot(in, scatterer.normal));
+  scatterer.specular = in + 2.0 * cos_in * scatterer.normal;
+  scatterer.surface = &model_->surfaces.surface(facet.material).scattering;
+  const double coefficient = scatterer.surface->coefficient;
+  scatterer.power = coefficient * coefficient * reflected(facet, in) * std::max(cos_in, 1e-9) *
+                    patch.area_m2 / (way.length_m * way.length_m);
+  dvec3 from = source;
+  uint64_t key = model_->effects.field.seed ^ way_clocks;
+  for (uint32_t i = way.first; i < way.first + way.depth; ++i) {
+    const dvec3& to = at_patches_.points[i];
+    if (to != from)
+      scatterer.power *= reflected(model_->facets.facet(at_patches_.facets[i]), glm::normalize(to - from));
+    from = to;
+    key = RandomStream(key, at_patches_.facets[i], i - way.first).bits();
+  }
+  if (!(scatterer.power > 0.0)) return std::nullopt;
+  scatterer.length_m = way.length_m;
+  scatterer.facet = patch.facet;
+  scatterer.patch = number;
+  scatterer.arrival = arrival;
+  scatterer.clock = -std::log(1.0 - RandomStream(key, patch.facet, patch.number).uniform());
+  return scatterer;
+}
+
+/// Appends the path of a prefix and a suffix that meet at a patch, if both reach its centre from the same
+/// side.
+void Scatterers::join(const ImageTree& tree, const dvec3& target, size_t number, const PatchArrival& before,
+                      const PatchArrival& after, const PatchArrivals& suffixes,
+                      std::vector<GeometricPath>& paths) const {
   const Patch& patch = patches_[number];
   const PosedFacet& facet = model_->facets.facet(patch.facet);
-  const dvec3 point = center(patch);
-  for (const PatchArrival& after : suffixes.of(number)) {
-    checkpoint();
-    const double to = facet.distance(after.from);
-    if (std::abs(to) <= facet.tolerance_m) continue;
-    for (const PatchArrival& before : at_patches_.of(number)) {
-      const size_t count = before.depth + 1 + after.depth;
-      if (count > limits_.max_depth) continue;
-      const double from = facet.distance(before.from);
-      if (std::abs(from) <= facet.tolerance_m || from * to < 0.0) continue;
-      GeometricPath& path = paths.emplace_back();
-      path.interactions.reserve(count);
-      path.vertices.reserve(count + 2);
-      path.vertices.push_back(tree.source());
-      for (uint32_t i = before.first; i < before.first + before.depth; ++i) {
-        path.interactions.push_back({InteractionType::reflection, at_patches_.facets[i]});
-        path.vertices.push_back(at_patches_.points[i]);
-      }
-      path.interactions.push_back({InteractionType::scattering, patch.facet, patch.number});
-      path.vertices.push_back(point);
-      for (uint32_t i = after.first + after.depth; i-- > after.first;) {
-        path.interactions.push_back({InteractionType::reflection, suffixes.facets[i]});
-        path.vertices.push_back(suffixes.points[i]);
-      }
-      path.vertices.push_back(target);
-      path.length_m = before.length_m + after.length_m;
-      path.patch_area_m2 = patch.area_m2;
-      if (tree.end() == Source::receiver) turn_to_transmitter(path);
-    }
+  const double to = facet.distance(after.from);
+  if (std::abs(to) <= facet.tolerance_m) return;
+  const size_t count = before.depth + 1 + after.depth;
+  if (count > limits_.max_depth) return;
+  const double from = facet.distance(before.from);
+  if (std::abs(from) <= facet.tolerance_m || from * to < 0.0) return;
+  GeometricPath& path = paths.emplace_back();
+  path.interactions.reserve(count);
+  path.vertices.reserve(count + 2);
+  path.vertices.push_back(tree.source());
+  for (uint32_t i = before.first; i < before.first + before.depth; ++i) {
+    path.interactions.push_back({InteractionType::reflection, at_patches_.facets[i]});
+    path.vertices.push_back(at_patches_.points[i]);
+  }
+  path.interactions.push_back({InteractionType::scattering, patch.facet, patch.number});
+  path.vertices.push_back(center(patch));
+  for (uint32_t i = after.first + after.depth; i-- > after.first;) {
+    path.interactions.push_back({InteractionType::reflection, suffixes.facets[i]});
+    path.vertices.push_back(suffixes.points[i]);
+  }
+  path.vertices.push_back(target);
+  path.length_m = before.length_m + after.length_m;
+  path.patch_area_m2 = patch.area_m2;
+  if (tree.end() == Source::receiver) turn_to_transmitter(path);
+}
+
+/// Appends the paths of the draws for a target, to which patches send straight.
+void Scatterers::draw(const ImageTree& tree, const dvec3& target, std::vector<GeometricPath>& paths) const {
+  if (tree_.empty()) return;
+  const PatchArrivals none;
+  for (const ScatterDraw& draw : draw_scatterers(tree_, target, limits_.scattering_budget)) {
+    const LitPatch& scatterer = tree_.scatterers()[draw.scatterer];
+    const size_t known = paths.size();
+    join(tree, target, scatterer.patch, at_patches_.arrivals[scatterer.arrival],
+         {0, 0, target, glm::length(target - scatterer.position)}, none, paths);
+    if (paths.size() == known) continue;
+    paths.back().patch_area_m2 *= draw.factor;
+    paths.back().stratum = draw.stratum;
   }
 }
 
@@ -233,6 +338,10 @@ LeftOut Scatterers::solve(const ImageTree& tree, const dvec3& target, uint32_t t
                           std::vector<GeometricPath>& paths) const {
   LeftOut left_out;
   if (at_patches_.arrivals.empty()) return left_out;
+  if (limits_.scattering_budget > 0 && limits_.max_reflections_after == 0) {
+    draw(tree, target, paths);
+    return left_out;
+  }
   PatchArrivals at_patches;
   if (limits_.max_reflections_after > 0) {
     BeamSearchOptions search;
@@ -250,7 +359,12 @@ LeftOut Scatterers::solve(const ImageTree& tree, const dvec3& target, uint32_t t
   } else {
     at_patches = straight_to_patches(target);
   }
-  for (size_t patch = 0; patch < patches_.size(); ++patch) scatter(tree, target, patch, at_patches, paths);
+  for (size_t patch = 0; patch < patches_.size(); ++patch) {
+    checkpoint();
+    for (const PatchArrival& after : at_patches.of(patch))
+      for (const PatchArrival& before : at_patches_.of(patch))
+        join(tree, target, patch, before, after, at_patches, paths);
+  }
   return left_out;
 }
 

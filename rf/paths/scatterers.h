@@ -3,10 +3,12 @@
 //
 // Finds paths with a scattering in the middle: reflections lead from the source to a patch (prefix) and from
 // there to the target (suffix). Prefixes come from the source's candidates, and suffixes from a search at the
-// target.
+// target. With PathLimits::scattering_budget the prefixes that are not dark for good are in a ScatterTree, of
+// which each target draws some.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,7 +16,9 @@
 #include "rf/geometry/candidates.h"
 #include "rf/geometry/geometry.h"
 #include "rf/geometry/path.h"
+#include "rf/paths/exact_crossings.h"
 #include "rf/paths/radio_model.h"
+#include "rf/paths/scatter_tree.h"
 
 namespace greatx::rf {
 
@@ -81,9 +85,14 @@ class Scatterers {
   PatchArrivals arrivals_at_patches(const Arrivals& at_facets, const std::vector<PlaneWindow>& windows,
                                     const ImageTree& tree) const;
   PatchArrivals straight_to_patches(const dvec3& from) const;
+  void place_ways(const ImageTree& tree, const std::vector<PlaneWindow>& windows);
+  bool dark_for_good(const PatchArrival& way, const Patch& patch, const dvec3& source) const;
+  std::optional<LitPatch> lit_patch(uint32_t patch, uint32_t arrival, const dvec3& source) const;
   dvec3 center(const Patch& patch) const;
-  void scatter(const ImageTree& tree, const dvec3& target, size_t patch, const PatchArrivals& suffixes,
-               std::vector<GeometricPath>& paths) const;
+  void join(const ImageTree& tree, const dvec3& target, size_t patch, const PatchArrival& before,
+            const PatchArrival& after, const PatchArrivals& suffixes,
+            std::vector<GeometricPath>& paths) const;
+  void draw(const ImageTree& tree, const dvec3& target, std::vector<GeometricPath>& paths) const;
 
   const RadioModel* model_;
   PathLimits limits_;
@@ -91,6 +100,8 @@ class Scatterers {
   std::vector<Patch> patches_;
   Arrivals at_facets_;
   PatchArrivals at_patches_;
+  std::optional<ExactCrossings> at_rest_;  ///< what never moves, as obstacles; set if there is a budget
+  ScatterTree tree_;                       ///< of `at_patches_`, if there is a budget
 };
 
 }  // namespace greatx::rf
