@@ -13,8 +13,6 @@ namespace {
 
 /// Cells for each draw: with more of them, the strata follow delay and place more closely.
 constexpr double cells_of_draw = 4.0;
-/// Bins share the budget by their power to this exponent. 1 would be best for the sum, 0 for the bins.
-constexpr double bin_exponent = 0.5;
 constexpr uint32_t most_bins = 4096;
 
 /// A node that is not opened further, with what it sends to the target.
@@ -23,9 +21,10 @@ struct Cell {
   double power = 0.0;
 };
 
-/// A bin of delay with its share of the budget.
+/// A bin of delay with its share of the budget. Bins share it by the roots of their powers: shares by the powers
+/// would be best for the sum, and equal shares for the bins.
 struct Bin {
-  double power = 0.0;
+  double power = 0.0, weight = 0.0;
   uint32_t cells = 0, draws = 0;
 };
 
@@ -116,17 +115,19 @@ class Strata {
     }
     // A bin that has all its cells leaves the rest of its share to the others.
     uint32_t left = budget_;
-    for (Bin& bin : bins_)
+    for (Bin& bin : bins_) {
+      bin.weight = std::sqrt(bin.power);
       if (bin.cells > 0) bin.draws = 1, --left;
+    }
     for (int round = 0; round < 4; ++round) {
       double weights = 0.0;
       for (const Bin& bin : bins_)
-        if (bin.draws < bin.cells) weights += std::pow(bin.power, bin_exponent);
+        if (bin.draws < bin.cells) weights += bin.weight;
       if (weights == 0.0) break;
       const double share = left / weights;
       for (Bin& bin : bins_) {
         if (bin.draws >= bin.cells) continue;
-        const auto more = static_cast<uint32_t>(share * std::pow(bin.power, bin_exponent));
+        const auto more = static_cast<uint32_t>(share * bin.weight);
         const uint32_t taken = std::min({more, bin.cells - bin.draws, left});
         bin.draws += taken, left -= taken;
       }

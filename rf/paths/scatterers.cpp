@@ -224,24 +224,45 @@ void Scatterers::place_ways(const ImageTree& tree, const std::vector<PlaneWindow
   tree_ = ScatterTree(std::move(scatterers));
 }
 
-/// Tells whether something that never moves blocks the way from the source to a patch.
-bool Scatterers::dark_for_good(const PatchArrival& way, const Patch& patch, const dvec3& source) const {
+/// Returns the number of walls that a path with these interactions may pass.
+uint32_t Scatterers::walls_beside(uint32_t interactions) const {
+  if (!model_->effects.transmission || interactions >= limits_.max_depth) return 0;
+  return std::min({limits_.max_depth - interactions, limits_.max_transmissions, shared::crossings_max});
+}
+
+/// Returns the share of the power that passes everything at rest on a segment; 0: it is blocked.
+double Scatterers::passes_what_rests(const Segment& segment) const {
+  Crossing crossing;
+  at_rest_->settle(model_->facets, segment, crossing);
+  if (crossing.blocked) return 0.0;
+  double share = 1.0;
+  for (const uint32_t wall : crossing.walls) {
+    const PosedFacet& facet = model_->facets.facet(wall);
+    const double towards = glm::dot(glm::normalize(segment.b - segment.a), facet.normal);
+    const SheetTransmission sheet =
+        model_->surfaces.transmit(facet.material, towards < 0.0, std::min(1.0, std::abs(towards)));
+    share *= 0.5 * (std::norm(sheet.te) + std::norm(sheet.tm));
+  }
+  return std::max(share, 1e-30);
+}
+
+/// Returns the share of the source's power that passes what is at rest on the way to a patch; 0: none does.
+double Scatterers::reaches(const PatchArrival& way, const Patch& patch, const dvec3& source) const {
   const uint32_t interactions = way.depth + 1;
   const uint32_t walls =
       model_->effects.transmission && interactions < limits_.max_depth
           ? std::min({limits_.max_depth - interactions, limits_.max_transmissions, shared::crossings_max})
           : 0;
-  Crossing crossing;
-  for (uint32_t i = 0; i <= way.depth; ++i) {
+  double share = 1.0;
+  for (uint32_t i = 0; i <= way.depth && share > 0.0; ++i) {
     Segment segment{.a = i == 0 ? source : at_patches_.points[way.first + i - 1],
                     .b = i == way.depth ? center(patch) : at_patches_.points[way.first + i]};
     if (i > 0) segment.facet_a = at_patches_.facets[way.first + i - 1];
     segment.facet_b = i == way.depth ? patch.facet : at_patches_.facets[way.first + i];
     segment.walls = walls;
-    at_rest_->settle(model_->facets, segment, crossing);
-    if (crossing.blocked) return true;
+    share *= passes_what_rests(segment);
   }
-  return false;
+  return share;
 }
 
 /// Describes a patch as the wave on a way from the source meets it. None: it is not lit.
@@ -250,7 +271,9 @@ std::optional<LitPatch> Scatterers::lit_patch(uint32_t number, uint32_t arrival,
   const PatchArrival& way = at_patches_.arrivals[arrival];
   const PosedFacet& facet = model_->facets.facet(patch.facet);
   const double side = facet.distance(way.from);
-  if (std::abs(side) <= facet.tolerance_m || dark_for_good(way, patch, source)) return std::nullopt;
+  if (std::abs(side) <= facet.tolerance_m) return std::nullopt;
+  const double share = reaches(way, patch, source);
+  if (share == 0.0) return std::nullopt;
   const auto reflected = [&](const PosedFacet& mirror, const dvec3& in) {
     const double towards = glm::dot(in, mirror.normal);
     const ReflectionCoefficients r =
@@ -266,7 +289,7 @@ std::optional<LitPatch> Scatterers::lit_patch(uint32_t number, uint32_t arrival,
   scatterer.specular = in + 2.0 * cos_in * scatterer.normal;
   scatterer.surface = &model_->surfaces.surface(facet.material).scattering;
   const double coefficient = scatterer.surface->coefficient;
-  scatterer.power = coefficient * coefficient * reflected(facet, in) * std::max(cos_in, 1e-9) *
+  scatterer.power = share * coefficient * coefficient * reflected(facet, in) * std::max(cos_in, 1e-9) *
                     patch.area_m2 / (way.length_m * way.length_m);
   dvec3 from = source;
   uint64_t key = model_->effects.field.seed ^ way_clocks;

@@ -86,7 +86,9 @@ class Scatterers {
                                     const ImageTree& tree) const;
   PatchArrivals straight_to_patches(const dvec3& from) const;
   void place_ways(const ImageTree& tree, const std::vector<PlaneWindow>& windows);
-  bool dark_for_good(const PatchArrival& way, const Patch& patch, const dvec3& source) const;
+  uint32_t walls_beside(uint32_t interactions) const;
+  double passes_what_rests(const Segment& segment) const;
+  double reaches(const PatchArrival& way, const Patch& patch, const dvec3& source) const;
   std::optional<LitPatch> lit_patch(uint32_t patch, uint32_t arrival, const dvec3& source) const;
   dvec3 center(const Patch& patch) const;
   void join(const ImageTree& tree, const dvec3& target, size_t patch, const PatchArrival& before,
