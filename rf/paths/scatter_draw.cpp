@@ -12,7 +12,7 @@ namespace greatx::rf {
 namespace {
 
 /// Cells for each draw: with more of them, the strata follow delay and place more closely.
-constexpr double cells_of_draw = 4.0;
+constexpr double cells_of_draw = 8.0;
 constexpr uint32_t most_bins = 4096;
 
 /// A node that is not opened further, with what it sends to the target.
@@ -21,8 +21,8 @@ struct Cell {
   double power = 0.0;
 };
 
-/// A bin of delay with its share of the budget. Bins share it by the roots of their powers: shares by the powers
-/// would be best for the sum, and equal shares for the bins.
+/// A bin of delay with its share of the budget. Bins share it by the powers to the exponent 2/3: an exponent of
+/// 1 would be best for the sum, and 0 for the bins.
 struct Bin {
   double power = 0.0, weight = 0.0;
   uint32_t cells = 0, draws = 0;
@@ -116,7 +116,7 @@ class Strata {
     // A bin that has all its cells leaves the rest of its share to the others.
     uint32_t left = budget_;
     for (Bin& bin : bins_) {
-      bin.weight = std::sqrt(bin.power);
+      bin.weight = std::cbrt(bin.power * bin.power);
       if (bin.cells > 0) bin.draws = 1, --left;
     }
     for (int round = 0; round < 4; ++round) {
