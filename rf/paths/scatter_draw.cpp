@@ -15,14 +15,19 @@ namespace {
 constexpr double cells_of_draw = 8.0;
 constexpr uint32_t most_bins = 4096;
 
-/// A node that is not opened further, with what it sends to the target.
+/// Holds what is drawn as one: a node of the tree that is not opened further, or a single scattering.
 struct Cell {
-  uint32_t node = 0, bin = 0;
-  double power = 0.0;
+  uint32_t node = ScatterTree::none;
+  uint32_t index = 0;  ///< of the scattering that is drawn for the cell
+  uint32_t bin = 0;
+  double power = 0.0, length_m = 0.0;  ///< at the target
+  double clock = 0.0;                  ///< divided by the power
+  double factor = 1.0;                 ///< power of the cell by that of its scattering
+  bool divisible = false;
 };
 
-/// A bin of delay with its share of the budget. Bins share it by the powers to the exponent 2/3: an exponent of
-/// 1 would be best for the sum, and 0 for the bins.
+/// A bin of delay with its share of the budget. Bins share it by the powers to the exponent 2/3: an exponent
+/// of 1 would be best for the sum, and 0 for the bins.
 struct Bin {
   double power = 0.0, weight = 0.0;
   uint32_t cells = 0, draws = 0;
@@ -30,46 +35,62 @@ struct Bin {
 
 class Strata {
  public:
-  Strata(const ScatterTree& tree, const dvec3& target, uint32_t budget)
-      : tree_(tree), target_(target), budget_(budget) {}
+  Strata(const ScatterTree& tree, const dvec3& target, std::span<const SingleScattering> singles,
+         uint32_t budget)
+      : tree_(tree), target_(target), budget_(budget) {
+    if (!tree.empty()) add(cells_, 0);
+    const auto first = static_cast<uint32_t>(tree.patches().size());
+    for (uint32_t i = 0; i < singles.size(); ++i) {
+      const SingleScattering& one = singles[i];
+      if (one.power > 0.0)
+        cells_.push_back({.index = first + i,
+                          .power = one.power,
+                          .length_m = one.length_m,
+                          .clock = one.clock / one.power});
+    }
+  }
 
   std::vector<ScatterDraw> draw() {
-    find_cells();
+    open_all();
     share_out();
     // A cell with more power than a stratum of its bin is opened, because it would have to be drawn twice.
     while (
         open([this](const Cell& cell) { return cell.power > bins_[cell.bin].power / bins_[cell.bin].draws; }))
       share_out();
-    std::vector<ScatterDraw> draws;
     std::vector<std::vector<uint32_t>> of_bin(bins_.size());
     for (uint32_t i = 0; i < cells_.size(); ++i) of_bin[cells_[i].bin].push_back(i);
-    for (uint32_t b = 0; b < bins_.size(); ++b) draw_bin(of_bin[b], bins_[b].draws, draws);
-    return draws;
+    for (uint32_t b = 0; b < bins_.size(); ++b)
+      if (!of_bin[b].empty()) draw_bin(of_bin[b], bins_[b].draws);
+    return std::move(draws_);
   }
 
  private:
-  const ScatterTree::Node& node_of(const Cell& cell) const { return tree_.nodes()[cell.node]; }
-
-  void add(std::vector<Cell>& cells, uint32_t node) const {
-    const double power = tree_.to(tree_.nodes()[node], target_);
-    if (power > 0.0) cells.push_back({node, 0, power});
+  void add(std::vector<Cell>& cells, uint32_t index) const {
+    const ScatterTree::Node& node = tree_.nodes()[index];
+    const double power = tree_.to(node, target_);
+    if (!(power > 0.0)) return;
+    cells.push_back({.node = index,
+                     .index = node.drawn,
+                     .power = power,
+                     .length_m = node.length_m + glm::length(target_ - node.center),
+                     .clock = node.clock * node.power / power,
+                     .factor = node.power / tree_.patches()[node.drawn].power,
+                     .divisible = node.second != ScatterTree::none});
   }
 
-  /// Replaces the cells that are nodes with children, and for which `wanted` holds, by their children, in
-  /// order. Returns whether there was one.
+  /// Replaces the nodes for which `wanted` holds by their children, in order. Returns whether there was one.
   template <typename Wanted>
   bool open(const Wanted& wanted) {
     std::vector<Cell> next;
     next.reserve(cells_.size() + 64);
     bool opened = false;
     for (const Cell& cell : cells_) {
-      const uint32_t second = node_of(cell).second;
-      if (second == ScatterTree::none || !wanted(cell)) {
+      if (!cell.divisible || !wanted(cell)) {
         next.push_back(cell);
         continue;
       }
       add(next, cell.node + 1);
-      add(next, second);
+      add(next, tree_.nodes()[cell.node].second);
       opened = true;
     }
     cells_ = std::move(next);
@@ -77,10 +98,8 @@ class Strata {
   }
 
   /// Opens nodes until none has more than a small part of the power. Their number does not depend on that of
-  /// the scatterers.
-  void find_cells() {
-    cells_.clear();
-    add(cells_, 0);
+  /// the patches.
+  void open_all() {
     double least = 0.0;
     do {
       double total = 0.0;
@@ -91,39 +110,39 @@ class Strata {
 
   /// Puts the cells into bins, which share the budget.
   void share_out() {
-    std::vector<double> lengths;
-    lengths.reserve(cells_.size());
     double shortest = 1e300, longest = 0.0;
-    for (const Cell& cell : cells_) {
-      const ScatterTree::Node& node = node_of(cell);
-      lengths.push_back(node.length_m + glm::length(target_ - node.center));
-      shortest = std::min(shortest, lengths.back()), longest = std::max(longest, lengths.back());
-    }
+    for (const Cell& cell : cells_)
+      shortest = std::min(shortest, cell.length_m), longest = std::max(longest, cell.length_m);
     // The bins are wider if they are too many for the budget.
     const double span = std::max(0.0, longest - shortest);
-    const double most = std::min<double>(most_bins, std::max(1.0, 0.25 * budget_));
-    const double width = span / delay_bin_m < most - 1.0 ? delay_bin_m : span / most;
+    const double most = std::clamp(0.25 * budget_, 1.0, double{most_bins});
+    const bool usual = span / delay_bin_m < most - 1.0;
+    const double width = usual ? delay_bin_m : span / most;
     // Bins of the usual width begin where those of every link do.
-    const double origin = width == delay_bin_m ? delay_bin_m * std::floor(shortest / delay_bin_m) : shortest;
+    const double origin = usual ? delay_bin_m * std::floor(shortest / delay_bin_m) : shortest;
     const auto last = static_cast<uint32_t>(most) - 1;
-    bins_.assign(static_cast<size_t>(last) + 1, {});
-    for (size_t i = 0; i < cells_.size(); ++i) {
-      Cell& cell = cells_[i];
-      cell.bin = std::min(last, static_cast<uint32_t>(std::max(0.0, (lengths[i] - origin) / width)));
+    bins_.assign(size_t{last} + 1, {});
+    for (Cell& cell : cells_) {
+      const double number = (cell.length_m - origin) / width;  // NaN if all have one length
+      cell.bin = number > 0.0 ? static_cast<uint32_t>(std::min<double>(last, number)) : 0;
       bins_[cell.bin].power += cell.power;
       ++bins_[cell.bin].cells;
     }
-    // A bin that has all its cells leaves the rest of its share to the others.
+    for (Bin& bin : bins_) bin.weight = std::cbrt(bin.power * bin.power);
+    share_budget();
+  }
+
+  /// Gives every bin a draw, and the rest by weight. A bin with a draw for each cell leaves the rest of its
+  /// share to the others.
+  void share_budget() {
     uint32_t left = budget_;
-    for (Bin& bin : bins_) {
-      bin.weight = std::cbrt(bin.power * bin.power);
+    for (Bin& bin : bins_)
       if (bin.cells > 0) bin.draws = 1, --left;
-    }
-    for (int round = 0; round < 4; ++round) {
+    for (int round = 0; round < 4 && left > 0; ++round) {
       double weights = 0.0;
       for (const Bin& bin : bins_)
         if (bin.draws < bin.cells) weights += bin.weight;
-      if (weights == 0.0) break;
+      if (weights == 0.0) return;
       const double share = left / weights;
       for (Bin& bin : bins_) {
         if (bin.draws >= bin.cells) continue;
@@ -134,52 +153,54 @@ class Strata {
     }
   }
 
-  void add_draw(const Cell& cell, double stratum_power, bool alone, std::vector<ScatterDraw>& draws) {
-    const ScatterTree::Node& node = node_of(cell);
-    const double own = tree_.scatterers()[node.drawn].power;
-    draws.push_back({node.drawn, stratum_power / cell.power * (node.power / own), alone ? 0 : ++strata_});
+  void add_draw(const Cell& cell, double stratum_power, bool alone) {
+    draws_.push_back({cell.index, stratum_power / cell.power * cell.factor, alone ? 0 : ++strata_});
   }
 
   /// Draws `count` of the cells of a bin.
-  void draw_bin(std::vector<uint32_t>& cells, uint32_t count, std::vector<ScatterDraw>& draws) {
-    double power = 0.0;
-    for (const uint32_t i : cells) power += cells_[i].power;
-    // Single scatterers with the power of a stratum or more stand for themselves. Without them the strata
-    // of the others have less.
-    for (bool again = true; again && count > 0;) {
-      again = false;
-      const double stratum = power / count;
-      std::erase_if(cells, [&](uint32_t i) {
-        const Cell& cell = cells_[i];
-        if (count == 0 || cell.power < stratum || node_of(cell).second != ScatterTree::none) return false;
-        if (cells.size() > 1 && count == 1) return false;
-        add_draw(cell, cell.power, true, draws);
-        power -= cell.power, --count;
-        again = true;
-        return true;
-      });
-      if (cells.empty()) return;
-    }
-    power = 0.0;
-    for (const uint32_t i : cells) power += cells_[i].power;
+  void draw_bin(std::vector<uint32_t>& cells, uint32_t count) {
+    double power = take_large_ones(cells, count);
+    if (cells.empty()) return;
     const double stratum = power / count;
     double before = 0.0;
-    for (size_t first = 0; first < cells.size();) {
-      const auto number_of = [&](double at) { return std::min(count - 1.0, std::floor(at / stratum)); };
-      const double number = number_of(before + 0.5 * cells_[cells[first]].power);
-      double sum = 0.0, least = 1e300;
-      uint32_t winner = cells[first];
-      size_t last = first;
-      for (; last < cells.size(); ++last) {
+    const auto number_of = [&](const Cell& cell) {
+      return std::min(count - 1.0, std::floor((before + 0.5 * cell.power) / stratum));
+    };
+    for (size_t first = 0, last = 0; first < cells.size(); first = last) {
+      const double number = number_of(cells_[cells[first]]);
+      const Cell* winner = nullptr;
+      double sum = 0.0;
+      for (last = first; last < cells.size() && number_of(cells_[cells[last]]) == number; ++last) {
         const Cell& cell = cells_[cells[last]];
-        if (number_of(before + 0.5 * cell.power) != number) break;
         before += cell.power, sum += cell.power;
-        const double clock = node_of(cell).clock * node_of(cell).power / cell.power;
-        if (clock < least) least = clock, winner = cells[last];
+        if (winner == nullptr || cell.clock < winner->clock) winner = &cell;
       }
-      const bool alone = last - first == 1 && node_of(cells_[winner]).second == ScatterTree::none;
-      add_draw(cells_[winner], sum, alone, draws);
-      first = last;
+      add_draw(*winner, sum, last - first == 1 && !winner->divisible);
+    }
+  }
+
+  /// Lets single scatterings with the power of a stratum or more stand for themselves. Without them the
+  /// strata of the others have less. At least one draw is left if a cell is. Returns the power that is left.
+  double take_large_ones(std::vector<uint32_t>& cells, uint32_t& count) {
+    for (;;) {
+      double power = 0.0;
+      for (const uint32_t i : cells) power += cells_[i].power;
+      const double stratum = power / count;
+      std::vector<uint32_t> small;
+      size_t looked_at = 0;
+      for (const uint32_t i : cells) {
+        const bool others = ++looked_at < cells.size() || !small.empty();
+        const Cell& cell = cells_[i];
+        if (cell.divisible || cell.power < stratum || (others && count == 1)) {
+          small.push_back(i);
+          continue;
+        }
+        add_draw(cell, cell.power, true);
+        --count;
+      }
+      const bool done = small.size() == cells.size();
+      cells = std::move(small);
+      if (done || cells.empty()) return power;
     }
   }
 
@@ -187,20 +208,21 @@ class Strata {
   dvec3 target_;
   uint32_t budget_;
   uint32_t strata_ = 0;
-  std::vector<Cell> cells_;  ///< in the order of the tree
+  std::vector<Cell> cells_;  ///< in the order of the tree, and of the single scatterings
   std::vector<Bin> bins_;
+  std::vector<ScatterDraw> draws_;
 };
 
 }  // namespace
 
-std::vector<ScatterDraw> draw_scatterers(const ScatterTree& tree, const dvec3& target, uint32_t budget) {
+std::vector<ScatterDraw> draw_scatterings(const ScatterTree& tree, const dvec3& target,
+                                          std::span<const SingleScattering> singles, uint32_t budget) {
   GREATX_CHECK(budget > 0, "a budget of {}", budget);
+  const size_t count = tree.patches().size() + singles.size();
+  if (count > budget) return Strata(tree, target, singles, budget).draw();
   std::vector<ScatterDraw> draws;
-  if (tree.scatterers().size() <= budget) {
-    for (uint32_t i = 0; i < tree.scatterers().size(); ++i) draws.push_back({i, 1.0, 0});
-    return draws;
-  }
-  return Strata(tree, target, budget).draw();
+  for (uint32_t i = 0; i < count; ++i) draws.push_back({.index = i});
+  return draws;
 }
 
 double scattered_deviation(std::span<const Path> paths) {
@@ -210,9 +232,9 @@ double scattered_deviation(std::span<const Path> paths) {
     if (strata.size() < path.stratum) strata.resize(path.stratum);
     for (const Complex& t : path.transfer) strata[path.stratum - 1] += 0.5 * std::norm(t);
   }
-  double variance = 0.0;
   if (strata.size() % 2 == 1) strata.push_back(0.0);
-  for (size_t i = 0; i + 1 < strata.size(); i += 2)
+  double variance = 0.0;
+  for (size_t i = 0; i < strata.size(); i += 2)
     variance += (strata[i] - strata[i + 1]) * (strata[i] - strata[i + 1]);
   return std::sqrt(variance);
 }

@@ -26,16 +26,21 @@ double lobe_around(const dvec3& axis, const dvec3& out, uint32_t exponent) {
   return whole_power(std::min(1.0, 0.25 * glm::dot(sum, sum)), exponent);
 }
 
-/// Returns what scattering_pattern() divides by, for a wave at this cosine of incidence.
-double lobe_norm(const DiffuseScattering& surface, double cos_in) {
-  if (surface.pattern == scene::ScatteringPattern::lambertian) return pi;
-  const double forward = lobe_normalisation(surface.exponent, cos_in);
-  if (surface.pattern == scene::ScatteringPattern::directive) return forward;
+/// Returns the largest value of scattering_pattern() for a wave whose reflection leaves at this cosine from the
+/// normal; or rather of a pattern that reaches the top of its lobes. scattering_pattern() is lobe_of() times it.
+double peak_of(const DiffuseScattering& surface, double cosine) {
+  if (surface.pattern == scene::ScatteringPattern::lambertian) return 1.0 / pi;
+  const double forward = lobe_normalisation(surface.exponent, cosine);
+  if (surface.pattern == scene::ScatteringPattern::directive) return 1.0 / forward;
   const double back = surface.backscatter_share;
-  return (1.0 - back) * forward + back * lobe_normalisation(surface.backscatter_exponent, cos_in);
+  return 1.0 / ((1.0 - back) * forward + back * lobe_normalisation(surface.backscatter_exponent, cosine));
 }
 
-/// Returns scattering_pattern() times its norm. It is at most 1.
+double peak_of(const LitPatch& patch) {
+  return peak_of(*patch.surface, std::clamp(glm::dot(patch.specular, patch.normal), 0.0, 1.0));
+}
+
+/// Returns the shape of scattering_pattern(), at most 1.
 double lobe_of(const DiffuseScattering& surface, const dvec3& normal, const dvec3& specular,
                const dvec3& out) {
   const double cos_out = glm::dot(out, normal);
@@ -60,10 +65,10 @@ std::array<double, measures> measures_of(const LitPatch& s, double scale_m) {
 
 }  // namespace
 
-ScatterTree::ScatterTree(std::vector<LitPatch> scatterers) : scatterers_(std::move(scatterers)) {
-  if (scatterers_.empty()) return;
-  nodes_.reserve(2 * scatterers_.size());
-  build(0, static_cast<uint32_t>(scatterers_.size()));
+ScatterTree::ScatterTree(std::vector<LitPatch> patches) : patches_(std::move(patches)) {
+  if (patches_.empty()) return;
+  nodes_.reserve(2 * patches_.size());
+  build(0, static_cast<uint32_t>(patches_.size()));
 }
 
 /// Appends the node of a range and all nodes below it.
@@ -79,7 +84,7 @@ void ScatterTree::build(uint32_t first, uint32_t last) {
   std::array<double, measures> least, most;
   least.fill(1e300), most.fill(-1e300);
   for (uint32_t i = first; i < last; ++i) {
-    const auto at = measures_of(scatterers_[i], scale_m);
+    const auto at = measures_of(patches_[i], scale_m);
     for (size_t k = 0; k < measures; ++k)
       least[k] = std::min(least[k], at[k]), most[k] = std::max(most[k], at[k]);
   }
@@ -92,8 +97,7 @@ void ScatterTree::build(uint32_t first, uint32_t last) {
     if (x != y) return x < y;
     return a.patch != b.patch ? a.patch < b.patch : a.arrival < b.arrival;
   };
-  std::nth_element(scatterers_.begin() + first, scatterers_.begin() + middle, scatterers_.begin() + last,
-                   before);
+  std::nth_element(patches_.begin() + first, patches_.begin() + middle, patches_.begin() + last, before);
   build(first, middle);
   nodes_[index].second = static_cast<uint32_t>(nodes_.size());
   build(middle, last);
@@ -105,29 +109,26 @@ void ScatterTree::build(uint32_t first, uint32_t last) {
 
 void ScatterTree::sum_up(Node& node) const {
   dvec3 least(1e300), most(-1e300);
-  node.least_m = 1e300;
-  const LitPatch& head = scatterers_[node.first];
+  const LitPatch& head = patches_[node.first];
   node.one_plane = true;
   double strongest = -1.0;
   for (uint32_t i = node.first; i < node.last; ++i) {
-    const LitPatch& s = scatterers_[i];
+    const LitPatch& s = patches_[i];
     least = glm::min(least, s.position), most = glm::max(most, s.position);
-    node.least_m = std::min(node.least_m, s.length_m), node.most_m = std::max(node.most_m, s.length_m);
     node.power += s.power;
     node.center += s.power * s.position;
     node.normal += s.power * s.normal;
     node.specular += s.power * s.specular;
     node.length_m += s.power * s.length_m;
-    const double cos_in = std::clamp(glm::dot(s.specular, s.normal), 0.0, 1.0);
-    const double inverse = 1.0 / lobe_norm(*s.surface, cos_in);
-    node.inverse_norm += s.power * inverse;
-    node.peak = std::max(node.peak, inverse);
+    const double peak = peak_of(s);
+    node.mean_peak += s.power * peak;
+    node.peak = std::max(node.peak, peak);
     node.one_plane = node.one_plane && s.facet == head.facet && glm::dot(s.normal, head.normal) > 0.0;
     if (s.power > strongest) strongest = s.power, node.surface = s.surface;
   }
   const double share = 1.0 / node.power;
   node.center *= share, node.normal *= share, node.specular *= share;
-  node.length_m *= share, node.inverse_norm *= share;
+  node.length_m *= share, node.mean_peak *= share;
   node.radius_m = 0.5 * glm::length(most - least);
   node.drawn = node.first;
   node.clock = head.clock / head.power;
@@ -135,23 +136,29 @@ void ScatterTree::sum_up(Node& node) const {
     node.center = head.position, node.normal = head.normal, node.specular = head.specular;
 }
 
+double scattered_power(const LitPatch& patch, const dvec3& out, double distance_m) {
+  return patch.power * peak_of(patch) * lobe_of(*patch.surface, patch.normal, patch.specular, out) /
+         (distance_m * distance_m);
+}
+
 double ScatterTree::to(const Node& node, const dvec3& target) const {
   const dvec3 way = target - node.center;
   const double d2 = glm::dot(way, way);
   if (node.second == none) {
     if (d2 == 0.0) return 0.0;
-    return node.power * node.inverse_norm *
+    return node.power * node.mean_peak *
            lobe_of(*node.surface, node.normal, node.specular, way / std::sqrt(d2)) / d2;
   }
   if (node.one_plane && glm::dot(way, node.normal) <= 0.0) return 0.0;
-  // Lobe and distance vary over the node. The bounds keep every scatterer that sends something in the draw.
+  // Lobe and distance vary over the node. A part of the highest lobe keeps every patch that sends something
+  // in the draw.
   const double r2 = node.radius_m * node.radius_m, far2 = std::max(d2, r2);
-  const double spread = std::min(1.0, std::sqrt(r2 / far2));
-  const double mean = d2 > 0.0 && glm::dot(node.specular, node.specular) > 0.0
-                          ? node.inverse_norm * lobe_of(*node.surface, node.normal,
-                                                        glm::normalize(node.specular), way / std::sqrt(d2))
-                          : 0.0;
-  const double room = node.one_plane ? 0.25 * spread : 0.5;
+  const double specular = glm::length(node.specular);
+  double mean = 0.0;
+  if (d2 > 0.0 && specular > 0.0)
+    mean =
+        node.mean_peak * lobe_of(*node.surface, node.normal, node.specular / specular, way / std::sqrt(d2));
+  const double room = node.one_plane ? 0.25 * std::min(1.0, std::sqrt(r2 / far2)) : 0.5;
   return node.power * ((1.0 - room) * mean + room * node.peak) / far2;
 }
 

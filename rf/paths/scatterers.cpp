@@ -3,13 +3,13 @@
 #include "rf/paths/scatterers.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/watch.h"
-#include "rf/paths/scatter_draw.h"
 #include "rf/search/beam_search.h"
 
 namespace greatx::rf {
@@ -19,24 +19,8 @@ namespace {
 /// Separates the draws of the clocks from every other use of the seed of the run.
 constexpr uint64_t way_clocks = 0x7761792d636c6b73ull;
 
-struct Triangle {
-  dvec3 corners[3];
-};
-
-/// Returns a lower bound of the number of pieces of a triangle, from its area and from its longest side.
-double least_pieces(const scene::FacetTriangle& triangle, double side_m) {
-  const dvec3 &a = triangle.corners[0], &b = triangle.corners[1], &c = triangle.corners[2];
-  const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)}),
-               area = 0.5 * glm::length(glm::cross(b - a, c - a));
-  const double of_area =
-      area / (0.25 * std::sqrt(3.0)) / side_m / side_m;  // the largest piece is equilateral
-  return std::max(of_area, longest / side_m);
-}
-
-[[noreturn]] void too_many_patches(double side_m, size_t most) {
-  throw_user_error("scattering_patch_m: {} m makes more than {} patches of this scene; expected a larger one",
-                   side_m, most);
-}
+/// Returns an exponential variable of mean 1.
+double exponential(RandomStream random) { return -std::log(1.0 - random.uniform()); }
 
 /// Checks that a number fits into 32 bits and returns it. Throws UserError if it does not fit.
 uint32_t number_of(size_t count, const char* what) {
@@ -46,56 +30,12 @@ uint32_t number_of(size_t count, const char* what) {
   return static_cast<uint32_t>(count);
 }
 
-/// Halves the longest side until no side is longer than `side_m`. Appends the pieces in order, first half
-/// first.
-void cut(const Triangle& triangle, double side_m, uint32_t facet, std::vector<Patch>& patches, size_t first,
-         size_t most) {
-  int longest = 0;
-  double length = 0.0;
-  for (int side = 0; side < 3; ++side) {
-    const double l = glm::length(triangle.corners[(side + 1) % 3] - triangle.corners[side]);
-    if (l > length) longest = side, length = l;
-  }
-  const dvec3 &a = triangle.corners[longest], &b = triangle.corners[(longest + 1) % 3],
-              &c = triangle.corners[(longest + 2) % 3];
-  if (length > side_m) {
-    const dvec3 middle = 0.5 * (a + b);
-    cut({{a, middle, c}}, side_m, facet, patches, first, most);
-    cut({{middle, b, c}}, side_m, facet, patches, first, most);
-    return;
-  }
-  if (patches.size() >= most) too_many_patches(side_m, most);
-  patches.push_back({facet, static_cast<uint32_t>(patches.size() - first), (a + b + c) / 3.0,
-                     0.5 * glm::length(glm::cross(b - a, c - a))});
-}
-
 }  // namespace
 
 void turn_to_transmitter(GeometricPath& path) {
   std::reverse(path.interactions.begin(), path.interactions.end());
   std::reverse(path.vertices.begin(), path.vertices.end());
   path.from_receiver = true;
-}
-
-std::vector<Patch> scattering_patches(const scene::Scene& scene, const FacetKinds& kinds, double side_m,
-                                      size_t most) {
-  std::vector<Patch> patches;
-  for (uint32_t index = 0; index < scene.facets.size(); ++index) {
-    const scene::Facet& facet = scene.facets[index];
-    const scene::Material& material = scene.materials[facet.material];
-    const bool hard = kinds[index] == FacetKind::opaque || kinds[index] == FacetKind::wall;
-    if (!hard || !material.radio || material.radio->scattering_coefficient == 0.0) continue;
-    const size_t first = patches.size();
-    for (uint32_t t = 0; t < facet.triangle_count; ++t) {
-      const scene::FacetTriangle& triangle = scene.facet_triangles[facet.first_triangle + t];
-      // The bound is tested before the triangle is cut, because halving would not end before fp64 underflows.
-      if (!(least_pieces(triangle, side_m) <= static_cast<double>(most))) too_many_patches(side_m, most);
-      cut({{triangle.corners[0], triangle.corners[1], triangle.corners[2]}}, side_m, index, patches, first,
-          most);
-    }
-    std::erase_if(patches, [](const Patch& patch) { return patch.area_m2 == 0.0; });
-  }
-  return patches;
 }
 
 Scatterers::Scatterers(const RadioModel& model, const PathLimits& limits, bool moving_bodies)
@@ -218,10 +158,10 @@ void Scatterers::place_ways(const ImageTree& tree, const std::vector<PlaneWindow
     for (size_t i = chunk * ways_at_once; i < std::min(ways.size(), (chunk + 1) * ways_at_once); ++i)
       found[i] = lit_patch(ways[i].first, ways[i].second, tree.source());
   });
-  std::vector<LitPatch> scatterers;
+  std::vector<LitPatch> lit;
   for (const std::optional<LitPatch>& one : found)
-    if (one) scatterers.push_back(*one);
-  tree_ = ScatterTree(std::move(scatterers));
+    if (one) lit.push_back(*one);
+  tree_ = ScatterTree(std::move(lit));
 }
 
 /// Returns the number of walls that a path with these interactions may pass.
@@ -248,11 +188,7 @@ double Scatterers::passes_what_rests(const Segment& segment) const {
 
 /// Returns the share of the source's power that passes what is at rest on the way to a patch; 0: none does.
 double Scatterers::reaches(const PatchArrival& way, const Patch& patch, const dvec3& source) const {
-  const uint32_t interactions = way.depth + 1;
-  const uint32_t walls =
-      model_->effects.transmission && interactions < limits_.max_depth
-          ? std::min({limits_.max_depth - interactions, limits_.max_transmissions, shared::crossings_max})
-          : 0;
+  const uint32_t walls = walls_beside(way.depth + 1);
   double share = 1.0;
   for (uint32_t i = 0; i <= way.depth && share > 0.0; ++i) {
     Segment segment{.a = i == 0 ? source : at_patches_.points[way.first + i - 1],
@@ -265,6 +201,16 @@ double Scatterers::reaches(const PatchArrival& way, const Patch& patch, const dv
   return share;
 }
 
+/// Returns the mean share of the power of both polarizations that a facet reflects. A share that is too small
+/// costs accuracy, and one of 0 would lose power.
+double Scatterers::reflected(uint32_t index, const dvec3& in) const {
+  const PosedFacet& facet = model_->facets.facet(index);
+  const double towards = glm::dot(in, facet.normal);
+  const ReflectionCoefficients r =
+      model_->surfaces.reflect(facet.material, towards < 0.0, std::min(1.0, std::abs(towards)));
+  return std::max(1e-4, 0.5 * (std::norm(r.r_te) + std::norm(r.r_tm)));
+}
+
 /// Describes a patch as the wave on a way from the source meets it. None: it is not lit.
 std::optional<LitPatch> Scatterers::lit_patch(uint32_t number, uint32_t arrival, const dvec3& source) const {
   const Patch& patch = patches_[number];
@@ -272,41 +218,32 @@ std::optional<LitPatch> Scatterers::lit_patch(uint32_t number, uint32_t arrival,
   const PosedFacet& facet = model_->facets.facet(patch.facet);
   const double side = facet.distance(way.from);
   if (std::abs(side) <= facet.tolerance_m) return std::nullopt;
-  const double share = reaches(way, patch, source);
+  double share = reaches(way, patch, source);
   if (share == 0.0) return std::nullopt;
-  const auto reflected = [&](const PosedFacet& mirror, const dvec3& in) {
-    const double towards = glm::dot(in, mirror.normal);
-    const ReflectionCoefficients r =
-        model_->surfaces.reflect(mirror.material, towards < 0.0, std::min(1.0, std::abs(towards)));
-    // A share that is too small costs accuracy, and one of 0 would lose power.
-    return std::max(1e-4, 0.5 * (std::norm(r.r_te) + std::norm(r.r_tm)));
-  };
-  LitPatch scatterer;
-  scatterer.position = center(patch);
-  scatterer.normal = side > 0.0 ? facet.normal : -facet.normal;
-  const dvec3 in = glm::normalize(scatterer.position - way.from);
-  const double cos_in = std::max(0.0, -glm::dot(in, scatterer.normal));
-  scatterer.specular = in + 2.0 * cos_in * scatterer.normal;
-  scatterer.surface = &model_->surfaces.surface(facet.material).scattering;
-  const double coefficient = scatterer.surface->coefficient;
-  scatterer.power = share * coefficient * coefficient * reflected(facet, in) * std::max(cos_in, 1e-9) *
-                    patch.area_m2 / (way.length_m * way.length_m);
-  dvec3 from = source;
   uint64_t key = model_->effects.field.seed ^ way_clocks;
+  dvec3 from = source;
   for (uint32_t i = way.first; i < way.first + way.depth; ++i) {
     const dvec3& to = at_patches_.points[i];
-    if (to != from)
-      scatterer.power *= reflected(model_->facets.facet(at_patches_.facets[i]), glm::normalize(to - from));
+    if (to != from) share *= reflected(at_patches_.facets[i], glm::normalize(to - from));
     from = to;
     key = RandomStream(key, at_patches_.facets[i], i - way.first).bits();
   }
-  if (!(scatterer.power > 0.0)) return std::nullopt;
-  scatterer.length_m = way.length_m;
-  scatterer.facet = patch.facet;
-  scatterer.patch = number;
-  scatterer.arrival = arrival;
-  scatterer.clock = -std::log(1.0 - RandomStream(key, patch.facet, patch.number).uniform());
-  return scatterer;
+  LitPatch lit;
+  lit.position = center(patch);
+  lit.normal = side > 0.0 ? facet.normal : -facet.normal;
+  const dvec3 in = glm::normalize(lit.position - way.from);
+  const double cosine = std::max(1e-9, -glm::dot(in, lit.normal));
+  lit.specular = in + 2.0 * cosine * lit.normal;
+  lit.surface = &model_->surfaces.surface(facet.material).scattering;
+  lit.power = share * reflected(patch.facet, in) * lit.surface->coefficient * lit.surface->coefficient *
+              cosine * patch.area_m2 / (way.length_m * way.length_m);
+  if (!(lit.power > 0.0)) return std::nullopt;
+  lit.length_m = way.length_m;
+  lit.facet = patch.facet;
+  lit.patch = number;
+  lit.arrival = arrival;
+  lit.clock = exponential(RandomStream(key, patch.facet, patch.number));
+  return lit;
 }
 
 /// Appends the path of a prefix and a suffix that meet at a patch, if both reach its centre from the same
@@ -342,15 +279,69 @@ void Scatterers::join(const ImageTree& tree, const dvec3& target, size_t number,
   if (tree.end() == Source::receiver) turn_to_transmitter(path);
 }
 
-/// Appends the paths of the draws for a target, to which patches send straight.
-void Scatterers::draw(const ImageTree& tree, const dvec3& target, std::vector<GeometricPath>& paths) const {
-  if (tree_.empty()) return;
-  const PatchArrivals none;
-  for (const ScatterDraw& draw : draw_scatterers(tree_, target, limits_.scattering_budget)) {
-    const LitPatch& scatterer = tree_.scatterers()[draw.scatterer];
+/// Searches for the ways from a target to patches.
+Scatterers::PatchArrivals Scatterers::ways_to(const ImageTree& tree, const dvec3& target, uint32_t body,
+                                              uint32_t threads, LeftOut& left_out) const {
+  BeamSearchOptions search;
+  search.max_depth = limits_.max_reflections_after + 1;
+  search.max_transmissions = model_->effects.transmission ? limits_.max_transmissions : 0;
+  search.moving_bodies = moving_bodies_;
+  search.source_body = body;
+  search.threads = threads;
+  const BeamSearchResult result = BeamSearch(model_->facets, model_->kinds, {}, search).search(target);
+  left_out = {result.overflow(), result.complete_depth()};
+  std::vector<PlaneWindow> windows;
+  const Arrivals facets = arrivals_at_facets(result.list, limits_.max_reflections_after, windows);
+  return arrivals_at_patches(facets, windows,
+                             ImageTree(model_->facets, target, result.list, opposite(tree.end())));
+}
+
+/// Lists the lit patches together with each way with reflections that leads from the target to them.
+std::vector<SingleScattering> Scatterers::bounces(const PatchArrivals& suffixes,
+                                                  std::vector<Bounce>& pairs) const {
+  std::vector<SingleScattering> all;
+  if (suffixes.arrivals.empty()) return all;
+  for (uint32_t i = 0; i < tree_.patches().size(); ++i) {
+    const LitPatch& lit = tree_.patches()[i];
+    const uint32_t before = at_patches_.arrivals[lit.arrival].depth;
+    for (uint32_t s = suffixes.offsets[lit.patch]; s < suffixes.offsets[lit.patch + 1]; ++s) {
+      const PatchArrival& after = suffixes.arrivals[s];
+      if (after.depth == 0 || before + 1 + after.depth > limits_.max_depth || after.from == lit.position)
+        continue;
+      const dvec3 out = glm::normalize(after.from - lit.position);
+      double power = scattered_power(lit, out, after.length_m);
+      if (!(power > 0.0)) continue;
+      uint64_t key = std::bit_cast<uint64_t>(lit.clock);
+      dvec3 from = lit.position;
+      for (uint32_t k = after.first + after.depth; k-- > after.first;) {
+        const dvec3& to = suffixes.points[k];
+        if (to != from) power *= reflected(suffixes.facets[k], glm::normalize(to - from));
+        from = to;
+        key = RandomStream(key, suffixes.facets[k], k - after.first).bits();
+      }
+      all.push_back({power, lit.length_m + after.length_m, exponential(RandomStream(key, lit.facet))});
+      pairs.push_back({i, s});
+    }
+  }
+  return all;
+}
+
+/// Appends the paths of the draws for a target. Patches send to it straight and on the ways of `suffixes`
+/// with reflections.
+void Scatterers::draw(const ImageTree& tree, const dvec3& target, const PatchArrivals& suffixes,
+                      std::vector<GeometricPath>& paths) const {
+  std::vector<Bounce> pairs;
+  const std::vector<SingleScattering> singles = bounces(suffixes, pairs);
+  const size_t straight = tree_.patches().size();
+  for (const ScatterDraw& draw : draw_scatterings(tree_, target, singles, limits_.scattering_budget)) {
+    const bool bent = draw.index >= straight;
+    const Bounce pair = bent ? pairs[draw.index - straight] : Bounce{draw.index};
+    const LitPatch& lit = tree_.patches()[pair.patch];
     const size_t known = paths.size();
-    join(tree, target, scatterer.patch, at_patches_.arrivals[scatterer.arrival],
-         {0, 0, target, glm::length(target - scatterer.position)}, none, paths);
+    join(tree, target, lit.patch, at_patches_.arrivals[lit.arrival],
+         bent ? suffixes.arrivals[pair.suffix]
+              : PatchArrival{0, 0, target, glm::length(target - lit.position)},
+         suffixes, paths);
     if (paths.size() == known) continue;
     paths.back().patch_area_m2 *= draw.factor;
     paths.back().stratum = draw.stratum;
@@ -361,32 +352,20 @@ LeftOut Scatterers::solve(const ImageTree& tree, const dvec3& target, uint32_t t
                           std::vector<GeometricPath>& paths) const {
   LeftOut left_out;
   if (at_patches_.arrivals.empty()) return left_out;
-  if (limits_.scattering_budget > 0 && limits_.max_reflections_after == 0) {
-    draw(tree, target, paths);
+  PatchArrivals suffixes;
+  if (limits_.max_reflections_after > 0)
+    suffixes = ways_to(tree, target, target_body, threads, left_out);
+  else if (!at_rest_)
+    suffixes = straight_to_patches(target);
+  if (at_rest_) {
+    draw(tree, target, suffixes, paths);
     return left_out;
-  }
-  PatchArrivals at_patches;
-  if (limits_.max_reflections_after > 0) {
-    BeamSearchOptions search;
-    search.max_depth = limits_.max_reflections_after + 1;
-    search.max_transmissions = model_->effects.transmission ? limits_.max_transmissions : 0;
-    search.moving_bodies = moving_bodies_;
-    search.source_body = target_body;
-    search.threads = threads;
-    const BeamSearchResult result = BeamSearch(model_->facets, model_->kinds, {}, search).search(target);
-    left_out = {result.overflow(), result.complete_depth()};
-    std::vector<PlaneWindow> windows;
-    const Arrivals facets = arrivals_at_facets(result.list, limits_.max_reflections_after, windows);
-    const ImageTree suffixes(model_->facets, target, result.list, opposite(tree.end()));
-    at_patches = arrivals_at_patches(facets, windows, suffixes);
-  } else {
-    at_patches = straight_to_patches(target);
   }
   for (size_t patch = 0; patch < patches_.size(); ++patch) {
     checkpoint();
-    for (const PatchArrival& after : at_patches.of(patch))
+    for (const PatchArrival& after : suffixes.of(patch))
       for (const PatchArrival& before : at_patches_.of(patch))
-        join(tree, target, patch, before, after, at_patches, paths);
+        join(tree, target, patch, before, after, suffixes, paths);
   }
   return left_out;
 }
