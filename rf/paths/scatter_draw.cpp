@@ -21,7 +21,7 @@ struct Cell {
   uint32_t index = 0;  ///< of the scattering that is drawn for the cell
   uint32_t bin = 0;
   double power = 0.0, length_m = 0.0;  ///< at the target
-  double clock = 0.0;                  ///< divided by the power
+  double clock = 0.0;                  ///< when the cell's clock runs out, in units of 1/power
   double factor = 1.0;                 ///< power of the cell by that of its scattering
   bool divisible = false;
 };
@@ -57,6 +57,8 @@ class Strata {
     while (
         open([this](const Cell& cell) { return cell.power > bins_[cell.bin].power / bins_[cell.bin].draws; }))
       share_out();
+    settle_cells();
+    share_out();
     std::vector<std::vector<uint32_t>> of_bin(bins_.size());
     for (uint32_t i = 0; i < cells_.size(); ++i) of_bin[cells_[i].bin].push_back(i);
     for (uint32_t b = 0; b < bins_.size(); ++b)
@@ -73,9 +75,26 @@ class Strata {
                      .index = node.drawn,
                      .power = power,
                      .length_m = node.length_m + glm::length(target_ - node.center),
-                     .clock = node.clock * node.power / power,
-                     .factor = node.power / tree_.patches()[node.drawn].power,
                      .divisible = node.second != ScatterTree::none});
+  }
+
+  /// Gives each cell the delay of the patch that is drawn for it, and the power that this patch would have for
+  /// it. Which patch of a node that is does not depend on when the node's clock runs out, so that the race of
+  /// the cells stays fair. Whether a node is opened must not depend on it.
+  void settle_cells() {
+    for (Cell& cell : cells_) {
+      if (cell.node == ScatterTree::none) continue;
+      const ScatterTree::Node& node = tree_.nodes()[cell.node];
+      const LitPatch& drawn = tree_.patches()[cell.index];
+      const dvec3 way = target_ - drawn.position;
+      const double distance_m = glm::length(way);
+      cell.factor = node.power / drawn.power;
+      cell.power =
+          distance_m > 0.0 ? cell.factor * scattered_power(drawn, way / distance_m, distance_m) : 0.0;
+      cell.length_m = drawn.length_m + distance_m;
+      cell.clock = node.clock * node.power / cell.power;
+    }
+    std::erase_if(cells_, [](const Cell& cell) { return !(cell.power > 0.0); });
   }
 
   /// Replaces the nodes for which `wanted` holds by their children, in order. Returns whether there was one.

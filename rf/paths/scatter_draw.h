@@ -10,7 +10,7 @@
 // Techniques, 3rd ed., 1977, chapters 5A and 9A).
 //
 // The draw of a stratum is a race of exponential clocks, which belong to patch and way. If the target moves a
-// little, the strata change a little, and nearly all scatterings that are drawn stay the same.
+// little, the strata change a little, and most scatterings that are drawn stay the same.
 #pragma once
 
 #include <cstdint>
