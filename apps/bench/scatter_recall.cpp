@@ -12,7 +12,7 @@
 #include "apps/bench/measure.h"
 #include "core/error.h"
 #include "core/units.h"
-#include "rf/paths/scatter_draw.h"
+#include "rf/channel/statistics.h"
 #include "sim/channel/channel_paths.h"
 #include "sim/experiment/experiment.h"
 #include "sim/plan/plan_options.h"
@@ -46,9 +46,11 @@ struct Run {
 
 Scattered sum_of(const std::vector<rf::Path>& paths) {
   Scattered sum;
+  std::vector<double> powers;
   for (const rf::Path& path : paths) {
     double power = 0.0;
     for (const rf::Complex& t : path.transfer) power += 0.5 * std::norm(t);
+    powers.push_back(power);
     if (path.patch_area_m2 == 0.0) {
       sum.other_power += power;
       continue;
@@ -59,7 +61,7 @@ Scattered sum_of(const std::vector<rf::Path>& paths) {
     sum.direction += power * path.arrival;
   }
   if (sum.power > 0.0) sum.direction /= sum.power;
-  sum.deviation = rf::scattered_deviation(paths);
+  sum.deviation = rf::drawn_deviation(paths, powers);
   return sum;
 }
 

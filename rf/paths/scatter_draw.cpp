@@ -244,18 +244,4 @@ std::vector<ScatterDraw> draw_scatterings(const ScatterTree& tree, const dvec3& 
   return draws;
 }
 
-double scattered_deviation(std::span<const Path> paths) {
-  std::vector<double> strata;
-  for (const Path& path : paths) {
-    if (path.stratum == 0) continue;
-    if (strata.size() < path.stratum) strata.resize(path.stratum);
-    for (const Complex& t : path.transfer) strata[path.stratum - 1] += 0.5 * std::norm(t);
-  }
-  if (strata.size() % 2 == 1) strata.push_back(0.0);
-  double variance = 0.0;
-  for (size_t i = 0; i < strata.size(); i += 2)
-    variance += (strata[i] - strata[i + 1]) * (strata[i] - strata[i + 1]);
-  return std::sqrt(variance);
-}
-
 }  // namespace greatx::rf

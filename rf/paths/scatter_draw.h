@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "rf/geometry/path.h"
 #include "rf/paths/scatter_tree.h"
 
 namespace greatx::rf {
@@ -46,11 +45,5 @@ inline constexpr double delay_bin_m = 2.99792458;
 /// greater than 0. The answer depends on the arguments alone.
 std::vector<ScatterDraw> draw_scatterings(const ScatterTree& tree, const dvec3& target,
                                           std::span<const SingleScattering> singles, uint32_t budget);
-
-/// Returns an estimate of the standard deviation of the summed power |T|^2 of the scattered paths of a link,
-/// 1/m^2, from the draws. Strata of which nothing is among the paths were hidden. Neighbouring strata are
-/// compared (collapsed strata: Cochran, 5A.12), so that the estimate also holds their true difference and is
-/// on average too large. 0: nothing was drawn.
-double scattered_deviation(std::span<const Path> paths);
 
 }  // namespace greatx::rf

@@ -177,7 +177,7 @@ struct ChannelConfig {
   static constexpr uint32_t most_walls = 8;  ///< the most walls on a path; shared::crossings_max
   rf::PathLimits limits{.max_transmissions = most_walls,
                         .max_reflections_before_scattering = 1,
-                        .scattering_budget = 2000,
+                        .scattering_budget = 4000,
                         .max_paths = 100'000};
   /// A search with beams misses no path. A search with rays launches `rays` rays, and may miss paths.
   enum class Candidates { beams, rays };
