@@ -106,7 +106,8 @@ Run solve(gpu::Device& device, const sim::Experiment& base, std::span<const dvec
   return run;
 }
 
-double in_db(double ratio) { return 10.0 * std::log10(ratio); }
+/// Returns the ratio in dB; where nothing was drawn of something, 99 dB below it.
+double in_db(double ratio) { return ratio > 0.0 ? 10.0 * std::log10(ratio) : -99.0; }
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
@@ -139,7 +140,7 @@ Errors errors_of(const Run& run, const Run& reference) {
     for (const auto& [bin, power] : should.profile) {
       if (power < least_share * should.power) continue;
       const auto found = is.profile.find(bin);
-      errors.bins_db.push_back(found == is.profile.end() ? 99.0 : std::abs(in_db(found->second / power)));
+      errors.bins_db.push_back(std::abs(in_db(found == is.profile.end() ? 0.0 : found->second / power)));
     }
     if (is.power == 0.0) continue;
     const double cosine = glm::dot(glm::normalize(is.direction), glm::normalize(should.direction));
