@@ -85,7 +85,7 @@ double circular_spread(std::span<const Sample> samples, double total, const Angl
 
 LinkStatistics undefined(uint32_t paths, bool line_of_sight) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  return {paths, line_of_sight, 0.0, nan, nan, nan, nan, nan, nan, nan, nan, nan};
+  return {paths, line_of_sight, 0.0, 0.0, nan, nan, nan, nan, nan, nan, nan, nan, nan};
 }
 
 }  // namespace

@@ -14,13 +14,19 @@ namespace {
 /// Cells for each draw: with more of them, the strata follow delay and place more closely.
 constexpr double cells_of_draw = 8.0;
 constexpr uint32_t most_bins = 4096;
+/// Cells that are asked for their sight first, and, if not enough of the power is seen, those for each draw.
+constexpr double first_probes = 128.0, probes_of_draw = 0.25, enough_seen = 0.5;
+/// A cell whose middle is hidden may hold patches that are not. It is drawn as if this share of its power
+/// arrived.
+constexpr double least_sight = 0.1;
 
 /// Holds what is drawn as one: a node of the tree that is not opened further, or a single scattering.
 struct Cell {
   uint32_t node = ScatterTree::none;
   uint32_t index = 0;  ///< of the scattering that is drawn for the cell
   uint32_t bin = 0;
-  double power = 0.0, length_m = 0.0;  ///< at the target
+  double power = 0.0, length_m = 0.0;  ///< at the target, with the sight
+  double sight = 1.0;                  ///< share of the power that seems to arrive
   double clock = 0.0;                  ///< when the cell's clock runs out, in units of 1/power
   double factor = 1.0;                 ///< power of the cell by that of its scattering
   bool divisible = false;
@@ -36,9 +42,10 @@ struct Bin {
 class Strata {
  public:
   Strata(const ScatterTree& tree, const dvec3& target, std::span<const SingleScattering> singles,
-         uint32_t budget)
+         uint32_t budget, const Sight& sight)
       : tree_(tree), target_(target), budget_(budget) {
-    if (!tree.empty()) add(cells_, 0);
+    if (!tree.empty()) add(cells_, 0, 1.0);
+    look_around(sight);
     const auto first = static_cast<uint32_t>(tree.patches().size());
     for (uint32_t i = 0; i < singles.size(); ++i) {
       const SingleScattering& one = singles[i];
@@ -51,7 +58,7 @@ class Strata {
   }
 
   std::vector<ScatterDraw> draw() {
-    open_all();
+    open_to(cells_of_draw * budget_);
     share_out();
     // A cell with more power than a stratum of its bin is opened, because it would have to be drawn twice.
     while (
@@ -67,14 +74,15 @@ class Strata {
   }
 
  private:
-  void add(std::vector<Cell>& cells, uint32_t index) const {
+  void add(std::vector<Cell>& cells, uint32_t index, double sight) const {
     const ScatterTree::Node& node = tree_.nodes()[index];
-    const double power = tree_.to(node, target_);
+    const double power = sight * tree_.to(node, target_);
     if (!(power > 0.0)) return;
     cells.push_back({.node = index,
                      .index = node.drawn,
                      .power = power,
                      .length_m = node.length_m + glm::length(target_ - node.center),
+                     .sight = sight,
                      .divisible = node.second != ScatterTree::none});
   }
 
@@ -89,8 +97,9 @@ class Strata {
       const dvec3 way = target_ - drawn.position;
       const double distance_m = glm::length(way);
       cell.factor = node.power / drawn.power;
-      cell.power =
-          distance_m > 0.0 ? cell.factor * scattered_power(drawn, way / distance_m, distance_m) : 0.0;
+      cell.power = distance_m > 0.0
+                       ? cell.sight * cell.factor * scattered_power(drawn, way / distance_m, distance_m)
+                       : 0.0;
       cell.length_m = drawn.length_m + distance_m;
       cell.clock = node.clock * node.power / cell.power;
     }
@@ -108,22 +117,46 @@ class Strata {
         next.push_back(cell);
         continue;
       }
-      add(next, cell.node + 1);
-      add(next, tree_.nodes()[cell.node].second);
+      add(next, cell.node + 1, cell.sight);
+      add(next, tree_.nodes()[cell.node].second, cell.sight);
       opened = true;
     }
     cells_ = std::move(next);
     return opened;
   }
 
+  /// Finds out roughly what is hidden from the target.
+  void look_around(const Sight& sight) {
+    for (const double probes : {first_probes, probes_of_draw * budget_}) {
+      open_to(probes);
+      double before = 0.0, after = 0.0;
+      for (Cell& cell : cells_) {
+        before += cell.power / cell.sight;
+        look(cell, sight);
+        after += cell.power;
+      }
+      if (after > enough_seen * before) return;
+    }
+  }
+
+  /// Asks for the sight of the middle of a cell. Which patch that is does not depend on the clocks, since the
+  /// draw would otherwise depend on what it finds.
+  void look(Cell& cell, const Sight& sight) {
+    const ScatterTree::Node& node = tree_.nodes()[cell.node];
+    const double seen =
+        std::max(least_sight, sight(tree_.patches()[node.first + (node.last - node.first) / 2]));
+    cell.power *= seen / cell.sight;
+    cell.sight = seen;
+  }
+
   /// Opens nodes until none has more than a small part of the power. Their number does not depend on that of
   /// the patches.
-  void open_all() {
+  void open_to(double cells) {
     double least = 0.0;
     do {
       double total = 0.0;
       for (const Cell& cell : cells_) total += cell.power;
-      least = total / (cells_of_draw * budget_);
+      least = total / cells;
     } while (open([&](const Cell& cell) { return cell.power > least; }));
   }
 
@@ -235,10 +268,11 @@ class Strata {
 }  // namespace
 
 std::vector<ScatterDraw> draw_scatterings(const ScatterTree& tree, const dvec3& target,
-                                          std::span<const SingleScattering> singles, uint32_t budget) {
+                                          std::span<const SingleScattering> singles, uint32_t budget,
+                                          const Sight& sight) {
   GREATX_CHECK(budget > 0, "a budget of {}", budget);
   const size_t count = tree.patches().size() + singles.size();
-  if (count > budget) return Strata(tree, target, singles, budget).draw();
+  if (count > budget) return Strata(tree, target, singles, budget, sight).draw();
   std::vector<ScatterDraw> draws;
   for (uint32_t i = 0; i < count; ++i) draws.push_back({.index = i});
   return draws;

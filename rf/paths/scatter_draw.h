@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -40,10 +41,15 @@ struct ScatterDraw {
 /// Width of the bins of delay, as a length: 10 ns of light.
 inline constexpr double delay_bin_m = 2.99792458;
 
+/// Returns the share of the power that passes what never moves between a patch and the target, 0 to 1.
+using Sight = std::function<double(const LitPatch& patch)>;
+
 /// Returns at most `budget` draws from the patches of the tree, which send straight to a target, and from
 /// `singles`, in the order of the strata. If there are not more of both, all are returned. `budget` must be
-/// greater than 0. The answer depends on the arguments alone.
+/// greater than 0. `sight` is asked for some patches of the tree. Where they are hidden, the patches around
+/// them are drawn more rarely, and each stands for more. The answer depends on the arguments alone.
 std::vector<ScatterDraw> draw_scatterings(const ScatterTree& tree, const dvec3& target,
-                                          std::span<const SingleScattering> singles, uint32_t budget);
+                                          std::span<const SingleScattering> singles, uint32_t budget,
+                                          const Sight& sight);
 
 }  // namespace greatx::rf

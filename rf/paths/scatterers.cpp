@@ -333,7 +333,11 @@ void Scatterers::draw(const ImageTree& tree, const dvec3& target, const PatchArr
   std::vector<Bounce> pairs;
   const std::vector<SingleScattering> singles = bounces(suffixes, pairs);
   const size_t straight = tree_.patches().size();
-  for (const ScatterDraw& draw : draw_scatterings(tree_, target, singles, limits_.scattering_budget)) {
+  const auto sight = [&](const LitPatch& patch) {
+    return passes_what_rests(
+        {.a = patch.position, .b = target, .facet_a = patch.facet, .walls = walls_beside(1)});
+  };
+  for (const ScatterDraw& draw : draw_scatterings(tree_, target, singles, limits_.scattering_budget, sight)) {
     const bool bent = draw.index >= straight;
     const Bounce pair = bent ? pairs[draw.index - straight] : Bounce{draw.index};
     const LitPatch& lit = tree_.patches()[pair.patch];
