@@ -30,8 +30,8 @@ struct RecallOptions {
   bool json = false;
 };
 
-/// Prints the comparison, that of scatterings if they are asked for (scatter_recall.h). Throws Failed if the guaranteed search misses a path, doubles one, or finds one
-/// that the reference does not have.
+/// Prints the comparison, or that of scatterings if they are asked for (scatter_recall.h). Throws Failed if
+/// the guaranteed search misses a path, doubles one, or finds one that the reference does not have.
 void run_recall(const RecallOptions& options);
 
 }  // namespace greatx::apps

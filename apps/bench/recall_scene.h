@@ -23,8 +23,9 @@ struct RecallPaths {
 
 /// Returns the scenario with every node at rest at its pose of tick 0, so that the whole world is static. It
 /// keeps the first channel only. Reflection is on, transmission is on if walls may be passed, diffraction is
-/// on if edges are asked for, scattering if it is asked for, and moving reflectors are off. If the node of the channel's
-/// first transmitter moved, the node loses its mesh. Throws UserError if there is no channel.
+/// on if edges are asked for, scattering is on if it is asked for, and moving reflectors are off. If the node
+/// of the channel's first transmitter moved, the node loses its mesh. Throws UserError if there is no
+/// channel.
 sim::Scenario frozen_for_recall(sim::Scenario scenario, const RecallPaths& paths);
 
 /// Returns the position of the first transmitter of the first channel, local coordinates.

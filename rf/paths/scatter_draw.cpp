@@ -86,9 +86,9 @@ class Strata {
                      .divisible = node.second != ScatterTree::none});
   }
 
-  /// Gives each cell the delay of the patch that is drawn for it, and the power that this patch would have for
-  /// it. Which patch of a node that is does not depend on when the node's clock runs out, so that the race of
-  /// the cells stays fair. Whether a node is opened must not depend on it.
+  /// Gives each cell the delay of the patch that is drawn for it, and the power that this patch would have
+  /// for it. Which patch of a node that is does not depend on when the node's clock runs out, so that the
+  /// race of the cells stays fair. Whether a node is opened must not depend on it.
   void settle_cells() {
     for (Cell& cell : cells_) {
       if (cell.node == ScatterTree::none) continue;

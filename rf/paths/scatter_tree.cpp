@@ -26,8 +26,8 @@ double lobe_around(const dvec3& axis, const dvec3& out, uint32_t exponent) {
   return whole_power(std::min(1.0, 0.25 * glm::dot(sum, sum)), exponent);
 }
 
-/// Returns the largest value of scattering_pattern() for a wave whose reflection leaves at this cosine from the
-/// normal; or rather of a pattern that reaches the top of its lobes. scattering_pattern() is lobe_of() times it.
+/// Returns the value of scattering_pattern() at the top of its lobes, for a wave at this cosine of incidence.
+/// scattering_pattern() is lobe_of() times this value.
 double peak_of(const DiffuseScattering& surface, double cosine) {
   if (surface.pattern == scene::ScatteringPattern::lambertian) return 1.0 / pi;
   const double forward = lobe_normalisation(surface.exponent, cosine);

@@ -31,8 +31,8 @@ struct LitPatch {
   double clock = 0.0;             ///< an exponential variable of mean 1 that belongs to patch and way
 };
 
-/// Returns the power that a patch scatters along the unit vector `out` to a distance if nothing is in the way,
-/// for an isotropic antenna that receives both polarizations, relative to what the source sends, 1/m^2.
+/// Returns the power that a patch scatters along the unit vector `out` to a distance if nothing is in the
+/// way, for an isotropic antenna that receives both polarizations, relative to what the source sends, 1/m^2.
 double scattered_power(const LitPatch& patch, const dvec3& out, double distance_m);
 
 class ScatterTree {
@@ -64,8 +64,8 @@ class ScatterTree {
   const std::vector<LitPatch>& patches() const { return patches_; }
   const std::vector<Node>& nodes() const { return nodes_; }  ///< [0] is the root
 
-  /// Returns an estimate of scattered_power() of all patches of a node to `target`. It is that of the patch if
-  /// there is one, and 0 only if it is 0 for every patch.
+  /// Returns an estimate of scattered_power() of all patches of a node to `target`. It is exact for a single
+  /// patch, and 0 only if it is 0 for every patch.
   double to(const Node& node, const dvec3& target) const;
 
  private:
