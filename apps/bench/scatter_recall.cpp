@@ -143,8 +143,8 @@ Errors errors_of(const Run& run, const Run& reference) {
       errors.bins_db.push_back(std::abs(in_db(found == is.profile.end() ? 0.0 : found->second / power)));
     }
     if (is.power == 0.0) continue;
-    const double cosine = glm::dot(glm::normalize(is.direction), glm::normalize(should.direction));
-    errors.direction_deg.push_back(degrees(std::acos(std::clamp(cosine, -1.0, 1.0))));
+    const double sine = glm::length(glm::cross(is.direction, should.direction));
+    errors.direction_deg.push_back(degrees(std::atan2(sine, glm::dot(is.direction, should.direction))));
     errors.spread_deg.push_back(std::abs(spread_deg(is) - spread_deg(should)));
   }
   if (!errors.power_db.empty()) errors.bias = ratios / static_cast<double>(errors.power_db.size()) - 1.0;
