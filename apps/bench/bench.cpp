@@ -269,6 +269,12 @@ void add_bench(CLI::App& app) {
           "of --recall: paths over one edge as well, with reflections on both sides of it; --edges=2: over "
           "two, of any strength")
       ->check(integer_of(0, 2));
+  command->add_flag("--scattering", recall.paths.scattering,
+                    "of --recall: hold the scattered paths of several budgets against those of all patches");
+  command->add_option("--budgets", recall.budgets, "of --recall --scattering: values of scattering_budget")
+      ->delimiter(',')
+      ->capture_default_str()
+      ->check(integer_of(1, 1 << 30));
   command->add_option("--max-rays", recall.max_rays_log2, "of --recall: rays from 2^14 to 2^this; 0: none")
       ->capture_default_str()
       ->check(integer_of(0, 24));

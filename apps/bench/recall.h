@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "apps/bench/recall_scene.h"
 #include "apps/console/session.h"
@@ -25,11 +26,12 @@ struct RecallOptions {
   uint32_t max_rays_log2 =
       22;  ///< log2 of the largest number of rays; below 14: no rays are shot. Paths over edges need
            ///< beams
+  std::vector<uint32_t> budgets{500, 1000, 2000, 4000};  ///< of scatterings, if these are asked for
   bool json = false;
 };
 
-/// Prints the comparison. Throws Failed if the guaranteed search misses a path, doubles one, or finds one
-/// that the reference does not have.
+/// Prints the comparison, or that of scatterings if they are asked for (scatter_recall.h). Throws Failed if
+/// the guaranteed search misses a path, doubles one, or finds one that the reference does not have.
 void run_recall(const RecallOptions& options);
 
 }  // namespace greatx::apps

@@ -84,10 +84,11 @@ sim::Scenario frozen_for_recall(sim::Scenario scenario, const RecallPaths& sough
     if (channel.transmitters[0].starts_with(node.name + "/")) node.model.reset();
   }
   scenario.effects.clear();
-  for (const char* off : {"scattering", "moving_reflectors"}) scenario.effects[off] = sim::Switch::off;
+  scenario.effects["moving_reflectors"] = sim::Switch::off;
   const auto only_if = [](bool on) { return on ? sim::Switch::on : sim::Switch::off; };
   scenario.effects["transmission"] = only_if(sought.max_transmissions > 0);
   scenario.effects["diffraction"] = only_if(sought.edges > 0);
+  scenario.effects["scattering"] = only_if(sought.scattering);
   return scenario;
 }
 

@@ -18,12 +18,14 @@ struct RecallPaths {
   uint32_t max_depth = 3;          ///< largest number of interactions of a path
   uint32_t max_transmissions = 0;  ///< largest number of transmissions of a path
   uint32_t edges = 0;              ///< largest number of diffractions of a path, at most 2
+  bool scattering = false;         ///< scattered paths, which are held against those of all patches
 };
 
 /// Returns the scenario with every node at rest at its pose of tick 0, so that the whole world is static. It
 /// keeps the first channel only. Reflection is on, transmission is on if walls may be passed, diffraction is
-/// on if edges are asked for, and scattering and moving reflectors are off. If the node of the channel's
-/// first transmitter moved, the node loses its mesh. Throws UserError if there is no channel.
+/// on if edges are asked for, scattering is on if it is asked for, and moving reflectors are off. If the node
+/// of the channel's first transmitter moved, the node loses its mesh. Throws UserError if there is no
+/// channel.
 sim::Scenario frozen_for_recall(sim::Scenario scenario, const RecallPaths& paths);
 
 /// Returns the position of the first transmitter of the first channel, local coordinates.

@@ -89,6 +89,9 @@ std::string table_of(const PathLink& link, const PathScene& scene) {
   if (figures.delay_spread_s)
     text += fmt::format(", gain {:.2f} dB, rms delay spread {:.2f} ns", gain_db(figures.gain),
                         1e9 * *figures.delay_spread_s);
+  if (figures.gain_deviation > 0.0)
+    text += fmt::format(", drawn scatterings: {:.2g} dB rms",
+                        gain_db(1.0 + figures.gain_deviation / figures.gain));
   text += '\n';
   if (link.paths.empty()) return text;
   text += fmt::format("  {:>4} {:<16}{:>11}{:>12}{:>10}{:>10}{:>9}{:>9}{:>9}{:>9}{:>11}  {}\n", "#", "id",
@@ -123,6 +126,7 @@ nlohmann::ordered_json json_of(const PathLink& link, const PathScene& scene) {
             {"distance_m", link.distance_m},
             {"line_of_sight", figures.line_of_sight},
             {"gain_db", json_of_decibels(figures.gain)},
+            {"gain_deviation", figures.gain_deviation},
             {"first_delay_s", figures.first_delay_s ? Json(*figures.first_delay_s) : Json()},
             {"delay_spread_s", figures.delay_spread_s ? Json(*figures.delay_spread_s) : Json()},
             {"paths", Json::array()}};

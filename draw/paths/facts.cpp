@@ -144,6 +144,7 @@ LinkFigures figures_of(const PathLink& link, double carrier_hz) {
   figures.paths = statistics.paths;
   figures.line_of_sight = statistics.line_of_sight;
   figures.gain = statistics.path_gain;
+  figures.gain_deviation = statistics.path_gain_deviation;
   if (statistics.path_gain > 0.0) figures.delay_spread_s = statistics.delay_spread_s;
   return figures;
 }

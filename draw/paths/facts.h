@@ -81,6 +81,7 @@ struct LinkFigures {
   size_t paths = 0;
   bool line_of_sight = false;
   double gain = 0.0;                     ///< sum of path_gain(): powers are added, not fields
+  double gain_deviation = 0.0;           ///< of the draws of scatterings
   std::optional<double> first_delay_s;   ///< empty if there is no path
   std::optional<double> delay_spread_s;  ///< rms, weighted by path_gain(); empty if there is no power
   std::array<size_t, path_kinds.size()> kinds{};  ///< number of paths by kind_of()

@@ -179,8 +179,9 @@ class Paths:
 
     def statistics(self) -> Arrays:
         """Returns the statistics of every link, [rx, tx], as in a data set: path_count, line_of_sight,
-        path_gain (sum of the paths' powers, mean over ports), mean_delay, delay_spread (s), k_factor, angle
-        spreads (rad), doppler_spread (Hz).
+        path_gain (sum of the paths' powers, mean over ports), path_gain_deviation (standard deviation of
+        path_gain by the draws of scatterings), mean_delay, delay_spread (s), k_factor, angle spreads (rad),
+        doppler_spread (Hz).
         """
         return Arrays(self._native.statistics())
 

@@ -85,7 +85,7 @@ double circular_spread(std::span<const Sample> samples, double total, const Angl
 
 LinkStatistics undefined(uint32_t paths, bool line_of_sight) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  return {paths, line_of_sight, 0.0, nan, nan, nan, nan, nan, nan, nan, nan, nan};
+  return {paths, line_of_sight, 0.0, 0.0, nan, nan, nan, nan, nan, nan, nan, nan, nan};
 }
 
 }  // namespace
@@ -100,6 +100,21 @@ std::vector<double> path_powers(std::span<const Path> paths, const ArrayPose& tr
   return powers;
 }
 
+double drawn_deviation(std::span<const Path> paths, std::span<const double> powers) {
+  std::vector<double> strata;
+  for (size_t i = 0; i < paths.size(); ++i) {
+    const uint32_t stratum = paths[i].stratum;
+    if (stratum == 0) continue;
+    if (strata.size() < stratum) strata.resize(stratum);
+    strata[stratum - 1] += powers[i];
+  }
+  if (strata.size() % 2 == 1) strata.push_back(0.0);
+  double variance = 0.0;
+  for (size_t i = 0; i < strata.size(); i += 2)
+    variance += (strata[i] - strata[i + 1]) * (strata[i] - strata[i + 1]);
+  return std::sqrt(variance);
+}
+
 LinkStatistics link_statistics(std::span<const Path> paths, std::span<const double> powers) {
   const std::vector<Sample> samples = sorted_samples(paths, powers);
   const bool line_of_sight =
@@ -112,6 +127,7 @@ LinkStatistics link_statistics(std::span<const Path> paths, std::span<const doub
     link.path_gain += sample.power;
     (sample.line_of_sight ? direct : others) += sample.power;
   }
+  link.path_gain_deviation = drawn_deviation(paths, powers);
   link.k_factor = direct / others;  // +inf without other paths
   const double total = link.path_gain;
   const Moments delay = moments(samples, total, [](const Sample& sample) { return sample.delay_s; });

@@ -20,12 +20,20 @@ namespace greatx::rf {
 std::vector<double> path_powers(std::span<const Path> paths, const ArrayPose& transmitter,
                                 const ArrayPose& receiver, double carrier_hz);
 
+/// Returns an estimate of the standard deviation of the sum of `powers`, [paths], by the draws of scatterings
+/// (rf/paths/scatter_draw.h). A stratum of which nothing is among the paths was hidden. Neighbouring strata
+/// are compared (collapsed strata: W. G. Cochran, Sampling Techniques, 3rd ed., 1977, 5A.12), so that the
+/// estimate also holds their true difference and is on average too large. 0: nothing was drawn. Thread-safe.
+double drawn_deviation(std::span<const Path> paths, std::span<const double> powers);
+
 /// Holds the statistics of a link. Means and spreads are weighted by power. If no path has power, path_gain
-/// is 0 and all members after it are NaN.
+/// and its deviation are 0, and all members after them are NaN.
 struct LinkStatistics {
   uint32_t paths = 0;
-  bool line_of_sight = false;   ///< whether a path without interactions exists, whatever its power
-  double path_gain = 0.0;       ///< sum of the paths' powers; fields of different paths are not added
+  bool line_of_sight = false;  ///< whether a path without interactions exists, whatever its power
+  double path_gain = 0.0;      ///< sum of the paths' powers; fields of different paths are not added
+  /// Estimate of the standard deviation of path_gain by the draws of scatterings (drawn_deviation()).
+  double path_gain_deviation = 0.0;
   double mean_delay_s = 0.0;    ///< absolute
   double delay_spread_s = 0.0;  ///< rms
   /// Rician K: power of the line of sight over the power of all other paths. 0 without a line of sight, +inf

@@ -22,7 +22,10 @@ struct PathLimits {
   /// Reflections between the source (the end that the search starts from) and a scattering, as a part of
   /// max_depth.
   uint32_t max_reflections_before_scattering = ~0u;
-  double patch_m = 10.0;           ///< longest side of the patches that scatter as a whole, metres
+  double patch_m = 10.0;  ///< longest side of the patches that scatter as a whole, metres
+  /// Scatterings of a link that are traced. If there are more, seeded draws stand for the others, so that the
+  /// expected power is theirs (rf/paths/scatter_draw.h). 0: every one is traced.
+  uint32_t scattering_budget = 0;
   uint64_t max_paths = 1'000'000;  ///< geometric paths of a link; paths beyond it are counted, not traced
 };
 

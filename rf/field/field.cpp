@@ -349,6 +349,7 @@ Path path_field(const GeometricPath& geometry, const FieldModel& model, const dv
   path.edges_diffract = geometry.edges_diffract;
   path.edge_sides = geometry.edge_sides;
   path.from_receiver = back;
+  path.stratum = geometry.stratum;
   path.delay_s = geometry.length_m / speed_of_light;
   path.doppler_hz = closing_rate(wave, model, runs, back ? receiver_velocity : transmitter_velocity,
                                  back ? transmitter_velocity : receiver_velocity) /

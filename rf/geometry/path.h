@@ -68,15 +68,20 @@ struct GeometricPath {
   std::vector<Interaction> interactions;
   /// [interactions + 2], local coordinates: transmitter, interactions, receiver.
   std::vector<dvec3> vertices;
-  double length_m = 0.0;       ///< unfolded length, from the images and not as a sum of segments
-  double foliage_m = 0.0;      ///< length inside foliage
-  double patch_area_m2 = 0.0;  ///< area of the scattering patch; 0 if the path is not scattered
+  double length_m = 0.0;   ///< unfolded length, from the images and not as a sum of segments
+  double foliage_m = 0.0;  ///< length inside foliage
+  /// Area of the scattering patch; 0 if the path is not scattered. A patch that stands for others (stratum)
+  /// has the area that gives it their power.
+  double patch_area_m2 = 0.0;
   /// Bit i: the diffraction at the edges of the facet of interaction i, a reflection, is in other paths.
   uint32_t edges_diffract = 0;
   std::array<EdgeSides, 2> edge_sides = {};  ///< of its diffractions, in the order of the path
   /// The field is computed as if the receiver sent. A diffraction at a lossy wedge and a scattering have
   /// other fields from each side, so both directions of a link compute theirs from the same end.
   bool from_receiver = false;
+  /// Number, from 1 on, of the stratum of scatterings of this link for which this one was drawn; 0: it stands
+  /// for itself alone (rf/paths/scatter_draw.h).
+  uint32_t stratum = 0;
   FacetSequence facets() const { return reflecting_facets(interactions); }
   /// Makes this an empty path that keeps its memory.
   void clear() {
@@ -86,6 +91,7 @@ struct GeometricPath {
     edges_diffract = 0;
     edge_sides = {};
     from_receiver = false;
+    stratum = 0;
   }
 };
 
@@ -101,6 +107,7 @@ struct Path {
   uint32_t edges_diffract = 0;               ///< as in GeometricPath
   std::array<EdgeSides, 2> edge_sides = {};  ///< as in GeometricPath
   bool from_receiver = false;                ///< as in GeometricPath
+  uint32_t stratum = 0;                      ///< as in GeometricPath
   double delay_s = 0.0;                      ///< length / c
   /// nu = (1/lambda)(v_tx . k_0 - v_rx . k_n + sum v_i . (k_i - k_{i-1})); approaching ends give nu > 0.
   double doppler_hz = 0.0;

@@ -51,13 +51,12 @@ struct EdgePairs::Inside {
   }
 };
 
-EdgePairs::EdgePairs(std::shared_ptr<const BeamScene> scene, std::span<const scene::Wedge> wedges,
-                     uint32_t max_walls)
-    : scene_(std::move(scene)), wedges_(wedges), max_walls_(max_walls), rows_(wedges.size()) {
+EdgePairs::EdgePairs(const BeamScene& still, std::span<const scene::Wedge> wedges, uint32_t max_walls)
+    : wedges_(wedges), max_walls_(max_walls), rows_(wedges.size()) {
   std::vector<scene::Bounds> boxes;
-  for (uint32_t f = 0; f < scene_->facet_count(); ++f) {
-    const BeamFacet& facet = scene_->facet(f);
-    for (const BeamPolygon& polygon : scene_->polygons(facet)) {
+  for (uint32_t f = 0; f < still.facet_count(); ++f) {
+    const BeamFacet& facet = still.facet(f);
+    for (const BeamPolygon& polygon : still.polygons(facet)) {
       Blind blind{facet.normal,
                   facet.offset,
                   std::max(clearance_m, 4.0 * facet.tolerance_m),
@@ -65,15 +64,17 @@ EdgePairs::EdgePairs(std::shared_ptr<const BeamScene> scene, std::span<const sce
                   polygon.count,
                   f,
                   facet.kind == FacetKind::wall};
-      for (const uint32_t corner : scene_->corners(polygon)) corners_.push_back(scene_->vertex(corner));
+      for (const uint32_t corner : still.corners(polygon)) corners_.push_back(still.vertex(corner));
       blinds_.push_back(blind);
       boxes.push_back(bounds_of(corners(blind)));
     }
   }
   blind_tree_ = scene::BoxTree(boxes);
   boxes.clear();
-  for (uint32_t i = 0; i < scene_->wedge_count(); ++i) listed_.push_back(scene_->wedge(i).index);
+  for (uint32_t i = 0; i < still.wedge_count(); ++i) listed_.push_back(still.wedge(i).index);
   std::sort(listed_.begin(), listed_.end());
+  for (uint32_t i = 0; i < wedges_.size(); ++i)
+    if (wedges_[i].body != 0) moving_.push_back(i);
   for (const uint32_t wedge : listed_) {
     const dvec3 ends[2] = {wedges_[wedge].a, wedges_[wedge].b};
     boxes.push_back(bounds_of(ends));
@@ -150,21 +151,30 @@ class EdgePairs::Looker {
   std::vector<uint32_t> walls_;
 };
 
+void EdgePairs::add_seen(uint32_t wedge, std::vector<uint32_t>& seen) const {
+  const scene::Wedge& from = wedges_[wedge];
+  Looker looker(*this, from);
+  const dvec3 ends[2] = {from.a, from.b};
+  const scene::Bounds own = bounds_of(ends);
+  wedge_tree_.visit_until([&](const scene::Bounds& box) { return looker.hidden(box); },
+                          [&](uint32_t index) {
+                            const scene::Wedge& to = wedges_[listed_[index]];
+                            const dvec3 to_ends[2] = {to.a, to.b};
+                            if (!Inside(to).holds(own) && !looker.hidden(bounds_of(to_ends)))
+                              seen.push_back(listed_[index]);
+                            return false;
+                          });
+}
+
 std::span<const uint32_t> EdgePairs::seen_from(uint32_t wedge) {
   Row& row = rows_[wedge];
   std::call_once(row.once, [&] {
-    const scene::Wedge& from = wedges_[wedge];
-    Looker looker(*this, from);
-    const dvec3 ends[2] = {from.a, from.b};
-    const scene::Bounds own = bounds_of(ends);
-    wedge_tree_.visit_until([&](const scene::Bounds& box) { return looker.hidden(box); },
-                            [&](uint32_t index) {
-                              const scene::Wedge& to = wedges_[listed_[index]];
-                              if (listed_[index] == wedge || Inside(to).holds(own)) return false;
-                              const dvec3 to_ends[2] = {to.a, to.b};
-                              if (!looker.hidden(bounds_of(to_ends))) row.seen.push_back(listed_[index]);
-                              return false;
-                            });
+    row.seen = moving_;
+    if (wedges_[wedge].body == 0)
+      add_seen(wedge, row.seen);
+    else
+      row.seen.insert(row.seen.end(), listed_.begin(), listed_.end());
+    std::erase(row.seen, wedge);
     std::sort(row.seen.begin(), row.seen.end());
   });
   return row.seen;

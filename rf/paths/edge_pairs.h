@@ -5,16 +5,16 @@
 // pairs of edges of a city very few see each other.
 //
 //   wedge ─► tree of boxes of the others ─► boxes wholly behind one polygon, or inside the wedge, are cut off
-//         ─► the wedges that are left (once for each wedge, kept while the world rests)
+//         ─► the wedges that are left (once for each wedge)
 //
 // The polygon P, which is convex, hides a set of points from an edge if every point lies in the pyramid
 // behind P of both ends of the edge: a line from any place of the edge to a point then meets P between the
 // places where the lines from the ends meet it. Only polygons that the line between both middles meets are
-// tried. Hence the list of an edge is never too short, and somewhat too long.
+// tried. Hence the list of an edge is never too short, and somewhat too long. Bodies that move hide nothing, and
+// their edges see every edge.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <mutex>
 #include <span>
 #include <vector>
@@ -26,9 +26,9 @@ namespace greatx::rf {
 
 class EdgePairs {
  public:
-  /// `wedges` are those of `scene`, and must outlive this object. `max_walls`: facets of kind wall that a
-  /// wave may pass between two edges.
-  EdgePairs(std::shared_ptr<const BeamScene> scene, std::span<const scene::Wedge> wedges, uint32_t max_walls);
+  /// `still` holds what does not move of a scene with these wedges, which must outlive this object.
+  /// `max_walls`: facets of kind wall that a wave may pass between two edges.
+  EdgePairs(const BeamScene& still, std::span<const scene::Wedge> wedges, uint32_t max_walls);
 
   /// Returns the wedges that a wedge may see, ascending, without itself. Many threads may call this.
   std::span<const uint32_t> seen_from(uint32_t wedge);
@@ -49,16 +49,17 @@ class EdgePairs {
   };
   struct Inside;
   class Looker;
+  void add_seen(uint32_t wedge, std::vector<uint32_t>& seen) const;
   std::span<const dvec3> corners(const Blind& blind) const {
     return std::span(corners_).subspan(blind.first, blind.count);
   }
 
-  std::shared_ptr<const BeamScene> scene_;
   std::span<const scene::Wedge> wedges_;
   uint32_t max_walls_;
   std::vector<Blind> blinds_;
   std::vector<dvec3> corners_;
-  std::vector<uint32_t> listed_;            ///< the wedges of the scene, ascending
+  std::vector<uint32_t> listed_;            ///< the wedges of `still`, ascending
+  std::vector<uint32_t> moving_;            ///< those of bodies that move, ascending
   scene::BoxTree blind_tree_, wedge_tree_;  ///< over blinds_, and over listed_
   std::vector<Row> rows_;                   ///< [wedges]
 };

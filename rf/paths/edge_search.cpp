@@ -73,7 +73,6 @@ void EdgeSearch::move() {
   if (scene_ && !moving_bodies_) return;
   scene_ = std::make_shared<const BeamScene>(model_->facets, model_->kinds, model_->wedges, moving_bodies_);
   answers_.clear();
-  pairs_.reset();
 }
 
 EdgePairs& EdgeSearch::pairs() {
@@ -81,7 +80,10 @@ EdgePairs& EdgeSearch::pairs() {
   if (!pairs_) {
     const uint32_t walls = model_->effects.transmission ? limits_.max_transmissions : 0;
     const uint32_t left = limits_.max_depth > 2 ? limits_.max_depth - 2 : 0;
-    pairs_ = std::make_unique<EdgePairs>(scene_, model_->wedges, std::min(walls, left));
+    const auto still = moving_bodies_ ? std::make_shared<const BeamScene>(model_->facets, model_->kinds,
+                                                                          model_->wedges, false)
+                                      : scene_;
+    pairs_ = std::make_unique<EdgePairs>(*still, model_->wedges, std::min(walls, left));
   }
   return *pairs_;
 }

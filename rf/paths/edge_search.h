@@ -42,7 +42,7 @@ class EdgeSearch {
   /// Returns what a search at `end` finds, whose `body` hides nothing from it (0: none). The last answers are
   /// kept if `keep`. Many threads may call this.
   std::shared_ptr<const EdgeWays> from(const dvec3& end, uint32_t body, uint32_t threads, bool keep);
-  /// Returns which edges may see which in the present world. It is made when it is asked for first.
+  /// Returns which edges may see which, wherever bodies move. It is made when it is asked for first.
   EdgePairs& pairs();
 
  private:

@@ -64,6 +64,7 @@ bool insert_walls(const FacetWorld& world, const GeometricPath& path, std::span<
   full = {{}, {path.vertices.front()}, path.length_m, 0.0};
   full.patch_area_m2 = path.patch_area_m2;
   full.from_receiver = path.from_receiver;
+  full.stratum = path.stratum;
   for (size_t i = 0; i < crossings.size(); ++i) {
     const Crossing& crossing = crossings[i];
     if constexpr (all_effects_built) {

@@ -3,9 +3,12 @@
 #include "rf/paths/scatterers.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/error.h"
+#include "core/parallel.h"
+#include "core/random.h"
 #include "core/watch.h"
 #include "rf/search/beam_search.h"
 
@@ -13,24 +16,11 @@ namespace greatx::rf {
 
 namespace {
 
-struct Triangle {
-  dvec3 corners[3];
-};
+/// Separates the draws of the clocks from every other use of the seed of the run.
+constexpr uint64_t way_clocks = 0x7761792d636c6b73ull;
 
-/// Returns a lower bound of the number of pieces of a triangle, from its area and from its longest side.
-double least_pieces(const scene::FacetTriangle& triangle, double side_m) {
-  const dvec3 &a = triangle.corners[0], &b = triangle.corners[1], &c = triangle.corners[2];
-  const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)}),
-               area = 0.5 * glm::length(glm::cross(b - a, c - a));
-  const double of_area =
-      area / (0.25 * std::sqrt(3.0)) / side_m / side_m;  // the largest piece is equilateral
-  return std::max(of_area, longest / side_m);
-}
-
-[[noreturn]] void too_many_patches(double side_m, size_t most) {
-  throw_user_error("scattering_patch_m: {} m makes more than {} patches of this scene; expected a larger one",
-                   side_m, most);
-}
+/// Returns an exponential variable of mean 1.
+double exponential(RandomStream random) { return -std::log(1.0 - random.uniform()); }
 
 /// Checks that a number fits into 32 bits and returns it. Throws UserError if it does not fit.
 uint32_t number_of(size_t count, const char* what) {
@@ -38,29 +28,6 @@ uint32_t number_of(size_t count, const char* what) {
     throw_user_error("paths: {} {}, expected at most {}; a smaller max_depth, a larger scattering_patch_m",
                      count, what, ~0u);
   return static_cast<uint32_t>(count);
-}
-
-/// Halves the longest side until no side is longer than `side_m`. Appends the pieces in order, first half
-/// first.
-void cut(const Triangle& triangle, double side_m, uint32_t facet, std::vector<Patch>& patches, size_t first,
-         size_t most) {
-  int longest = 0;
-  double length = 0.0;
-  for (int side = 0; side < 3; ++side) {
-    const double l = glm::length(triangle.corners[(side + 1) % 3] - triangle.corners[side]);
-    if (l > length) longest = side, length = l;
-  }
-  const dvec3 &a = triangle.corners[longest], &b = triangle.corners[(longest + 1) % 3],
-              &c = triangle.corners[(longest + 2) % 3];
-  if (length > side_m) {
-    const dvec3 middle = 0.5 * (a + b);
-    cut({{a, middle, c}}, side_m, facet, patches, first, most);
-    cut({{middle, b, c}}, side_m, facet, patches, first, most);
-    return;
-  }
-  if (patches.size() >= most) too_many_patches(side_m, most);
-  patches.push_back({facet, static_cast<uint32_t>(patches.size() - first), (a + b + c) / 3.0,
-                     0.5 * glm::length(glm::cross(b - a, c - a))});
 }
 
 }  // namespace
@@ -71,32 +38,17 @@ void turn_to_transmitter(GeometricPath& path) {
   path.from_receiver = true;
 }
 
-std::vector<Patch> scattering_patches(const scene::Scene& scene, const FacetKinds& kinds, double side_m,
-                                      size_t most) {
-  std::vector<Patch> patches;
-  for (uint32_t index = 0; index < scene.facets.size(); ++index) {
-    const scene::Facet& facet = scene.facets[index];
-    const scene::Material& material = scene.materials[facet.material];
-    const bool hard = kinds[index] == FacetKind::opaque || kinds[index] == FacetKind::wall;
-    if (!hard || !material.radio || material.radio->scattering_coefficient == 0.0) continue;
-    const size_t first = patches.size();
-    for (uint32_t t = 0; t < facet.triangle_count; ++t) {
-      const scene::FacetTriangle& triangle = scene.facet_triangles[facet.first_triangle + t];
-      // The bound is tested before the triangle is cut, because halving would not end before fp64 underflows.
-      if (!(least_pieces(triangle, side_m) <= static_cast<double>(most))) too_many_patches(side_m, most);
-      cut({{triangle.corners[0], triangle.corners[1], triangle.corners[2]}}, side_m, index, patches, first,
-          most);
-    }
-    std::erase_if(patches, [](const Patch& patch) { return patch.area_m2 == 0.0; });
-  }
-  return patches;
-}
-
 Scatterers::Scatterers(const RadioModel& model, const PathLimits& limits, bool moving_bodies)
     : model_(&model),
       limits_(limits),
       moving_bodies_(moving_bodies),
-      patches_(scattering_patches(*model.scene, model.kinds, limits.patch_m)) {}
+      patches_(scattering_patches(*model.scene, model.kinds, limits.patch_m)) {
+  if (limits.scattering_budget == 0) return;
+  FacetKinds kinds = model.kinds;
+  for (uint32_t i = 0; i < kinds.size(); ++i)
+    if (model.facets.facet(i).body != 0) kinds[i] = FacetKind::absent;
+  at_rest_.emplace(*model.scene, kinds);
+}
 
 /// Finds the sequences that lead to facets. A candidate sequence that ends with a facet shows that the
 /// sequence without this facet leads to the facet. `windows`: [sequences of the result], the part of the
@@ -187,45 +139,216 @@ Scatterers::PatchArrivals Scatterers::straight_to_patches(const dvec3& from) con
 void Scatterers::set_candidates(const CandidateList& candidates, const ImageTree& tree) {
   std::vector<PlaneWindow> windows;
   at_facets_ = arrivals_at_facets(candidates, limits_.max_reflections_before_scattering, windows);
-  at_patches_ = arrivals_at_patches(at_facets_, windows, tree);
+  place_ways(tree, windows);
 }
 
-void Scatterers::move(const ImageTree& tree) { at_patches_ = arrivals_at_patches(at_facets_, {}, tree); }
+void Scatterers::move(const ImageTree& tree) { place_ways(tree, {}); }
 
-/// Joins every prefix with every suffix at a patch whose centre both reach from the same side.
-void Scatterers::scatter(const ImageTree& tree, const dvec3& target, size_t number,
-                         const PatchArrivals& suffixes, std::vector<GeometricPath>& paths) const {
+void Scatterers::place_ways(const ImageTree& tree, const std::vector<PlaneWindow>& windows) {
+  at_patches_ = arrivals_at_patches(at_facets_, windows, tree);
+  if (!at_rest_) return;
+  std::vector<std::pair<uint32_t, uint32_t>> ways;  // patch, arrival
+  for (uint32_t patch = 0; patch < patches_.size(); ++patch)
+    for (uint32_t i = at_patches_.offsets[patch]; i < at_patches_.offsets[patch + 1]; ++i)
+      ways.emplace_back(patch, i);
+  std::vector<std::optional<LitPatch>> found(ways.size());
+  constexpr size_t ways_at_once = 256;
+  parallel_for((ways.size() + ways_at_once - 1) / ways_at_once, 0, [&](size_t chunk) {
+    checkpoint();
+    for (size_t i = chunk * ways_at_once; i < std::min(ways.size(), (chunk + 1) * ways_at_once); ++i)
+      found[i] = lit_patch(ways[i].first, ways[i].second, tree.source());
+  });
+  std::vector<LitPatch> lit;
+  for (const std::optional<LitPatch>& one : found)
+    if (one) lit.push_back(*one);
+  tree_ = ScatterTree(std::move(lit));
+}
+
+/// Returns the number of walls that a path with these interactions may pass.
+uint32_t Scatterers::walls_beside(uint32_t interactions) const {
+  if (!model_->effects.transmission || interactions >= limits_.max_depth) return 0;
+  return std::min({limits_.max_depth - interactions, limits_.max_transmissions, shared::crossings_max});
+}
+
+/// Returns the share of the power that passes everything at rest on a segment; 0: it is blocked.
+double Scatterers::passes_what_rests(const Segment& segment) const {
+  Crossing crossing;
+  at_rest_->settle(model_->facets, segment, crossing);
+  if (crossing.blocked) return 0.0;
+  double share = 1.0;
+  for (const uint32_t wall : crossing.walls) {
+    const PosedFacet& facet = model_->facets.facet(wall);
+    const double towards = glm::dot(glm::normalize(segment.b - segment.a), facet.normal);
+    const SheetTransmission sheet =
+        model_->surfaces.transmit(facet.material, towards < 0.0, std::min(1.0, std::abs(towards)));
+    share *= 0.5 * (std::norm(sheet.te) + std::norm(sheet.tm));
+  }
+  return std::max(share, 1e-30);
+}
+
+/// Returns the share of the source's power that passes what is at rest on the way to a patch; 0: none does.
+double Scatterers::reaches(const PatchArrival& way, const Patch& patch, const dvec3& source) const {
+  const uint32_t walls = walls_beside(way.depth + 1);
+  double share = 1.0;
+  for (uint32_t i = 0; i <= way.depth && share > 0.0; ++i) {
+    Segment segment{.a = i == 0 ? source : at_patches_.points[way.first + i - 1],
+                    .b = i == way.depth ? center(patch) : at_patches_.points[way.first + i]};
+    if (i > 0) segment.facet_a = at_patches_.facets[way.first + i - 1];
+    segment.facet_b = i == way.depth ? patch.facet : at_patches_.facets[way.first + i];
+    segment.walls = walls;
+    share *= passes_what_rests(segment);
+  }
+  return share;
+}
+
+/// Returns the mean share of the power of both polarizations that a facet reflects. A share that is too small
+/// costs accuracy, and one of 0 would lose power.
+double Scatterers::reflected(uint32_t index, const dvec3& in) const {
+  const PosedFacet& facet = model_->facets.facet(index);
+  const double towards = glm::dot(in, facet.normal);
+  const ReflectionCoefficients r =
+      model_->surfaces.reflect(facet.material, towards < 0.0, std::min(1.0, std::abs(towards)));
+  return std::max(1e-4, 0.5 * (std::norm(r.r_te) + std::norm(r.r_tm)));
+}
+
+/// Describes a patch as the wave on a way from the source meets it. None: it is not lit.
+std::optional<LitPatch> Scatterers::lit_patch(uint32_t number, uint32_t arrival, const dvec3& source) const {
+  const Patch& patch = patches_[number];
+  const PatchArrival& way = at_patches_.arrivals[arrival];
+  const PosedFacet& facet = model_->facets.facet(patch.facet);
+  const double side = facet.distance(way.from);
+  if (std::abs(side) <= facet.tolerance_m) return std::nullopt;
+  double share = reaches(way, patch, source);
+  if (share == 0.0) return std::nullopt;
+  uint64_t key = model_->effects.field.seed ^ way_clocks;
+  dvec3 from = source;
+  for (uint32_t i = way.first; i < way.first + way.depth; ++i) {
+    const dvec3& to = at_patches_.points[i];
+    if (to != from) share *= reflected(at_patches_.facets[i], glm::normalize(to - from));
+    from = to;
+    key = RandomStream(key, at_patches_.facets[i], i - way.first).bits();
+  }
+  LitPatch lit;
+  lit.position = center(patch);
+  lit.normal = side > 0.0 ? facet.normal : -facet.normal;
+  const dvec3 in = glm::normalize(lit.position - way.from);
+  const double cosine = std::max(1e-9, -glm::dot(in, lit.normal));
+  lit.specular = in + 2.0 * cosine * lit.normal;
+  lit.surface = &model_->surfaces.surface(facet.material).scattering;
+  lit.power = share * reflected(patch.facet, in) * lit.surface->coefficient * lit.surface->coefficient *
+              cosine * patch.area_m2 / (way.length_m * way.length_m);
+  if (!(lit.power > 0.0)) return std::nullopt;
+  lit.length_m = way.length_m;
+  lit.facet = patch.facet;
+  lit.patch = number;
+  lit.arrival = arrival;
+  lit.clock = exponential(RandomStream(key, patch.facet, patch.number));
+  return lit;
+}
+
+/// Appends the path of a prefix and a suffix that meet at a patch, if both reach its centre from the same
+/// side.
+void Scatterers::join(const ImageTree& tree, const dvec3& target, size_t number, const PatchArrival& before,
+                      const PatchArrival& after, const PatchArrivals& suffixes,
+                      std::vector<GeometricPath>& paths) const {
   const Patch& patch = patches_[number];
   const PosedFacet& facet = model_->facets.facet(patch.facet);
-  const dvec3 point = center(patch);
-  for (const PatchArrival& after : suffixes.of(number)) {
-    checkpoint();
-    const double to = facet.distance(after.from);
-    if (std::abs(to) <= facet.tolerance_m) continue;
-    for (const PatchArrival& before : at_patches_.of(number)) {
-      const size_t count = before.depth + 1 + after.depth;
-      if (count > limits_.max_depth) continue;
-      const double from = facet.distance(before.from);
-      if (std::abs(from) <= facet.tolerance_m || from * to < 0.0) continue;
-      GeometricPath& path = paths.emplace_back();
-      path.interactions.reserve(count);
-      path.vertices.reserve(count + 2);
-      path.vertices.push_back(tree.source());
-      for (uint32_t i = before.first; i < before.first + before.depth; ++i) {
-        path.interactions.push_back({InteractionType::reflection, at_patches_.facets[i]});
-        path.vertices.push_back(at_patches_.points[i]);
+  const double to = facet.distance(after.from);
+  if (std::abs(to) <= facet.tolerance_m) return;
+  const size_t count = before.depth + 1 + after.depth;
+  if (count > limits_.max_depth) return;
+  const double from = facet.distance(before.from);
+  if (std::abs(from) <= facet.tolerance_m || from * to < 0.0) return;
+  GeometricPath& path = paths.emplace_back();
+  path.interactions.reserve(count);
+  path.vertices.reserve(count + 2);
+  path.vertices.push_back(tree.source());
+  for (uint32_t i = before.first; i < before.first + before.depth; ++i) {
+    path.interactions.push_back({InteractionType::reflection, at_patches_.facets[i]});
+    path.vertices.push_back(at_patches_.points[i]);
+  }
+  path.interactions.push_back({InteractionType::scattering, patch.facet, patch.number});
+  path.vertices.push_back(center(patch));
+  for (uint32_t i = after.first + after.depth; i-- > after.first;) {
+    path.interactions.push_back({InteractionType::reflection, suffixes.facets[i]});
+    path.vertices.push_back(suffixes.points[i]);
+  }
+  path.vertices.push_back(target);
+  path.length_m = before.length_m + after.length_m;
+  path.patch_area_m2 = patch.area_m2;
+  if (tree.end() == Source::receiver) turn_to_transmitter(path);
+}
+
+/// Searches for the ways from a target to patches.
+Scatterers::PatchArrivals Scatterers::ways_to(const ImageTree& tree, const dvec3& target, uint32_t body,
+                                              uint32_t threads, LeftOut& left_out) const {
+  BeamSearchOptions search;
+  search.max_depth = limits_.max_reflections_after + 1;
+  search.max_transmissions = model_->effects.transmission ? limits_.max_transmissions : 0;
+  search.moving_bodies = moving_bodies_;
+  search.source_body = body;
+  search.threads = threads;
+  const BeamSearchResult result = BeamSearch(model_->facets, model_->kinds, {}, search).search(target);
+  left_out = {result.overflow(), result.complete_depth()};
+  std::vector<PlaneWindow> windows;
+  const Arrivals facets = arrivals_at_facets(result.list, limits_.max_reflections_after, windows);
+  return arrivals_at_patches(facets, windows,
+                             ImageTree(model_->facets, target, result.list, opposite(tree.end())));
+}
+
+/// Lists the lit patches together with each way with reflections that leads from the target to them.
+std::vector<SingleScattering> Scatterers::bounces(const PatchArrivals& suffixes,
+                                                  std::vector<Bounce>& pairs) const {
+  std::vector<SingleScattering> all;
+  if (suffixes.arrivals.empty()) return all;
+  for (uint32_t i = 0; i < tree_.patches().size(); ++i) {
+    const LitPatch& lit = tree_.patches()[i];
+    const uint32_t before = at_patches_.arrivals[lit.arrival].depth;
+    for (uint32_t s = suffixes.offsets[lit.patch]; s < suffixes.offsets[lit.patch + 1]; ++s) {
+      const PatchArrival& after = suffixes.arrivals[s];
+      if (after.depth == 0 || before + 1 + after.depth > limits_.max_depth || after.from == lit.position)
+        continue;
+      const dvec3 out = glm::normalize(after.from - lit.position);
+      double power = scattered_power(lit, out, after.length_m);
+      if (!(power > 0.0)) continue;
+      uint64_t key = std::bit_cast<uint64_t>(lit.clock);
+      dvec3 from = lit.position;
+      for (uint32_t k = after.first + after.depth; k-- > after.first;) {
+        const dvec3& to = suffixes.points[k];
+        if (to != from) power *= reflected(suffixes.facets[k], glm::normalize(to - from));
+        from = to;
+        key = RandomStream(key, suffixes.facets[k], k - after.first).bits();
       }
-      path.interactions.push_back({InteractionType::scattering, patch.facet, patch.number});
-      path.vertices.push_back(point);
-      for (uint32_t i = after.first + after.depth; i-- > after.first;) {
-        path.interactions.push_back({InteractionType::reflection, suffixes.facets[i]});
-        path.vertices.push_back(suffixes.points[i]);
-      }
-      path.vertices.push_back(target);
-      path.length_m = before.length_m + after.length_m;
-      path.patch_area_m2 = patch.area_m2;
-      if (tree.end() == Source::receiver) turn_to_transmitter(path);
+      all.push_back({power, lit.length_m + after.length_m, exponential(RandomStream(key, lit.facet))});
+      pairs.push_back({i, s});
     }
+  }
+  return all;
+}
+
+/// Appends the paths of the draws for a target. Patches send to it straight and on the ways of `suffixes`
+/// with reflections.
+void Scatterers::draw(const ImageTree& tree, const dvec3& target, const PatchArrivals& suffixes,
+                      std::vector<GeometricPath>& paths) const {
+  std::vector<Bounce> pairs;
+  const std::vector<SingleScattering> singles = bounces(suffixes, pairs);
+  const size_t straight = tree_.patches().size();
+  const auto sight = [&](const LitPatch& patch) {
+    return passes_what_rests(
+        {.a = patch.position, .b = target, .facet_a = patch.facet, .walls = walls_beside(1)});
+  };
+  for (const ScatterDraw& draw : draw_scatterings(tree_, target, singles, limits_.scattering_budget, sight)) {
+    const bool bent = draw.index >= straight;
+    const Bounce pair = bent ? pairs[draw.index - straight] : Bounce{draw.index};
+    const LitPatch& lit = tree_.patches()[pair.patch];
+    const size_t known = paths.size();
+    join(tree, target, lit.patch, at_patches_.arrivals[lit.arrival],
+         bent ? suffixes.arrivals[pair.suffix]
+              : PatchArrival{0, 0, target, glm::length(target - lit.position)},
+         suffixes, paths);
+    if (paths.size() == known) continue;
+    paths.back().patch_area_m2 *= draw.factor;
+    paths.back().stratum = draw.stratum;
   }
 }
 
@@ -233,24 +356,21 @@ LeftOut Scatterers::solve(const ImageTree& tree, const dvec3& target, uint32_t t
                           std::vector<GeometricPath>& paths) const {
   LeftOut left_out;
   if (at_patches_.arrivals.empty()) return left_out;
-  PatchArrivals at_patches;
-  if (limits_.max_reflections_after > 0) {
-    BeamSearchOptions search;
-    search.max_depth = limits_.max_reflections_after + 1;
-    search.max_transmissions = model_->effects.transmission ? limits_.max_transmissions : 0;
-    search.moving_bodies = moving_bodies_;
-    search.source_body = target_body;
-    search.threads = threads;
-    const BeamSearchResult result = BeamSearch(model_->facets, model_->kinds, {}, search).search(target);
-    left_out = {result.overflow(), result.complete_depth()};
-    std::vector<PlaneWindow> windows;
-    const Arrivals facets = arrivals_at_facets(result.list, limits_.max_reflections_after, windows);
-    const ImageTree suffixes(model_->facets, target, result.list, opposite(tree.end()));
-    at_patches = arrivals_at_patches(facets, windows, suffixes);
-  } else {
-    at_patches = straight_to_patches(target);
+  PatchArrivals suffixes;
+  if (limits_.max_reflections_after > 0)
+    suffixes = ways_to(tree, target, target_body, threads, left_out);
+  else if (!at_rest_)
+    suffixes = straight_to_patches(target);
+  if (at_rest_) {
+    draw(tree, target, suffixes, paths);
+    return left_out;
   }
-  for (size_t patch = 0; patch < patches_.size(); ++patch) scatter(tree, target, patch, at_patches, paths);
+  for (size_t patch = 0; patch < patches_.size(); ++patch) {
+    checkpoint();
+    for (const PatchArrival& after : suffixes.of(patch))
+      for (const PatchArrival& before : at_patches_.of(patch))
+        join(tree, target, patch, before, after, suffixes, paths);
+  }
   return left_out;
 }
 

@@ -3,10 +3,12 @@
 //
 // Finds paths with a scattering in the middle: reflections lead from the source to a patch (prefix) and from
 // there to the target (suffix). Prefixes come from the source's candidates, and suffixes from a search at the
-// target.
+// target. With PathLimits::scattering_budget the patches that their prefixes light are in a ScatterTree, and
+// each target draws some of them.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,23 +16,13 @@
 #include "rf/geometry/candidates.h"
 #include "rf/geometry/geometry.h"
 #include "rf/geometry/path.h"
+#include "rf/paths/exact_crossings.h"
 #include "rf/paths/radio_model.h"
+#include "rf/paths/scatter_draw.h"
+#include "rf/paths/scatter_tree.h"
+#include "rf/paths/scattering_patches.h"
 
 namespace greatx::rf {
-
-/// Holds a piece of a facet that scatters as a whole.
-struct Patch {
-  uint32_t facet = 0;
-  uint32_t number = 0;  ///< number of the patch on its facet
-  dvec3 center{0.0};    ///< in the frame of its body
-  double area_m2 = 0.0;
-};
-
-/// Cuts every facet whose material scatters into triangles with sides of at most `side_m`, in the order of
-/// the facet's triangles. Each cut halves the longest side. Throws UserError if there are more than `most`
-/// patches.
-std::vector<Patch> scattering_patches(const scene::Scene& scene, const FacetKinds& kinds, double side_m,
-                                      size_t most = 10'000'000);
 
 inline Source opposite(Source end) {
   return end == Source::transmitter ? Source::receiver : Source::transmitter;
@@ -81,9 +73,25 @@ class Scatterers {
   PatchArrivals arrivals_at_patches(const Arrivals& at_facets, const std::vector<PlaneWindow>& windows,
                                     const ImageTree& tree) const;
   PatchArrivals straight_to_patches(const dvec3& from) const;
+  void place_ways(const ImageTree& tree, const std::vector<PlaneWindow>& windows);
+  uint32_t walls_beside(uint32_t interactions) const;
+  double reflected(uint32_t facet, const dvec3& in) const;
+  double passes_what_rests(const Segment& segment) const;
+  double reaches(const PatchArrival& way, const Patch& patch, const dvec3& source) const;
+  std::optional<LitPatch> lit_patch(uint32_t patch, uint32_t arrival, const dvec3& source) const;
   dvec3 center(const Patch& patch) const;
-  void scatter(const ImageTree& tree, const dvec3& target, size_t patch, const PatchArrivals& suffixes,
-               std::vector<GeometricPath>& paths) const;
+  void join(const ImageTree& tree, const dvec3& target, size_t patch, const PatchArrival& before,
+            const PatchArrival& after, const PatchArrivals& suffixes,
+            std::vector<GeometricPath>& paths) const;
+  PatchArrivals ways_to(const ImageTree& tree, const dvec3& target, uint32_t body, uint32_t threads,
+                        LeftOut& left_out) const;
+  /// A patch of the tree and a way with reflections that leads from the target to it.
+  struct Bounce {
+    uint32_t patch = 0, suffix = 0;
+  };
+  std::vector<SingleScattering> bounces(const PatchArrivals& suffixes, std::vector<Bounce>& pairs) const;
+  void draw(const ImageTree& tree, const dvec3& target, const PatchArrivals& suffixes,
+            std::vector<GeometricPath>& paths) const;
 
   const RadioModel* model_;
   PathLimits limits_;
@@ -91,6 +99,8 @@ class Scatterers {
   std::vector<Patch> patches_;
   Arrivals at_facets_;
   PatchArrivals at_patches_;
+  std::optional<ExactCrossings> at_rest_;  ///< what never moves, as obstacles; set if there is a budget
+  ScatterTree tree_;                       ///< of `at_patches_`, if there is a budget
 };
 
 }  // namespace greatx::rf

@@ -363,6 +363,13 @@ std::vector<std::pair<std::string, std::string>> ChannelSearch::notes(const rf::
                     config_.limits.max_reflections_beside_diffraction,
                     std::min(config_.limits.max_depth, left_out.complete_depth),
                     1e3 * rf::BeamSearchOptions{}.clearance_m));
+  if (const uint32_t budget = config_.limits.scattering_budget; model_.effects.scattering && budget > 0)
+    notes.emplace_back(
+        "scattering",
+        fmt::format("of more than {} scatterings of a link, {} at most are traced: one is drawn "
+                    "for each stratum of delay and place, with the stratum's power "
+                    "(scattering_budget; 0 traces all)",
+                    budget, budget));
   if (beams_ && move_facets_ && (way_ == Way::every_tick || way_ == Way::by_link) &&
       config_.search != ChannelConfig::Search::every_tick)
     notes.emplace_back("reuse",

@@ -215,6 +215,10 @@ std::vector<LinkColumn> link_columns(const ColumnContext& context) {
                         [](const LinkView& link) { return link.paths_left_out; }),
       statistic("path_gain", "1", "[rx, tx] sum over paths of |a|^2, mean over port pairs",
                 &Statistics::path_gain),
+      statistic("path_gain_deviation", "1",
+                "[rx, tx] estimate of the standard deviation of path_gain by the draws of scatterings "
+                "(scattering_budget); 0: nothing was drawn",
+                &Statistics::path_gain_deviation),
       statistic("mean_delay", "s", "[rx, tx] weighted by power; NaN: no path", &Statistics::mean_delay_s),
       statistic("delay_spread", "s", "[rx, tx] rms, weighted by power; NaN: no path",
                 &Statistics::delay_spread_s),

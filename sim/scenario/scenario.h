@@ -175,8 +175,10 @@ struct ChannelConfig {
   uint32_t time_samples = 1;   ///< samples per record, which differ by Doppler shifts
   double time_spacing_s = 1e-3;
   static constexpr uint32_t most_walls = 8;  ///< the most walls on a path; shared::crossings_max
-  rf::PathLimits limits{
-      .max_transmissions = most_walls, .max_reflections_before_scattering = 1, .max_paths = 100'000};
+  rf::PathLimits limits{.max_transmissions = most_walls,
+                        .max_reflections_before_scattering = 1,
+                        .scattering_budget = 4000,
+                        .max_paths = 100'000};
   /// A search with beams misses no path. A search with rays launches `rays` rays, and may miss paths.
   enum class Candidates { beams, rays };
   Candidates candidates = Candidates::beams;

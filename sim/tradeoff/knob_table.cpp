@@ -193,6 +193,11 @@ void add_scattering(Table& table, const ChannelConfig& channel) {
   add(table.add_numbers("scattering_patch_m", {"scattering_patch_m"},
                         descending(around(channel.limits.patch_m, {8, 4, 2, 1}, false)),
                         channel.limits.patch_m, "longest side of the pieces that scatter as one", "m"));
+  const uint32_t budget = channel.limits.scattering_budget;
+  std::vector<double> budgets = around(budget > 0 ? budget : 4000, {0.25, 0.5, 1, 2}, true);
+  budgets.push_back(0);
+  add(table.add_numbers("scattering_budget", {"scattering_budget"}, std::move(budgets), budget,
+                        "scatterings of a link that are traced, of which some stand for others; 0: all"));
   add(table.add_numbers("max_reflections_before_scattering", {"max_reflections_before_scattering"},
                         up_to(table.quick() ? 1 : 2), channel.limits.max_reflections_before_scattering,
                         "reflections between a scattering and the end that is searched from at most"));

@@ -101,6 +101,25 @@ TEST_F(RadioBench, HasEveryRow) {
       << "diffraction and scattering take nothing from each other";
 }
 
+TEST_F(RadioBench, HoldsBudgetsOfScatteringsAgainstAllPatches) {
+  const std::string text = greatx::apps::test::read_file(folder_ / "street.yaml");
+  const size_t at = text.find("scattering_patch_m: 40");
+  std::ofstream(folder_ / "fine.yaml") << text.substr(0, at) << "scattering_patch_m: 10"
+                                       << text.substr(at + std::string("scattering_patch_m: 40").size());
+  const Outcome outcome = greatx(fmt::format("bench --recall --scattering {}/fine.yaml --count 4 --depth 2 "
+                                             "--budgets 100,1000000 --json",
+                                             folder_.string()),
+                                 "GREATX_CACHE=off");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto rows = nlohmann::json::parse(outcome.out)[0]["budgets"];
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0]["budget"], 0);
+  EXPECT_GT(rows[0]["chains"].get<double>(), 2.0 * rows[1]["chains"].get<double>());
+  EXPECT_GT(rows[1]["power_db"]["most"].get<double>(), 0.0);
+  for (const char* error : {"power_db", "bins_db", "direction_deg", "spread_deg"})
+    EXPECT_EQ(rows[2][error]["most"], 0.0) << error << ": a budget for all patches draws none";
+}
+
 TEST_F(RadioBench, PrintsATable) {
   const Outcome outcome = bench("--row-seconds 0.01", "off");
   ASSERT_EQ(outcome.code, 0) << outcome.err;

@@ -195,6 +195,35 @@ TEST_F(RadioCli, PathsBeyondTheBoundAreCountedAndSaid) {
   fails("no paths", {"house.yaml:", "channels[0].max_paths", "'0'"});
 }
 
+TEST_F(RadioCli, ScatteringsBeyondTheBudgetAreDrawnAndSaid) {
+  const auto with_budget = [&](const std::string& budget) {
+    change("house.yaml", radio_scenario, "max_depth: 2",
+           "max_depth: 2, scattering_patch_m: 0.5, scattering_budget: " + budget);
+    write("house.yaml",
+          greatx::apps::test::read_file(folder_ / "house.yaml") + "effects: {scattering: on}\n");
+  };
+  with_budget("30");
+  const Outcome outcome = run("paths", "--json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json drawn = json::parse(outcome.out);
+  EXPECT_THAT(drawn["scattering"].get<std::string>(),
+              HasSubstr("of more than 30 scatterings of a link, 30 at most are traced"));
+  EXPECT_EQ(drawn["counters"]["path_overflow"], 0);
+  EXPECT_GT(drawn["receivers"][0]["gain_deviation"].get<double>(), 0.0);
+  EXPECT_THAT(run("paths").out, HasSubstr("drawn scatterings: "));
+  EXPECT_THAT(run("explain").out, HasSubstr("of more than 30 scatterings"));
+  with_budget("0");
+  const json all = json::parse(run("paths", "--json").out);
+  EXPECT_FALSE(all.contains("scattering"));
+  EXPECT_EQ(all["receivers"][0]["gain_deviation"], 0.0);
+  EXPECT_GT(all["counters"]["geometric_paths"], 500);
+  EXPECT_LE(drawn["counters"]["geometric_paths"], 60);
+  for (const std::string wrong : {"-1", "2.5", "many", "1073741825"}) {
+    with_budget(wrong);
+    fails(wrong, {"house.yaml:", "channels[0].scattering_budget", "'" + wrong + "'"});
+  }
+}
+
 // Transmissions have a bound of their own, which a path of greater depth keeps.
 TEST_F(RadioCli, TheDeepestPathsRun) {
   change("house.yaml", radio_scenario, "max_depth: 2", "max_depth: 16");

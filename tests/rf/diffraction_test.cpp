@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "rf/field/field.h"
 #include "rf/geometry/geometry.h"
+#include "tests/rf/edge_contributions.h"
 #include "tests/rf/exhaustive.h"
 #include "tests/rf/scenes.h"
 
@@ -38,16 +39,8 @@ FieldVector operator*(Complex factor, const FieldVector& field) {
           factor.real() * field.im + factor.imag() * field.re};
 }
 
-/// Holds a scene with its facets, surfaces and wedges.
-struct Setting {
-  explicit Setting(const HandScene& hand, bool free_edges = false)
-      : world(hand.scene),
-        surfaces(hand.scene, frequency_hz),
-        wedges(scene::find_wedges(hand.scene, {.free_edges = free_edges})) {}
-
-  FacetWorld world;
-  RadioSurfaces surfaces;
-  std::vector<scene::Wedge> wedges;
+struct Setting : testing::Setting {
+  using testing::Setting::Setting;
 
   bool visible(const dvec3& a, const dvec3& b, uint32_t skipped) const {
     for (uint32_t facet = 0; facet < world.facet_count(); ++facet) {

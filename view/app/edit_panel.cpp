@@ -34,6 +34,7 @@ const std::vector<std::string> knobs_of_channels{"candidates",
                                                  "max_reflections_beside_diffraction",
                                                  "max_reflections_after",
                                                  "scattering_patch_m",
+                                                 "scattering_budget",
                                                  "subcarriers",
                                                  "time_samples"};
 const std::vector<std::string> knobs_of_sensors{

@@ -232,6 +232,7 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
                              "max_reflections_after",
                              "max_reflections_before_scattering",
                              "scattering_patch_m",
+                             "scattering_budget",
                              "max_paths",
                              "candidates",
                              "rays",
@@ -268,6 +269,8 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
   if (const auto f = map.find("max_reflections_before_scattering"))
     channel.limits.max_reflections_before_scattering = f->integer32(0, 16);
   if (const auto f = map.find("scattering_patch_m")) channel.limits.patch_m = f->positive(1e-3, 1e8);
+  if (const auto f = map.find("scattering_budget"))
+    channel.limits.scattering_budget = f->integer32(0, 1u << 30);
   if (const auto f = map.find("max_paths")) channel.limits.max_paths = f->integer32(1, 1u << 30);
   if (const auto f = map.find("candidates"))
     channel.candidates = std::array{ChannelConfig::Candidates::beams,
