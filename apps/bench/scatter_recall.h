@@ -5,6 +5,11 @@
 // against those of all patches.
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
 #include "apps/bench/recall.h"
 #include "gpu/device.h"
 
