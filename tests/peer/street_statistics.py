@@ -239,8 +239,8 @@ def main():
         write_points(points)
         distances = [math.dist(p, options.mast) for p in points]
         print(
-            "| effects | coverage | LOS: loss, dB | lg DS/s | lg ASD/° | lg ASA/° | NLOS: loss, dB | lg DS/s |
-            lg ASD/° " "| lg ASA/° | K, dB | core-ms a receiver |"
+            "| effects | coverage | LOS: loss, dB | lg DS/s | lg ASD/° | lg ASA/° "
+            "| NLOS: loss, dB | lg DS/s | lg ASD/° | lg ASA/° | K, dB | core-ms a receiver |"
         )
         print("|" + "---|" * 12)
         for setting in SETTINGS:
