@@ -10,8 +10,8 @@
 // The polygon P, which is convex, hides a set of points from an edge if every point lies in the pyramid
 // behind P of both ends of the edge: a line from any place of the edge to a point then meets P between the
 // places where the lines from the ends meet it. Only polygons that the line between both middles meets are
-// tried. Hence the list of an edge is never too short, and somewhat too long. Bodies that move hide nothing, and
-// their edges see every edge.
+// tried. Hence the list of an edge is never too short, and somewhat too long. Bodies that move hide nothing,
+// and their edges see every edge.
 #pragma once
 
 #include <cstdint>

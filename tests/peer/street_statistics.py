@@ -198,9 +198,9 @@ SETTINGS = [
     ),
     ("reflection, scattering", "diffraction: off, scattering: on, transmission: off", ""),
     (
-        "all",
+        "reflection, one edge, scattering, walls",
         "diffraction: on, scattering: on, transmission: on",
-        ", max_reflections_beside_diffraction: 1, max_diffractions: 2",
+        ", max_reflections_beside_diffraction: 1",
     ),
 ]
 
