@@ -271,6 +271,7 @@ BeamSearchResult Tree::grow() {
           const uint32_t made = static_cast<uint32_t>(nodes_.size() - 1);
           list_node(made, result);
           if (depth + 1 < options_.max_depth) result.beams.push_back(beam_of(made, depth + 1));
+          if (depth + 1 == last_depth) nodes_.pop_back();  // nothing follows; most nodes are of this depth
         }
       }
       if (depth > 0) stage.expect(expected_nodes(end, level, level_end, depth));
