@@ -357,7 +357,7 @@ std::vector<std::pair<std::string, std::string>> ChannelSearch::notes(const rf::
         fmt::format("no path over one edge{} is left out that has up to {} reflections on each "
                     "side and up to {} interactions, and is {:g} mm clear of other edges",
                     config_.limits.max_diffractions > 1
-                        ? fmt::format(", or over two if it may be stronger than {:g} dB below free space",
+                        ? fmt::format(", or over two if it may be stronger than {:g} dB below free space,",
                                       config_.limits.two_edge_floor_db)
                         : "",
                     config_.limits.max_reflections_beside_diffraction,
