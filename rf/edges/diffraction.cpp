@@ -13,8 +13,6 @@ namespace {
 
 dvec3 edge_direction(const scene::Wedge& wedge) { return glm::normalize(wedge.b - wedge.a); }
 
-dvec2 face_n_direction(const scene::Wedge& wedge) { return {std::cos(wedge.n * pi), std::sin(wedge.n * pi)}; }
-
 /// Tells whether `at`, across the edge, lies on that face: in its plane and on the face's side of the edge.
 /// The second bound is needed very near the edge, where the tolerance would allow any angle.
 bool on_face(const dvec2& face, const dvec2& at, double tolerance) {
@@ -127,8 +125,7 @@ EdgeSides near_boundaries(const scene::Wedge& wedge, const dvec3& before, const 
 WedgeFace face_of(const scene::Wedge& wedge, GrazedFace which, const FacetWorld& world) {
   GREATX_CHECK(which != GrazedFace::none, "no face");
   const bool first = which == GrazedFace::face_0;
-  const dvec2 along_n = face_n_direction(wedge);
-  const dvec3 normal = first ? wedge.normal_0 : along_n.y * wedge.tangent_0 - along_n.x * wedge.normal_0;
+  const dvec3 normal = first ? wedge.normal_0 : face_n_normal(wedge);
   const uint32_t facet = first || wedge.facet_n == scene::no_facet ? wedge.facet_0 : wedge.facet_n;
   const PosedFacet& posed_facet = world.facet(facet);
   return {posed_facet.material, glm::dot(posed_facet.normal, normal) > 0.0, posed_facet.tolerance_m, normal};
@@ -180,14 +177,11 @@ EdgeTerms edge_terms(const scene::Wedge& wedge, const dvec3& in, const dvec3& ou
   // As seen from face n the edge runs in the opposite direction.
   add(UtdTerm::reflection_n, GrazedFace::face_n, face_n, at.face_n, -cos_beta0);
   const Complex *m_0 = terms.matrix(UtdTerm::reflection_0), *m_n = terms.matrix(UtdTerm::reflection_n);
-  const auto reflects = [](const Complex* m) { return m[0] != 0.0 || m[1] != 0.0 || m[3] != 0.0; };
   if (!reflects(m_0) || !reflects(m_n)) return terms;
-  const Complex* first = at.near_0 ? m_0 : m_n;  // the wave meets the nearer face first
-  const Complex* second = at.near_0 ? m_n : m_0;
-  Complex* both = terms.matrix(at.near_0 ? UtdTerm::shadow_n : UtdTerm::shadow_0);
-  for (int row = 0; row < 2; ++row)
-    for (int column = 0; column < 2; ++column)
-      both[2 * row + column] = -(second[2 * row] * first[column] + second[2 * row + 1] * first[2 + column]);
+  // The wave meets the nearer face first.
+  const EdgeMatrix twice = at.near_0 ? product(m_n, m_0) : product(m_0, m_n);
+  Complex* far = terms.matrix(at.near_0 ? UtdTerm::shadow_n : UtdTerm::shadow_0);
+  for (int i = 0; i < 4; ++i) far[i] = -twice[i];
   return terms;
 }
 

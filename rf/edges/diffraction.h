@@ -6,10 +6,13 @@
 // local coordinates, at the present pose of their body.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
 
+#include "core/units.h"
 #include "core/vec.h"
 #include "rf/antenna/field_vector.h"
 #include "rf/edges/utd.h"
@@ -48,6 +51,16 @@ inline dvec2 across(const scene::Wedge& wedge, const dvec3& vector) {
   return {glm::dot(wedge.tangent_0, vector), glm::dot(wedge.normal_0, vector)};
 }
 
+/// Returns the direction in which face n goes off from the edge, in (tangent_0, normal_0).
+inline dvec2 face_n_direction(const scene::Wedge& wedge) {
+  return {std::cos(wedge.n * pi), std::sin(wedge.n * pi)};
+}
+/// Returns the normal of face n into the exterior. That of face 0 is normal_0.
+inline dvec3 face_n_normal(const scene::Wedge& wedge) {
+  const dvec2 along = face_n_direction(wedge);
+  return along.y * wedge.tangent_0 - along.x * wedge.normal_0;
+}
+
 /// Returns the tolerance of keller_point() for an edge, metres.
 double edge_tolerance_m(const scene::Wedge& wedge);
 
@@ -82,6 +95,17 @@ struct EdgeDyadic {
 /// Returns the amplitude share that roughness and scattering leave to the reflection by a material at a
 /// cosine of incidence.
 using SpecularShare = std::function<double(uint32_t material, double cos_theta)>;
+
+/// A map between field components on two pairs of axes, row-major.
+using EdgeMatrix = std::array<Complex, 4>;
+inline EdgeMatrix product(const Complex* a, const Complex* b) {
+  return {a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3], a[2] * b[0] + a[3] * b[2],
+          a[2] * b[1] + a[3] * b[3]};
+}
+/// Tells whether the matrix of a term is not that of a face that does not reflect.
+inline bool reflects(const Complex* matrix) {
+  return matrix[0] != 0.0 || matrix[1] != 0.0 || matrix[3] != 0.0;
+}
 
 /// Names the face of a wedge that a ray runs along.
 enum class GrazedFace : uint8_t { none = 0, face_0, face_n };

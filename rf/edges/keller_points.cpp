@@ -116,11 +116,11 @@ bool share_a_face(const scene::Wedge& first, const scene::Wedge& second) {
 /// Tells whether a point between the edges may be in the exterior of one of them: a common face may be
 /// uneven.
 bool nearly_in_exterior(const scene::Wedge& wedge, const dvec3& point) {
-  const dvec3 from = point - wedge.a;
-  const double x = glm::dot(wedge.tangent_0, from), y = glm::dot(wedge.normal_0, from);
-  const double angle = std::atan2(y, x), wide = wedge.n * pi, past = angle < 0.0 ? angle + 2.0 * pi : angle;
+  const dvec2 at = across(wedge, point - wedge.a);
+  const double angle = std::atan2(at.y, at.x), wide = wedge.n * pi,
+               past = angle < 0.0 ? angle + 2.0 * pi : angle;
   const double off = std::min(past - wide, 2.0 * pi - past);
-  return off <= coplanar_rad || (off <= parallel_rad && off * std::hypot(x, y) <= coplanar_m);
+  return off <= coplanar_rad || (off <= parallel_rad && off * std::hypot(at.x, at.y) <= coplanar_m);
 }
 
 double from_line(const scene::Wedge& wedge, const dvec3& point) {

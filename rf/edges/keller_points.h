@@ -21,7 +21,8 @@ struct KellerPoints {
 
 /// Returns the points for edges in this order, if each lies on its edge (within the tolerance of
 /// keller_point()), and if they are at least `least_edge_gap_m` apart. The length is a convex function of
-/// both places, and Newton's method finds its least to its rounding. Ends may be images.
+/// both places: the slopes at the ends of the first edge refuse nearly all pairs, regula falsi comes near its
+/// least, and Newton's method finds it to its rounding. Ends may be images.
 std::optional<KellerPoints> keller_points(const scene::Wedge& first, const scene::Wedge& second,
                                           const dvec3& before, const dvec3& after);
 inline constexpr double least_edge_gap_m = 1e-3;

@@ -3,7 +3,6 @@
 #include "rf/edges/two_edges.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -70,18 +69,11 @@ Coupling coupling_of(const EdgeTerms& first, const EdgeTerms& second, const TwoE
   return coupling;
 }
 
-using Matrix = std::array<Complex, 4>;  // row-major
-
-Matrix product(const Complex* a, const Complex* b) {
-  return {a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3], a[2] * b[0] + a[3] * b[2],
-          a[2] * b[1] + a[3] * b[3]};
-}
-
 /// Returns the map from (beta, phi) behind the first edge to (beta', phi') of the second. If `only` is not
 /// zero, it maps just the component along this unit vector.
-Matrix between_edges(const EdgeTerms& first, const EdgeTerms& second, const BetweenEdges& between,
-                     const dvec3& only) {
-  Matrix map{};
+EdgeMatrix between_edges(const EdgeTerms& first, const EdgeTerms& second, const BetweenEdges& between,
+                         const dvec3& only) {
+  EdgeMatrix map{};
   const dvec3 basis[2] = {first.beta_out, first.phi_out};
   for (int column = 0; column < 2; ++column) {
     FieldVector field;
@@ -113,16 +105,17 @@ PairTerm at_second(const EdgeTerms& terms, UtdTerm term) {
   return {&factor, terms.matrix(term), darkens_with_source(term) != factor.lit ? 1.0 : -1.0};
 }
 
-bool is_zero(const Complex* matrix) { return matrix[0] == 0.0 && matrix[3] == 0.0 && matrix[1] == 0.0; }
-
-DoubleFresnel transition(const PairTerm& a, const PairTerm& b, const Coupling& coupling, double sign) {
-  const auto w = [&](const PairTerm& term, int edge) {
-    return std::sqrt(2.0 * coupling.wave_number * coupling.distance_m[edge]) * term.factor->half_sine;
-  };
-  return double_fresnel(w(a, 0), w(b, 1), sign * a.towards * b.towards * coupling.rho, coupling.sine);
+/// Returns w of a term at the first edge (0) or at the second (1).
+double argument(const PairTerm& term, const Coupling& coupling, int edge) {
+  return std::sqrt(2.0 * coupling.wave_number * coupling.distance_m[edge]) * term.factor->half_sine;
 }
 
-void add_scaled(const Matrix& matrix, Complex by, Complex (&sum)[4]) {
+DoubleFresnel transition(const PairTerm& a, const PairTerm& b, const Coupling& coupling, double sign) {
+  return double_fresnel(argument(a, coupling, 0), argument(b, coupling, 1),
+                        sign * a.towards * b.towards * coupling.rho, coupling.sine);
+}
+
+void add_scaled(const EdgeMatrix& matrix, Complex by, Complex (&sum)[4]) {
   for (int i = 0; i < 4; ++i) sum[i] += by * matrix[i];
 }
 
@@ -131,14 +124,14 @@ void add_apart(const EdgeTerms& first, const EdgeTerms& second, const Coupling& 
                const BetweenEdges& between, Complex (&sum)[4]) {
   constexpr UtdTerm all[4] = {UtdTerm::shadow_n, UtdTerm::shadow_0, UtdTerm::reflection_n,
                               UtdTerm::reflection_0};
-  const Matrix map = between_edges(first, second, between, dvec3(0.0));
+  const EdgeMatrix map = between_edges(first, second, between, dvec3(0.0));
   for (const UtdTerm i : all) {
     const PairTerm a = at_first(first, i);
-    if (is_zero(a.matrix)) continue;
-    const Matrix arriving = product(map.data(), a.matrix);
+    if (!reflects(a.matrix)) continue;
+    const EdgeMatrix arriving = product(map.data(), a.matrix);
     for (const UtdTerm m : all) {
       const PairTerm b = at_second(second, m);
-      if (is_zero(b.matrix)) continue;
+      if (!reflects(b.matrix)) continue;
       const Complex value = transition(a, b, coupling, 1.0).value;
       add_scaled(product(b.matrix, arriving.data()), a.factor->amplitude * b.factor->amplitude * value, sum);
     }
@@ -177,14 +170,13 @@ struct Elevations {
 GrazingWave grazing_wave(Complex constant, double wave_number, double length_m, const Elevations& at) {
   if (std::isinf(constant.real())) return {};
   const double above = std::max(0.0, at.before) + std::max(0.0, at.after);
-  const Complex f = ground_wave(constant, wave_number, length_m);
-  const Complex slope = Complex(0.0, 2.0 * wave_number * length_m) * constant * f;
-  if (above == 0.0) return {-1.0, 2.0 * f, slope};
+  const GrazingReflection below = grazing_reflection(constant, wave_number, length_m);
+  if (above == 0.0) return {-1.0, below.ground, below.slope};
   if (constant == 0.0) return {1.0, 0.0, 0.0};
   const double nearer = std::min(std::abs(at.before), std::abs(at.after));
-  const Complex fading =
-      constant / (constant + above) * ground_wave(constant + above, wave_number, length_m) / f;
-  return {(nearer - constant) / (nearer + constant), 2.0 * f * fading, slope * fading};
+  const Complex fading = constant / (constant + above) *
+                         grazing_reflection(constant + above, wave_number, length_m).ground / below.ground;
+  return {(nearer - constant) / (nearer + constant), below.ground * fading, below.slope * fading};
 }
 
 /// Continues a function of both edges to the lit sides of their boundaries: `both`, and those of each edge
@@ -202,11 +194,8 @@ Complex image_part(const PairTerm& a, const PairTerm& b, const Coupling& couplin
   const DoubleFresnel image = transition(a, b, coupling, -1.0);
   const bool lit_1 = a.factor->lit, lit_2 = b.factor->lit;
   const double side = lit_1 != lit_2 ? -1.0 : 1.0;
-  const auto alone = [&](const PairTerm& term, int edge) {
-    return std::sqrt(2.0 * coupling.wave_number * coupling.distance_m[edge]) * term.factor->half_sine /
-           coupling.sine;
-  };
-  const double w_1 = alone(a, 0), w_2 = alone(b, 1);
+  // Of each edge alone: without the factor 1 - rho^2 of L.
+  const double w_1 = argument(a, coupling, 0) / coupling.sine, w_2 = argument(b, coupling, 1) / coupling.sine;
   const Complex e_1 = erfcx_on_diagonal(w_1), e_2 = erfcx_on_diagonal(w_2);
   static const Complex diagonal = std::polar(1.0, 0.25 * pi);
   const auto moment = [&](double w, Complex e) {
@@ -247,12 +236,12 @@ void add_along(const CommonFace& common, const EdgeTerms& first, const EdgeTerms
   for (int polarization = 0; polarization < 2; ++polarization) {
     const GrazingWave wave =
         grazing_wave(constants[polarization], coupling.wave_number, rays.between_m, elevations);
-    const Matrix map = between_edges(first, second, between, axes[polarization]);
+    const EdgeMatrix map = between_edges(first, second, between, axes[polarization]);
     for (const PairTerm& a : at_1) {
-      if (is_zero(a.matrix)) continue;
-      const Matrix arriving = product(map.data(), a.matrix);
+      if (!reflects(a.matrix)) continue;
+      const EdgeMatrix arriving = product(map.data(), a.matrix);
       for (const PairTerm& b : at_2) {
-        if (is_zero(b.matrix)) continue;
+        if (!reflects(b.matrix)) continue;
         const Complex value = transition(a, b, coupling, 1.0).value + image_part(a, b, coupling, wave, rays);
         add_scaled(product(b.matrix, arriving.data()), a.factor->amplitude * b.factor->amplitude * value,
                    sum);
@@ -266,29 +255,30 @@ void add_along(const CommonFace& common, const EdgeTerms& first, const EdgeTerms
 GrazingReflection grazing_reflection(Complex grazing_constant, double wave_number, double length_m) {
   if (std::isinf(grazing_constant.real())) return {};
   const Complex f = ground_wave(grazing_constant, wave_number, length_m);
-  return {2.0 * f - 1.0, Complex(0.0, 2.0 * wave_number * length_m) * grazing_constant * f};
+  return {2.0 * f, Complex(0.0, 2.0 * wave_number * length_m) * grazing_constant * f};
 }
 
 TwoEdgeMatrix two_edge_matrix(const scene::Wedge& first, const scene::Wedge& second, const TwoEdgeRays& rays,
                               const FacetWorld& world, const RadioSurfaces& surfaces,
                               const SpecularShare& share, const BetweenEdges& between) {
-  const auto terms = [&](GrazedFace along_1, GrazedFace along_2) {
-    return std::pair(edge_terms(first, rays.in, rays.between, rays.before_m, rays.between_m, world, surfaces,
-                                share, rays.sides[0], GrazedFace::none, along_1),
-                     edge_terms(second, rays.between, rays.out, rays.between_m, rays.after_m, world, surfaces,
-                                share, rays.sides[1], along_2, GrazedFace::none));
-  };
   const double wave_number = 2.0 * pi / surfaces.wavelength_m();
-  const std::vector<CommonFace> common = common_faces(first, second, rays, world);
+  std::vector<CommonFace> common = common_faces(first, second, rays, world);
+  const bool apart = common.empty();
+  if (apart) common.push_back({});
   TwoEdgeMatrix result;
-  const auto [at_1, at_2] = terms(GrazedFace::none, GrazedFace::none);
-  result.beta_in = at_1.beta_in, result.phi_in = at_1.phi_in;
-  result.beta_out = at_2.beta_out, result.phi_out = at_2.phi_out;
-  const Coupling coupling = coupling_of(at_1, at_2, rays, wave_number);
-  if (common.empty()) add_apart(at_1, at_2, coupling, between, result.matrix);
   for (const CommonFace& face : common) {
-    const auto [along_1, along_2] = terms(face.first, face.second);
-    add_along(face, along_1, along_2, coupling, rays, surfaces, between, result.matrix);
+    const EdgeTerms at_1 = edge_terms(first, rays.in, rays.between, rays.before_m, rays.between_m, world,
+                                      surfaces, share, rays.sides[0], GrazedFace::none, face.first),
+                    at_2 = edge_terms(second, rays.between, rays.out, rays.between_m, rays.after_m, world,
+                                      surfaces, share, rays.sides[1], face.second, GrazedFace::none);
+    // The faces change the terms, but neither the axes nor the coupling.
+    result.beta_in = at_1.beta_in, result.phi_in = at_1.phi_in;
+    result.beta_out = at_2.beta_out, result.phi_out = at_2.phi_out;
+    const Coupling coupling = coupling_of(at_1, at_2, rays, wave_number);
+    if (apart)
+      add_apart(at_1, at_2, coupling, between, result.matrix);
+    else
+      add_along(face, at_1, at_2, coupling, rays, surfaces, between, result.matrix);
   }
   return result;
 }

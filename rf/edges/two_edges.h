@@ -82,9 +82,10 @@ TwoEdgeMatrix two_edge_matrix(const scene::Wedge& first, const scene::Wedge& sec
                               const FacetWorld& world, const RadioSurfaces& surfaces,
                               const SpecularShare& share = {}, const BetweenEdges& between = {});
 
-/// Holds W = steady + slope theta of a common face.
+/// Holds W = ground - 1 + slope theta of a common face, with ground = 2 F.
 struct GrazingReflection {
-  Complex steady = -1.0, slope = 0.0;
+  Complex ground = 0.0, slope = 0.0;
+  Complex steady() const { return ground - 1.0; }
 };
 /// Returns W between two points on a surface that are `length_m` apart. `grazing_constant` is D; infinity: a
 /// soft surface.

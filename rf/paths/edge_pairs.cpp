@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/units.h"
+#include "rf/edges/diffraction.h"
+#include "rf/search/beam_search.h"
 
 namespace greatx::rf {
 namespace {
 
-/// As BeamSearchOptions::clearance_m: what is hidden is hidden by this much.
-constexpr double clearance_m = 5e-4;
+/// What is hidden is hidden by this much, as in the search.
+constexpr double clearance_m = BeamSearchOptions{}.clearance_m;
 
 scene::Bounds bounds_of(std::span<const dvec3> points) {
   scene::Bounds bounds;
@@ -40,9 +41,7 @@ struct EdgePairs::Inside {
   dvec3 a{0.0}, normal_0{0.0}, normal_n{0.0};  ///< normals into the exterior
 
   explicit Inside(const scene::Wedge& wedge)
-      : a(wedge.a),
-        normal_0(wedge.normal_0),
-        normal_n(std::sin(wedge.n * pi) * wedge.tangent_0 - std::cos(wedge.n * pi) * wedge.normal_0) {}
+      : a(wedge.a), normal_0(wedge.normal_0), normal_n(face_n_normal(wedge)) {}
   bool holds(const scene::Bounds& box) const {
     const auto behind = [&](const dvec3& normal) {
       return -least_over(box, -normal) - glm::dot(normal, a) < -clearance_m;

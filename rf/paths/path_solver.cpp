@@ -185,13 +185,6 @@ LinkGeometry PathSolver::geometry(const EndState& end, uint32_t threads, bool ke
   return link;
 }
 
-uint32_t PathSolver::walls_allowed(const GeometricPath& path) const {
-  if (!all_effects_built || !model_->effects.transmission || path.interactions.size() >= limits_.max_depth)
-    return 0;
-  const uint32_t left = limits_.max_depth - static_cast<uint32_t>(path.interactions.size());
-  return std::min({left, limits_.max_transmissions, shared::crossings_max});
-}
-
 /// Returns GeometricPath::edges_diffract. The diffraction at an edge of a reflecting facet takes the place of
 /// the reflection in the sequence. It is found if the reflections on both of its sides are not too many, and
 /// if the path has no other bend.
@@ -260,7 +253,7 @@ void PathSolver::add_segments(std::span<const GeometricPath> paths, const EndSta
   StraightToPatches straight;
   for (const GeometricPath& path : paths) {
     const size_t count = path.interactions.size(), first = segments.size();
-    const uint32_t walls = walls_allowed(path);
+    const uint32_t walls = walls_allowed(*model_, limits_, path.interactions.size());
     for (size_t i = 0; i <= count; ++i) {
       Segment segment{.a = path.vertices[i], .b = path.vertices[i + 1], .walls = walls};
       if (i > 0) {

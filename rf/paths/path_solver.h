@@ -78,7 +78,6 @@ class PathSolver {
   const PathLimits& limits() const { return limits_; }
 
  private:
-  uint32_t walls_allowed(const GeometricPath& path) const;
   uint32_t edges_diffract(const GeometricPath& path) const;
   void find_edge_sides(std::vector<GeometricPath>& paths, const FacetWorld& world) const;
 

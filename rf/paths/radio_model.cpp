@@ -8,6 +8,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "core/built_effects.h"
 #include "core/error.h"
 #include "core/units.h"
 #include "rf/atmosphere/fog.h"
@@ -15,6 +16,7 @@
 #include "rf/atmosphere/gas.h"
 #include "rf/atmosphere/rain.h"
 #include "rf/surface/fresnel.h"
+#include "shaders/shared/rf.h"
 
 namespace greatx::rf {
 
@@ -113,6 +115,12 @@ FieldModel RadioModel::field_model() const {
   if (field.foliage) model.foliage = foliage_of(*scene, kinds);
   if (reflectors) model.reflectors = &*reflectors;
   return model;
+}
+
+uint32_t walls_allowed(const RadioModel& model, const PathLimits& limits, size_t interactions) {
+  if (!all_effects_built || !model.effects.transmission || interactions >= limits.max_depth) return 0;
+  const uint32_t left = limits.max_depth - static_cast<uint32_t>(interactions);
+  return std::min({left, limits.max_transmissions, shared::crossings_max});
 }
 
 }  // namespace greatx::rf

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rf/atmosphere/weather.h"
+#include "rf/config/path_limits.h"
 #include "rf/facets/facet_kind.h"
 #include "rf/facets/facet_world.h"
 #include "rf/field/field.h"
@@ -60,5 +61,8 @@ struct RadioModel {
 
   FieldModel field_model() const;
 };
+
+/// Returns the number of walls that a path may pass beside this many other interactions.
+uint32_t walls_allowed(const RadioModel& model, const PathLimits& limits, size_t interactions);
 
 }  // namespace greatx::rf

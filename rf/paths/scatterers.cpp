@@ -164,12 +164,6 @@ void Scatterers::place_ways(const ImageTree& tree, const std::vector<PlaneWindow
   tree_ = ScatterTree(std::move(lit));
 }
 
-/// Returns the number of walls that a path with these interactions may pass.
-uint32_t Scatterers::walls_beside(uint32_t interactions) const {
-  if (!model_->effects.transmission || interactions >= limits_.max_depth) return 0;
-  return std::min({limits_.max_depth - interactions, limits_.max_transmissions, shared::crossings_max});
-}
-
 /// Returns the share of the power that passes everything at rest on a segment; 0: it is blocked.
 double Scatterers::passes_what_rests(const Segment& segment) const {
   Crossing crossing;
@@ -188,7 +182,7 @@ double Scatterers::passes_what_rests(const Segment& segment) const {
 
 /// Returns the share of the source's power that passes what is at rest on the way to a patch; 0: none does.
 double Scatterers::reaches(const PatchArrival& way, const Patch& patch, const dvec3& source) const {
-  const uint32_t walls = walls_beside(way.depth + 1);
+  const uint32_t walls = walls_allowed(*model_, limits_, way.depth + 1);
   double share = 1.0;
   for (uint32_t i = 0; i <= way.depth && share > 0.0; ++i) {
     Segment segment{.a = i == 0 ? source : at_patches_.points[way.first + i - 1],
@@ -334,8 +328,10 @@ void Scatterers::draw(const ImageTree& tree, const dvec3& target, const PatchArr
   const std::vector<SingleScattering> singles = bounces(suffixes, pairs);
   const size_t straight = tree_.patches().size();
   const auto sight = [&](const LitPatch& patch) {
-    return passes_what_rests(
-        {.a = patch.position, .b = target, .facet_a = patch.facet, .walls = walls_beside(1)});
+    return passes_what_rests({.a = patch.position,
+                              .b = target,
+                              .facet_a = patch.facet,
+                              .walls = walls_allowed(*model_, limits_, 1)});
   };
   for (const ScatterDraw& draw : draw_scatterings(tree_, target, singles, limits_.scattering_budget, sight)) {
     const bool bent = draw.index >= straight;

@@ -74,7 +74,6 @@ class Scatterers {
                                     const ImageTree& tree) const;
   PatchArrivals straight_to_patches(const dvec3& from) const;
   void place_ways(const ImageTree& tree, const std::vector<PlaneWindow>& windows);
-  uint32_t walls_beside(uint32_t interactions) const;
   double reflected(uint32_t facet, const dvec3& in) const;
   double passes_what_rests(const Segment& segment) const;
   double reaches(const PatchArrival& way, const Patch& patch, const dvec3& source) const;

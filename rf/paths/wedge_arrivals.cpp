@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/units.h"
+#include "rf/edges/diffraction.h"
 
 namespace greatx::rf {
 
@@ -62,7 +62,7 @@ void WedgeArrivals::place(const ImageTree& tree, std::span<const scene::Wedge> w
           .along = (wedge.b - wedge.a) / length,
           .tangent_0 = wedge.tangent_0,
           .normal_0 = wedge.normal_0,
-          .face_n = {std::cos(wedge.n * pi), std::sin(wedge.n * pi)},
+          .face_n = face_n_direction(wedge),
           .length = wedge.body == 0 ? length : -1.0,
           // Twice the tolerance of keller_point, for the roundings of another order of operations.
           .room = 2.0 * (1e-9 * length + 1e-13 * (glm::length(wedge.a) + length))};

@@ -28,7 +28,6 @@ import resource
 import statistics
 import subprocess
 import tempfile
-import time
 from pathlib import Path
 
 
@@ -47,7 +46,6 @@ def with_mast(text, mast):
 def run(greatx, scenario, assets, receivers):
     """Returns the JSON records, processor seconds, and the numbers of the points inside solids."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    began = time.monotonic()
     command = [greatx, "paths", str(scenario), "--receivers", str(receivers), "--json-lines"]
     if assets:
         command += ["--assets", assets]
@@ -56,7 +54,7 @@ def run(greatx, scenario, assets, receivers):
     used = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     inside = {int(n) for n in re.findall(r"point (\d+) lies inside", done.stderr)}
     records = [json.loads(line) for line in done.stdout.splitlines()]
-    return records, used, time.monotonic() - began, inside
+    return records, used, inside
 
 
 def circular_spread_deg(angles, powers):
@@ -234,7 +232,7 @@ def main():
             return run(options.greatx, place / "s.yaml", options.assets, place / "rx.csv")
 
         write_points(points)
-        inside = measure(SETTINGS[0])[3]
+        inside = measure(SETTINGS[0])[2]
         points = [p for i, p in enumerate(points) if i not in inside][: options.count]
         write_points(points)
         distances = [math.dist(p, options.mast) for p in points]
@@ -246,7 +244,7 @@ def main():
         for setting in SETTINGS:
             if options.only not in setting[0]:
                 continue
-            records, used, _, _ = measure(setting)
+            records, used, _ = measure(setting)
             links = [Link(r) for r in records if r.get("kind") == "receiver"]
             print(
                 row(setting[0], links, distances, options.threshold_db, f"{1e3 * used / len(links):.0f}"),

@@ -14,10 +14,10 @@
 #include "core/phase.h"
 #include "core/random.h"
 #include "core/units.h"
-#include "rf/field/boundary_wave.h"
 #include "rf/edges/diffraction.h"
-#include "rf/field/field.h"
 #include "rf/edges/utd.h"
+#include "rf/field/boundary_wave.h"
+#include "rf/field/field.h"
 #include "scene/description/wedges.h"
 #include "tests/rf/scenes.h"
 

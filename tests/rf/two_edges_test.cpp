@@ -93,13 +93,13 @@ TEST(ErrorFunction, OfComplexArguments) {
 }
 
 TEST(GrazingReflection, FromHardToSoft) {
-  EXPECT_LT(std::abs(grazing_reflection(0.0, wave_number, 10.0).steady - 1.0), 1e-12);
+  EXPECT_LT(std::abs(grazing_reflection(0.0, wave_number, 10.0).steady() - 1.0), 1e-12);
   EXPECT_LT(std::abs(grazing_reflection(0.0, wave_number, 10.0).slope), 1e-12);
-  EXPECT_LT(std::abs(grazing_reflection(1e9, wave_number, 10.0).steady + 1.0), 1e-12);
-  EXPECT_EQ(grazing_reflection(std::numeric_limits<double>::infinity(), wave_number, 10.0).steady, -1.0);
+  EXPECT_LT(std::abs(grazing_reflection(1e9, wave_number, 10.0).steady() + 1.0), 1e-12);
+  EXPECT_EQ(grazing_reflection(std::numeric_limits<double>::infinity(), wave_number, 10.0).steady(), -1.0);
   // A long way over an absorbing surface: 1 + R = 2 theta/D.
   const GrazingReflection far = grazing_reflection(0.4, wave_number, 1e4);
-  EXPECT_LT(std::abs(far.steady + 1.0), 1e-4);
+  EXPECT_LT(std::abs(far.steady() + 1.0), 1e-4);
   EXPECT_LT(std::abs(far.slope - 2.0 / 0.4), 1e-3);
   // Both forms of F meet.
   const double length = 2.0 * 1e6 / wave_number / 0.16;

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "rf/facets/facet_world.h"
 #include "rf/edges/diffraction.h"
+#include "rf/facets/facet_world.h"
 #include "rf/paths/path_solver.h"
 #include "rf/search/beam_search.h"
 #include "tests/rf/random_scene.h"
