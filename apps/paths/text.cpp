@@ -29,7 +29,10 @@ Json json_of_direction(const dvec3& direction) {
 Json json_of(const rf::Interaction& interaction, const PathScene& scene) {
   const Touched names = touched(interaction, scene);
   Json json{{"type", rf::name_of(interaction.type)}};
-  if (interaction.type == rf::InteractionType::diffraction) json["wedge"] = interaction.element;
+  if (interaction.type == rf::InteractionType::diffraction) {
+    json["wedge"] = interaction.element;
+    if (interaction.patch != 0) json["end"] = interaction.patch;
+  }
   if (interaction.type == rf::InteractionType::scattering) json["patch"] = interaction.patch;
   json["facets"] = names.facets;
   json["objects"] = names.objects;

@@ -57,8 +57,15 @@ TransferSpectrum Dispersion::echo_spectrum(const TargetEcho& echo, const FacetWo
 
 TransferSpectrum Dispersion::spectrum(const Path& path, const FacetWorld& world) const {
   if (path.echo && path.echo->has_legs()) return echo_spectrum(*path.echo, world);
-  const GeometricPath geometry{path.interactions,  path.vertices,       path.length_m,   path.foliage_m,
-                               path.patch_area_m2, path.edges_diffract, path.edge_sides, path.from_receiver};
+  const GeometricPath geometry{.interactions = path.interactions,
+                               .vertices = path.vertices,
+                               .length_m = path.length_m,
+                               .foliage_m = path.foliage_m,
+                               .patch_area_m2 = path.patch_area_m2,
+                               .edges_diffract = path.edges_diffract,
+                               .edge_sides = path.edge_sides,
+                               .keller_side = path.keller_side,
+                               .from_receiver = path.from_receiver};
   TransferSpectrum spectrum(subcarriers_.size());
   // The line of sight in air that attenuates nothing is the same at every frequency. An echo of surfaces
   // keeps the carrier's values.

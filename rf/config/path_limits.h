@@ -16,6 +16,9 @@ struct PathLimits {
   uint32_t max_diffractions = 1;  ///< edges of a path, 1 or 2, as a part of max_depth
   /// A path over two edges is left out if it is certain to be weaker than free space over its length by this.
   double two_edge_floor_db = 60.0;
+  /// With corner diffraction: the largest step that may be left where the field of an edge ends with the edge,
+  /// in dB of that field. The waves of ends that are less are left out.
+  double corner_step_db = 0.3;
   /// Reflections between a scattering and the target (the end that the search does not start from, whichever
   /// end transmits), as a part of max_depth.
   uint32_t max_reflections_after = 0;

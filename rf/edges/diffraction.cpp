@@ -134,13 +134,13 @@ WedgeFace face_of(const scene::Wedge& wedge, GrazedFace which, const FacetWorld&
 EdgeTerms edge_terms(const scene::Wedge& wedge, const dvec3& in, const dvec3& out, double before_m,
                      double after_m, const FacetWorld& world, const RadioSurfaces& surfaces,
                      const SpecularShare& share, const EdgeSides& sides, GrazedFace in_along,
-                     GrazedFace out_along) {
+                     GrazedFace out_along, AtKeller at_keller) {
   const dvec3 edge = edge_direction(wedge);
   const dvec3 turn_in = glm::cross(edge, in), turn_out = glm::cross(edge, out);
   EdgeTerms terms;
   terms.sin_in = glm::length(turn_in), terms.sin_out = glm::length(turn_out);
   GREATX_CHECK(terms.sin_in > 0.0 && terms.sin_out > 0.0 && before_m > 0.0 && after_m > 0.0 &&
-                   std::abs(glm::dot(in - out, edge)) < 1e-3,
+                   (at_keller == AtKeller::no || std::abs(glm::dot(in - out, edge)) < 1e-3),
                "diffraction from cos(beta_0) {} to {}, {} m before, {} m after", glm::dot(in, edge),
                glm::dot(out, edge), before_m, after_m);
   terms.phi_in = -turn_in / terms.sin_in;

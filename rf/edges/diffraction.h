@@ -107,6 +107,8 @@ inline bool reflects(const Complex* matrix) {
   return matrix[0] != 0.0 || matrix[1] != 0.0 || matrix[3] != 0.0;
 }
 
+/// Tells whether a ray bends at Keller's point, where its angles with the edge are equal, or at an end.
+enum class AtKeller : uint8_t { no, yes };
 /// Names the face of a wedge that a ray runs along.
 enum class GrazedFace : uint8_t { none = 0, face_0, face_n };
 
@@ -121,10 +123,12 @@ struct EdgeTerms {
 };
 /// Returns the terms for the arguments of edge_dyadic(). `in_along` and `out_along` name faces along which
 /// the ray comes and goes: it then has exactly their angle. Such a face does not reflect in these terms.
+/// Throws ContractError if the angles with the edge differ `at_keller`.
 EdgeTerms edge_terms(const scene::Wedge& posed, const dvec3& in, const dvec3& out, double before_m,
                      double after_m, const FacetWorld& world, const RadioSurfaces& surfaces,
                      const SpecularShare& share = {}, const EdgeSides& sides = {},
-                     GrazedFace in_along = GrazedFace::none, GrazedFace out_along = GrazedFace::none);
+                     GrazedFace in_along = GrazedFace::none, GrazedFace out_along = GrazedFace::none,
+                     AtKeller at_keller = AtKeller::yes);
 
 /// Describes a face of a wedge as the wave in the exterior meets it.
 struct WedgeFace {

@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "rf/antenna/field_vector.h"
 #include "rf/atmosphere/foliage.h"
+#include "rf/edges/corners.h"
 #include "rf/edges/diffraction.h"
 #include "rf/edges/two_edges.h"
 #include "rf/surface/incidence.h"
@@ -147,6 +148,14 @@ class Travelling {
     for (FieldVector& field : columns_) field = edge.apply(field);
   }
 
+  void diffract_at(const scene::Wedge& wedge, Corner corner, const dvec3& in, const dvec3& out,
+                   double before_m, double after_m, KellerSide side) {
+    const auto share = [this](uint32_t material, double cosine) { return specular_share(material, cosine); };
+    const EdgeDyadic end = corner_dyadic(wedge, corner, in, out, before_m, after_m, *model_.world,
+                                         *model_.surfaces, share, side);
+    for (FieldVector& field : columns_) field = end.apply(field);
+  }
+
   /// Arrives at the first of two edges. What lies between them acts on two unit fields until the second.
   void leave_first_edge(const dvec3& between) {
     at_first_edge_[0] = columns_[0], at_first_edge_[1] = columns_[1];
@@ -230,6 +239,10 @@ void diffract(const GeometricPath& path, const FieldModel& model, const Runs& ru
   };
   const auto before = [&](size_t which) { return runs.directions[runs.bends[which] - 1]; };
   const dvec3& out = runs.directions[runs.bends[bend]];
+  const uint32_t corner = path.interactions[runs.vertices[runs.bends[bend]] - 1].patch;
+  if (corner != 0)
+    return field.diffract_at(wedge(0), static_cast<Corner>(corner), before(0), out, runs.parts_m[0],
+                             runs.parts_m[1], path.keller_side);
   if (runs.bend_count == 1)
     return field.diffract(wedge(0), before(0), out, runs.parts_m[0], runs.parts_m[1], path.edge_sides[0]);
   if (bend == 0) return field.leave_first_edge(out);
@@ -348,6 +361,7 @@ Path path_field(const GeometricPath& geometry, const FieldModel& model, const dv
   path.patch_area_m2 = geometry.patch_area_m2;
   path.edges_diffract = geometry.edges_diffract;
   path.edge_sides = geometry.edge_sides;
+  path.keller_side = geometry.keller_side;
   path.from_receiver = back;
   path.stratum = geometry.stratum;
   path.delay_s = geometry.length_m / speed_of_light;

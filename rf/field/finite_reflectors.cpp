@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "rf/edges/corners.h"
 #include "scene/description/wedges.h"
 
 namespace greatx::rf {
@@ -100,13 +101,16 @@ struct FiniteReflectors::Neighbours {
 };
 
 FiniteReflectors::FiniteReflectors(const scene::Scene& scene, const FacetKinds& kinds,
-                                   bool free_edges_diffract) {
+                                   const DiffractingEdges& diffracting) {
   GREATX_CHECK(kinds.size() == scene.facets.size(), "{} kinds of {} facets", kinds.size(),
                scene.facets.size());
   const double diffracting_bend = scene::WedgeOptions{}.flat_angle_rad;
   const double diffracting_length = scene::WedgeOptions{}.min_length_m;
   std::vector<std::pair<uint32_t, Edge>> all;
-  for (const scene::Wedge& wedge : scene::find_wedges(scene, edge_options())) {
+  const std::vector<scene::Wedge> wedges = scene::find_wedges(scene, edge_options());
+  const OpenCorners corners = diffracting.corners ? OpenCorners(scene, kinds, wedges) : OpenCorners();
+  for (uint32_t index = 0; index < wedges.size(); ++index) {
+    const scene::Wedge& wedge = wedges[index];
     Edge edge;
     edge.start = wedge.a;
     edge.length_m = glm::distance(wedge.a, wedge.b);
@@ -115,7 +119,9 @@ FiniteReflectors::FiniteReflectors(const scene::Scene& scene, const FacetKinds& 
     edge.free = free;
     const double bend = (wedge.n - 1.0) * pi;
     edge.diffracts =
-        edge.length_m >= diffracting_length && (free ? free_edges_diffract : bend > diffracting_bend);
+        edge.length_m >= diffracting_length && (free ? diffracting.free : bend > diffracting_bend);
+    edge.start_diffracts = edge.diffracts && corners.open(index, Corner::a);
+    edge.end_diffracts = edge.diffracts && corners.open(index, Corner::b);
     const dvec3 normal_0 = scene.facets[wedge.facet_0].normal;
     edge.inward = wedge.tangent_0;
     edge.exterior = glm::dot(normal_0, wedge.normal_0) > 0.0 ? 1.0 : -1.0;
@@ -166,16 +172,27 @@ Complex FiniteReflectors::boundary(const FacetWorld& world, uint32_t facet, cons
     const double sign = glm::dot(piece.start, edge.inward) <= 0.0 ? 1.0 : -1.0;
     const bool taken = edges_diffract && edge.diffracts && (edge.free || side.front == edge.exterior);
     const double place = taken ? keller_place(side.ray, piece) : -1.0;
-    if (place >= 0.0 && place <= edge.length_m) {
-      // The diffracted path has the wave of the endless edge.
-      piece.from = -INFINITY, piece.to = 0.0;
-      sum -= sign * boundary_wave(side.ray, piece, wave_number);
-      piece.from = edge.length_m, piece.to = INFINITY;
-      sum -= sign * boundary_wave(side.ray, piece, wave_number);
-    } else {
+    const bool within = place >= 0.0 && place <= edge.length_m;
+    if (taken && (within || edge.start_diffracts || edge.end_diffracts))
+      sum += sign * beyond_ends(side.ray, edge, piece, place, wave_number);
+    else
       sum += sign * boundary_wave(side.ray, piece, wave_number);
-    }
   }
+  return sum;
+}
+
+/// Returns the wave of an edge without that of its endless line, if Keller's point is at a `place` of the
+/// edge, and without the waves of the ends that diffract.
+Complex FiniteReflectors::beyond_ends(const UnfoldedRay& ray, const Edge& edge, EdgePiece piece, double place,
+                                      double wave_number) {
+  Complex sum = 0.0;
+  const auto from_end = [&](double from, double to, double sign) {
+    piece.from = from, piece.to = to;
+    sum += sign * boundary_wave(ray, piece, wave_number);
+  };
+  if (!edge.start_diffracts) place < 0.0 ? from_end(0.0, INFINITY, 1.0) : from_end(-INFINITY, 0.0, -1.0);
+  if (!edge.end_diffracts)
+    place > edge.length_m ? from_end(-INFINITY, edge.length_m, 1.0) : from_end(edge.length_m, INFINITY, -1.0);
   return sum;
 }
 

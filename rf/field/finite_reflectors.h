@@ -26,7 +26,8 @@
 //
 // Relation with diffraction. A path diffracted at an edge of the facet by UTD carries the same boundary wave
 // of an endless edge. If the diffraction of that edge is counted as a path (edges_diffract), the weight takes
-// only the rest: minus the waves of the edge's line beyond its ends, which UTD lacks, and nothing of
+// only the rest: minus the waves of the edge's line beyond its ends, which UTD lacks (unless the
+// diffraction counts these ends, too), and nothing of
 // neighbours across that edge. The sum of all paths is then that of weighted reflections, as far as UTD's
 // coefficient and Kirchhoff's agree.
 //
@@ -61,14 +62,20 @@ struct ReflectionSight {
   double before_m = 0.0, after_m = 0.0;  ///< unfolded distances of the ends from the point
 };
 
+/// Selects the edges that the diffraction counts.
+struct DiffractingEdges {
+  bool free = false;     ///< free edges, too
+  bool corners = false;  ///< ends of edges, too (rf/edges/corners.h)
+};
+
 class FiniteReflectors {
  public:
   /// Facets that meet at less than this are pieces of one surface (a hexagonal pole: 60 degrees).
   static constexpr double smooth_bend_rad = 1.1;
   static constexpr double full_phase = 20.0, no_phase = 60.0;
 
-  /// `kinds`: [facets of the scene]. `free_edges_diffract`: the diffraction counts free edges, too.
-  FiniteReflectors(const scene::Scene& scene, const FacetKinds& kinds, bool free_edges_diffract);
+  /// `kinds`: [facets of the scene].
+  FiniteReflectors(const scene::Scene& scene, const FacetKinds& kinds, const DiffractingEdges& diffracting);
 
   /// Returns the weight of a reflection by `facet`. `edges_diffract`: the diffraction at the facet's edges is
   /// counted by paths of their own. Swapping the ends gives the same weight within 1e-12.
@@ -90,6 +97,7 @@ class FiniteReflectors {
     double exterior = 1.0, neighbour_exterior = 1.0;
     bool free = false;       ///< no other facet meets the edge
     bool diffracts = false;  ///< the edge is one of those that the diffraction effect takes
+    bool start_diffracts = false, end_diffracts = false;  ///< so do the ends of the edge
     /// Tells whether the facets meet in an inner corner, as seen from the side of the facet with this sign.
     bool inner_corner_from(double front) const { return !free && neighbour == none && front != exterior; }
   };
@@ -99,6 +107,8 @@ class FiniteReflectors {
     return std::span(edges_).subspan(offsets_[facet], offsets_[facet + 1] - offsets_[facet]);
   }
   static Edge posed(const Edge& edge, const FacetWorld& world, uint32_t facet);
+  static Complex beyond_ends(const UnfoldedRay& ray, const Edge& edge, EdgePiece piece, double place,
+                             double wave_number);
   Complex boundary(const FacetWorld& world, uint32_t facet, const Side& side, double wave_number,
                    bool edges_diffract) const;
   Complex neighbours(const FacetWorld& world, uint32_t facet, const Side& own, double wave_number,

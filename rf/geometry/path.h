@@ -40,7 +40,9 @@ struct Interaction {
   InteractionType type = InteractionType::reflection;
   /// Facet (index into Scene::facets); for diffraction the wedge, for a target the instance.
   uint32_t element = 0;
-  uint32_t patch = 0;  ///< number of the scattering patch on the facet; 0 for other types
+  /// Number of the scattering patch on the facet; for a diffraction 0, or the end of the edge (rf/edges/
+  /// corners.h: 1 for a, 2 for b); 0 for other types.
+  uint32_t patch = 0;
   auto operator<=>(const Interaction&) const = default;
 };
 
@@ -63,6 +65,9 @@ struct EdgeSides {
   int8_t incident = 0, reflected_0 = 0, reflected_n = 0;
 };
 
+/// Tells whether Keller's point exists beside an end that is too near to it for roundings to tell.
+enum class KellerSide : int8_t { by_place = 0, exists = 1, does_not = -1 };
+
 /// Holds a path that exists geometrically, from the transmitter to the receiver.
 struct GeometricPath {
   std::vector<Interaction> interactions;
@@ -75,7 +80,8 @@ struct GeometricPath {
   double patch_area_m2 = 0.0;
   /// Bit i: the diffraction at the edges of the facet of interaction i, a reflection, is in other paths.
   uint32_t edges_diffract = 0;
-  std::array<EdgeSides, 2> edge_sides = {};  ///< of its diffractions, in the order of the path
+  std::array<EdgeSides, 2> edge_sides = {};       ///< of its diffractions, in the order of the path
+  KellerSide keller_side = KellerSide::by_place;  ///< of its diffraction at the end of an edge
   /// The field is computed as if the receiver sent. A diffraction at a lossy wedge and a scattering have
   /// other fields from each side, so both directions of a link compute theirs from the same end.
   bool from_receiver = false;
@@ -90,6 +96,7 @@ struct GeometricPath {
     length_m = foliage_m = patch_area_m2 = 0.0;
     edges_diffract = 0;
     edge_sides = {};
+    keller_side = KellerSide::by_place;
     from_receiver = false;
     stratum = 0;
   }
@@ -103,12 +110,13 @@ struct Path {
   std::vector<dvec3> vertices;  ///< [interactions + 2], local coordinates
   double length_m = 0.0;
   double foliage_m = 0.0;
-  double patch_area_m2 = 0.0;                ///< as in GeometricPath
-  uint32_t edges_diffract = 0;               ///< as in GeometricPath
-  std::array<EdgeSides, 2> edge_sides = {};  ///< as in GeometricPath
-  bool from_receiver = false;                ///< as in GeometricPath
-  uint32_t stratum = 0;                      ///< as in GeometricPath
-  double delay_s = 0.0;                      ///< length / c
+  double patch_area_m2 = 0.0;                     ///< as in GeometricPath
+  uint32_t edges_diffract = 0;                    ///< as in GeometricPath
+  std::array<EdgeSides, 2> edge_sides = {};       ///< as in GeometricPath
+  KellerSide keller_side = KellerSide::by_place;  ///< as in GeometricPath
+  bool from_receiver = false;                     ///< as in GeometricPath
+  uint32_t stratum = 0;                           ///< as in GeometricPath
+  double delay_s = 0.0;                           ///< length / c
   /// nu = (1/lambda)(v_tx . k_0 - v_rx . k_n + sum v_i . (k_i - k_{i-1})); approaching ends give nu > 0.
   double doppler_hz = 0.0;
   dvec3 departure{0.0};  ///< unit, world axes, leaving the transmitter

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/units.h"
 #include "core/watch.h"
 #include "rf/edges/diffraction.h"
 #include "rf/paths/two_edge_paths.h"
@@ -51,6 +52,8 @@ Midpoints::Midpoints(const RadioModel& model, const PathLimits& limits, bool mov
     : model_(&model), limits_(limits) {
   if (model.effects.scattering) scatterers_.emplace(model, limits, moving_bodies);
   if (!model.effects.diffraction || limits.max_depth == 0) return;
+  if (model.effects.corner_diffraction)
+    most_excess_m_ = largest_excess_m(limits.corner_step_db, 2.0 * pi / model.surfaces.wavelength_m());
   two_edges_ = limits.max_diffractions > 1 && limits.max_depth > 1;
   search_target_ = two_edges_ || (limits.max_reflections_beside_diffraction > 0 && limits.max_depth > 1);
   edges_ = std::move(shared);
@@ -83,15 +86,30 @@ void Midpoints::move(const ImageTree& tree) {
   if (scatterers_) scatterers_->move(tree);
 }
 
+/// Sets the path over Keller's point. Returns false if there is none.
 bool Midpoints::diffract(const Chain& chain, WedgeJoin& join) const {
   const std::optional<dvec3> point =
       keller_point(join.wedge, chain.tree.image(chain.prefix), chain.suffixes.image(chain.suffix));
+  return point && bend(chain, {InteractionType::diffraction, join.index}, *point, join);
+}
+
+/// Sets the path over an end of the edge. Returns false if there is none.
+bool Midpoints::diffract_at(const Chain& chain, Corner corner, WedgeJoin& join) const {
+  if (!model_->corners.open(join.index, corner)) return false;
+  const dvec3 &before = chain.tree.image(chain.prefix), &after = chain.suffixes.image(chain.suffix);
+  const auto place = corner_place(join.wedge, corner, before, after);
+  if (!place || place->excess_m > most_excess_m_) return false;
+  if (!in_exterior(join.wedge, before) || !in_exterior(join.wedge, after)) return false;
+  return bend(chain, {InteractionType::diffraction, join.index, static_cast<uint32_t>(corner)},
+              corner_point(join.wedge, corner), join);
+}
+
+bool Midpoints::bend(const Chain& chain, const Interaction& middle, const dvec3& point,
+                     WedgeJoin& join) const {
   GeometricPath& path = join.path;
-  if (!point || !chain.assemble({InteractionType::diffraction, join.index}, *point, path, join.back))
-    return false;
-  const size_t middle = chain.tree.depth(chain.prefix) + 1;
-  if (!in_exterior(join.wedge, path.vertices[middle - 1]) ||
-      !in_exterior(join.wedge, path.vertices[middle + 1]))
+  if (!chain.assemble(middle, point, path, join.back)) return false;
+  const size_t at = chain.tree.depth(chain.prefix) + 1;
+  if (!in_exterior(join.wedge, path.vertices[at - 1]) || !in_exterior(join.wedge, path.vertices[at + 1]))
     return false;
   return model_->effects.diffraction_lit_region ||
          in_shadow(join.wedge, chain.tree.image(chain.prefix), chain.suffixes.image(chain.suffix));
@@ -161,15 +179,22 @@ void Midpoints::join_at(std::span<const Meeting> at, const ImageTree& tree, cons
   WedgeJoin join;
   join.index = ~0u;
   for (const auto& [index, suffix] : at) {
-    at_wedges_.joined(index, suffixes.image(suffix), most_before(suffixes.depth(suffix)), from);
+    at_wedges_.joined(index, suffixes.image(suffix), most_before(suffixes.depth(suffix)), most_excess_m_,
+                      from);
     if (from.empty()) continue;
     if (join.index != index) join.wedge = posed(model_->wedges[index], model_->facets);
     join.index = index;
-    for (const uint32_t prefix : from)
-      if (diffract({tree, suffixes, prefix, suffix}, join)) {
-        paths.push_back(join.path);
-        if (tree.end() == Source::receiver) turn_to_transmitter(paths.back());
-      }
+    const auto keep = [&] {
+      paths.push_back(join.path);
+      if (tree.end() == Source::receiver) turn_to_transmitter(paths.back());
+    };
+    for (const uint32_t prefix : from) {
+      const Chain chain{tree, suffixes, prefix, suffix};
+      if (diffract(chain, join)) keep();
+      if (most_excess_m_ == 0.0) continue;
+      for (const Corner corner : both_corners)
+        if (diffract_at(chain, corner, join)) keep();
+    }
   }
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "rf/config/path_limits.h"
+#include "rf/edges/corners.h"
 #include "rf/geometry/candidates.h"
 #include "rf/geometry/geometry.h"
 #include "rf/geometry/path.h"
@@ -57,6 +58,8 @@ class Midpoints {
   struct Chain;
   struct WedgeJoin;
   bool diffract(const Chain& chain, WedgeJoin& join) const;
+  bool diffract_at(const Chain& chain, Corner corner, WedgeJoin& join) const;
+  bool bend(const Chain& chain, const Interaction& middle, const dvec3& point, WedgeJoin& join) const;
   /// A wedge and a sequence that leads from the target to it.
   struct Meeting {
     uint32_t wedge = 0, suffix = 0;
@@ -76,6 +79,7 @@ class Midpoints {
   std::shared_ptr<EdgeSearch> edges_;
   bool search_target_ = false;  ///< reflections or another edge may follow a diffraction
   bool two_edges_ = false;
+  double most_excess_m_ = 0.0;          ///< of a path over the end of an edge; 0: ends do not diffract
   std::optional<ImageTree> edge_tree_;  ///< of find_edge_ways(); empty: the tree of the candidates
   LeftOut edge_left_out_;
   WedgeArrivals at_wedges_;

@@ -28,6 +28,14 @@ Touched touched_at(const Interaction& interaction, const std::vector<scene::Wedg
   return {wedge.facet_0, wedge.facet_n};
 }
 
+/// Returns the end of a segment at a vertex: beside an edge's end, whose faces are more than two.
+dvec3 traced_end(const RadioModel& model, const GeometricPath& path, size_t vertex) {
+  if (vertex == 0 || vertex > path.interactions.size()) return path.vertices[vertex];
+  const Interaction& at = path.interactions[vertex - 1];
+  if (at.type != InteractionType::diffraction || at.patch == 0) return path.vertices[vertex];
+  return beside_corner(posed(model.wedges[at.element], model.facets), static_cast<Corner>(at.patch));
+}
+
 /// Describes a wall that a segment passes.
 struct Passage {
   uint32_t facet = 0;
@@ -216,12 +224,24 @@ void PathSolver::find_edge_sides(std::vector<GeometricPath>& paths, const FacetW
     return at != paths.end() && at->interactions == other.interactions ? 1 : -1;
   };
   const auto solid = [](const Interaction& i) { return i.type != InteractionType::transmission; };
-  const auto sides_at = [&](const GeometricPath& path, size_t bend) {
+  const auto keller_side = [&](const GeometricPath& path, size_t bend, const dvec3& before,
+                               const dvec3& after, const scene::Wedge& wedge) {
+    const auto place = corner_place(wedge, static_cast<Corner>(path.interactions[bend].patch), before, after);
+    if (place && std::abs(place->inwards_m) > room_m) return KellerSide::by_place;
+    other.interactions = path.interactions;
+    other.interactions[bend].patch = 0;
+    return exists() > 0 ? KellerSide::exists : KellerSide::does_not;
+  };
+  const auto sides_at = [&](GeometricPath& path, size_t bend) {
     size_t before = bend, after = bend + 2;  // vertices; walls on the way turn nothing
     while (before > 0 && !solid(path.interactions[before - 1])) --before;
     while (after <= path.interactions.size() && !solid(path.interactions[after - 1])) ++after;
     const uint32_t edge = path.interactions[bend].element;
     const scene::Wedge wedge = posed(model_->wedges[edge], world);
+    if (path.interactions[bend].patch != 0) {
+      path.keller_side = keller_side(path, bend, path.vertices[before], path.vertices[after], wedge);
+      return EdgeSides{};  // the terms of an end are continuous across their boundaries
+    }
     EdgeSides sides =
         near_boundaries(wedge, path.vertices[before], path.vertices[bend + 1], path.vertices[after], room_m);
     const auto instead = [&](uint32_t facet) {
@@ -255,7 +275,8 @@ void PathSolver::add_segments(std::span<const GeometricPath> paths, const EndSta
     const size_t count = path.interactions.size(), first = segments.size();
     const uint32_t walls = walls_allowed(*model_, limits_, path.interactions.size());
     for (size_t i = 0; i <= count; ++i) {
-      Segment segment{.a = path.vertices[i], .b = path.vertices[i + 1], .walls = walls};
+      Segment segment{
+          .a = traced_end(*model_, path, i), .b = traced_end(*model_, path, i + 1), .walls = walls};
       if (i > 0) {
         const Touched touched = touched_at(path.interactions[i - 1], model_->wedges);
         segment.facet_a = touched.first, segment.other_a = touched.second;

@@ -89,10 +89,14 @@ RadioModel::RadioModel(const scene::Scene& radio_scene, double carrier_hz, const
       kinds(facet_kinds(radio_scene, which)),
       edge_gaps(radio_scene, kinds) {
   if (effects.field.foliage) check_foliage(radio_scene, carrier_hz);
-  if (effects.field.finite_reflectors) reflectors.emplace(radio_scene, kinds, effects.free_edges);
+  if (effects.field.finite_reflectors)
+    reflectors.emplace(radio_scene, kinds,
+                       DiffractingEdges{.free = effects.free_edges,
+                                        .corners = effects.diffraction && effects.corner_diffraction});
   if (!effects.diffraction) return;
   const scene::WedgeOptions options{.free_edges = effects.free_edges};
   wedges = wedges_of(radio_scene, kinds, options, short_wedges);
+  if (effects.corner_diffraction) corners = OpenCorners(radio_scene, kinds, wedges);
   if (short_wedges > 0)
     spdlog::info("scene '{}': {} edges shorter than {} m do not diffract", radio_scene.name, short_wedges,
                  options.min_length_m);

@@ -9,6 +9,7 @@
 
 #include "rf/atmosphere/weather.h"
 #include "rf/config/path_limits.h"
+#include "rf/edges/corners.h"
 #include "rf/facets/facet_kind.h"
 #include "rf/facets/facet_world.h"
 #include "rf/field/field.h"
@@ -24,6 +25,7 @@ struct RadioEffects {
   bool line_of_sight = true, reflection = true, transmission = false, diffraction = false, scattering = false;
   bool diffraction_lit_region = true;  ///< diffraction also where the wedge does not shade
   bool free_edges = false;             ///< borders of thin plates diffract
+  bool corner_diffraction = false;     ///< ends of edges diffract, too (rf/edges/corners.h)
   /// Lowest carrier of all channels that share the facet kinds, Hz. A wall that takes dark_wall_db at this
   /// carrier is opaque. 0: no wall is.
   double lowest_carrier_hz = 0.0;
@@ -56,6 +58,7 @@ struct RadioModel {
   FacetKinds kinds;
   EdgeGaps edge_gaps;
   std::vector<scene::Wedge> wedges;            ///< empty if diffraction is off
+  OpenCorners corners;                         ///< none are open if corner diffraction is off
   std::optional<FiniteReflectors> reflectors;  ///< set if that effect is on
   uint64_t short_wedges = 0;  ///< diffracting edges that are left out as too short (WedgeOptions)
 

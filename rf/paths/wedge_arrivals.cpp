@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "rf/edges/corners.h"
 #include "rf/edges/diffraction.h"
 
 namespace greatx::rf {
@@ -79,7 +80,22 @@ void WedgeArrivals::place(const ImageTree& tree, std::span<const scene::Wedge> w
   }
 }
 
-void WedgeArrivals::joined(uint32_t wedge, const dvec3& after, uint32_t most_depth,
+/// Tells whether Keller's point of two places lies on the edge, or near enough to one of its ends.
+bool WedgeArrivals::meet(const Edge& edge, const Place& from, const Place& to, double most_excess_m) {
+  // The Keller point is at (z d' + z' d)/(d + d'). Roundings are relative to the largest of the terms.
+  const double sum = from.away + to.away, a = from.along * to.away, b = to.along * from.away;
+  const double room = edge.room * sum + 1e-14 * (std::abs(a) + std::abs(b));
+  if (!(a + b >= -room)) {  // also what is nowhere: NaN
+    if (most_excess_m == 0.0 || from.along != from.along) return false;
+    return corner_place(from.along, from.away, to.along, to.away).excess_m <= most_excess_m;
+  }
+  if (a + b <= edge.length * sum + room) return true;
+  if (most_excess_m == 0.0) return false;
+  return corner_place(edge.length - from.along, from.away, edge.length - to.along, to.away).excess_m <=
+         most_excess_m;
+}
+
+void WedgeArrivals::joined(uint32_t wedge, const dvec3& after, uint32_t most_depth, double most_excess_m,
                            std::vector<uint32_t>& sequences) const {
   sequences.clear();
   const Edge& edge = edges_[wedge];
@@ -87,14 +103,7 @@ void WedgeArrivals::joined(uint32_t wedge, const dvec3& after, uint32_t most_dep
   if (!moves && edge.inside(after)) return;
   const Place to = moves ? Place{} : place_of(edge, after);
   for (size_t i = begin(wedge); i < begin(wedge) + count(wedge) && depths_[i] <= most_depth; ++i) {
-    if (!moves) {
-      // The Keller point is at (z d' + z' d)/(d + d'). Roundings are relative to the largest of the terms.
-      const Place& from = places_[i];
-      const double sum = from.away + to.away, a = from.along * to.away, b = to.along * from.away;
-      const double room = edge.room * sum + 1e-14 * (std::abs(a) + std::abs(b));
-      if (!(a + b >= -room && a + b <= edge.length * sum + room)) continue;  // also what is nowhere: NaN
-    }
-    sequences.push_back(sequences_[i]);
+    if (moves || meet(edge, places_[i], to, most_excess_m)) sequences.push_back(sequences_[i]);
   }
 }
 

@@ -51,9 +51,10 @@ class WedgeArrivals {
   }
 
   /// Sets `sequences` to those of a wedge with at most `most_depth` reflections for which keller_point() with
-  /// `after` may find a point: to all for which it does, and few more. All sequences of
-  /// a wedge that moves with a body are returned, if they are not too deep.
-  void joined(uint32_t wedge, const dvec3& after, uint32_t most_depth,
+  /// `after` may find a point, or a point beyond an end of the edge by which the path over that end is longer
+  /// by at most `most_excess_m` (rf/edges/corners.h; 0: ends do not count): to all for which it does, and few
+  /// more. All sequences of a wedge that moves with a body are returned, if they are not too deep.
+  void joined(uint32_t wedge, const dvec3& after, uint32_t most_depth, double most_excess_m,
               std::vector<uint32_t>& sequences) const;
 
  private:
@@ -71,6 +72,7 @@ class WedgeArrivals {
   /// The place of an image inside the wedge. No Keller point follows from it.
   static constexpr Place nowhere{std::numeric_limits<double>::quiet_NaN(), 1.0};
   static Place place_of(const Edge& edge, const dvec3& point);
+  static bool meet(const Edge& edge, const Place& from, const Place& to, double most_excess_m);
   size_t begin(uint32_t wedge) const { return offsets_[wedge]; }
   size_t count(uint32_t wedge) const { return offsets_[wedge + 1] - offsets_[wedge]; }
 

@@ -355,14 +355,18 @@ std::vector<std::pair<std::string, std::string>> ChannelSearch::notes(const rf::
     notes.emplace_back(
         "guarantee_edges",
         fmt::format("no path over one edge{} is left out that has up to {} reflections on each "
-                    "side and up to {} interactions, and is {:g} mm clear of other edges",
+                    "side and up to {} interactions, and is {:g} mm clear of other edges{}",
                     config_.limits.max_diffractions > 1
                         ? fmt::format(", or over two if it may be stronger than {:g} dB below free space,",
                                       config_.limits.two_edge_floor_db)
                         : "",
                     config_.limits.max_reflections_beside_diffraction,
                     std::min(config_.limits.max_depth, left_out.complete_depth),
-                    1e3 * rf::BeamSearchOptions{}.clearance_m));
+                    1e3 * rf::BeamSearchOptions{}.clearance_m,
+                    model_.effects.corner_diffraction
+                        ? fmt::format("; a field that ends with its edge steps by less than {:g} dB",
+                                      config_.limits.corner_step_db)
+                        : ""));
   if (const uint32_t budget = config_.limits.scattering_budget; model_.effects.scattering && budget > 0)
     notes.emplace_back(
         "scattering",

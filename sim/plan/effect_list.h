@@ -83,6 +83,7 @@
   X(transmission, true, radio, "paths through walls; off: walls block") \
   X(diffraction, true, radio, "paths into shadows, by UTD at edges") \
   X(diffraction_lit_region, true, radio, "diffracted fields beside lit paths, too") \
+  X(corner_diffraction, true, radio, "ends of edges diffract, too") \
   X(free_edges, true, radio, "edges that belong to only one facet diffract, too") \
   X(scattering, true, radio, "diffuse scattering by materials with a scattering coefficient") \
   X(roughness, true, field, "roughness of materials weakens reflections") \

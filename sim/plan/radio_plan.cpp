@@ -229,6 +229,12 @@ void plan_on_request(EffectPlan& plan, const Radio& radio) {
   radio.planner.decide(
       plan.diffraction_lit_region, plan.diffraction.on,
       plan.diffraction.on ? "keeps the field continuous where a path begins or ends" : "diffraction is off");
+  radio.planner.decide(
+      plan.corner_diffraction, plan.diffraction.on,
+      plan.diffraction.on ? "keeps the field continuous where Keller's point runs off an edge"
+                          : "diffraction is off",
+      plan.diffraction.on ? "without it, a diffracted field steps by 6 dB and more at the end of its edge"
+                          : "");
   radio.planner.decide(plan.free_edges, false, "edges of one facet alone bound drawings, seldom plates");
   const bool rough = deep && radio.surfaces.scattering;
   radio.planner.decide(

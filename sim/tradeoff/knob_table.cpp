@@ -211,6 +211,8 @@ void add_scattering(Table& table, const ChannelConfig& channel) {
                                "reflections on each side of a diffraction at most"));
   with_edges(table.add_numbers("max_diffractions", {"max_diffractions"}, {1, 2},
                                channel.limits.max_diffractions, "edges of a path at most"));
+  with_edges(table.add_numbers("corner_step_db", {"corner_step_db"}, {0.1, 0.3, 1.0},
+                               channel.limits.corner_step_db, "step of the field of an edge at its end, dB"));
 }
 
 void add_csi(Table& table) {

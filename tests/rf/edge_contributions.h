@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/units.h"
+#include "rf/edges/corners.h"
 #include "rf/edges/two_edges.h"
 #include "tests/rf/scenes.h"
 
@@ -72,6 +73,21 @@ inline void add_single(const Setting& setting, const scene::Wedge& wedge, const 
                                       setting.world, setting.surfaces);
   Contribution one{before + after, {edge.beta_in, edge.phi_in, edge.beta_out, edge.phi_out}};
   std::copy_n(edge.matrix, 4, one.map.matrix);
+  all.push_back(one);
+}
+
+/// Appends the path over an end of an edge, if it exists.
+inline void add_corner(const Setting& setting, const scene::Wedge& wedge, Corner corner, const dvec3& tx,
+                       const dvec3& rx, std::vector<Contribution>& all) {
+  const dvec3 &at = corner_point(wedge, corner), beside = beside_corner(wedge, corner);
+  if (!in_exterior(wedge, tx) || !in_exterior(wedge, rx) || !setting.visible(tx, beside) ||
+      !setting.visible(beside, rx))
+    return;
+  const double before = glm::distance(tx, at), after = glm::distance(at, rx);
+  const EdgeDyadic end = corner_dyadic(wedge, corner, (at - tx) / before, (rx - at) / after, before, after,
+                                       setting.world, setting.surfaces);
+  Contribution one{before + after, {end.beta_in, end.phi_in, end.beta_out, end.phi_out}};
+  std::copy_n(end.matrix, 4, one.map.matrix);
   all.push_back(one);
 }
 

@@ -77,8 +77,7 @@ struct Plates {
   }
   FacetKinds kinds() const { return FacetKinds(hand.scene.facets.size(), FacetKind::opaque); }
   Complex weight(const ReflectionSight& sight, uint32_t facet = 0, double k = wave_number) const {
-    return FiniteReflectors(hand.scene, kinds(), false)
-        .weight(FacetWorld(hand.scene), facet, sight, k, false);
+    return FiniteReflectors(hand.scene, kinds(), {}).weight(FacetWorld(hand.scene), facet, sight, k, false);
   }
 };
 
@@ -304,7 +303,7 @@ TEST(FiniteReflectors, SwappedEndsGiveTheSameWeightOnRoundSurfaces) {
     HandScene hand;
     hand.material("metal", 1.0, 1e9);
     add_prism(hand, sides, radius, 30.0);
-    const FiniteReflectors reflectors(hand.scene, FacetKinds(sides, FacetKind::opaque), false);
+    const FiniteReflectors reflectors(hand.scene, FacetKinds(sides, FacetKind::opaque), {});
     const FacetWorld world(hand.scene);
     const double azimuth = random.uniform(-1.2, 1.2), height = random.uniform(-0.5, 0.5);
     const dvec3 out = glm::normalize(dvec3(std::cos(azimuth), std::sin(azimuth), height));
@@ -356,7 +355,7 @@ TEST(FiniteReflectors, APolygonOfNarrowFacetsReflectsLikeTheCylinder) {
                                   distance,
                                   distance};
       const FiniteReflectors reflectors(hand.scene, FacetKinds(hand.scene.facets.size(), FacetKind::opaque),
-                                        false);
+                                        {});
       const Complex found = reflectors.weight(FacetWorld(hand.scene), 0, sight, wave_number, false);
       const double spread = std::sqrt(2.0 * distance) / distance;  // of the wall's 1/D to sqrt(1/(d_1 d_2 D))
       const double optics = std::sqrt(0.5 * radius * std::cos(half)) * spread;
@@ -398,7 +397,8 @@ struct Solved {
   void build(bool free_edges) {
     world.emplace(hand.scene);
     surfaces.emplace(hand.scene, frequency_hz);
-    reflectors.emplace(hand.scene, FacetKinds(hand.scene.facets.size(), FacetKind::opaque), free_edges);
+    reflectors.emplace(hand.scene, FacetKinds(hand.scene.facets.size(), FacetKind::opaque),
+                       DiffractingEdges{.free = free_edges});
     wedges = scene::find_wedges(hand.scene, {.free_edges = free_edges});
     model = {&*world, &*surfaces};
     model.effects.finite_reflectors = true;
@@ -484,7 +484,7 @@ TEST(FiniteReflectors, BoundHoldsInTheMiddleOfEveryFacet) {
   EXPECT_EQ(bound.facet, 0u);
   EXPECT_EQ(bound.facets, 6u);
   EXPECT_EQ(bound.below_a_zone, 6u);
-  const FiniteReflectors reflectors(hand.scene, FacetKinds(6, FacetKind::opaque), false);
+  const FiniteReflectors reflectors(hand.scene, FacetKinds(6, FacetKind::opaque), {});
   const FacetWorld world(hand.scene);
   double most = 0.0;
   for (uint32_t facet = 0; facet < 6; ++facet) {

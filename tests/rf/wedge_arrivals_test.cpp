@@ -69,7 +69,7 @@ TEST_P(WedgeArrivalsOf, RandomScenesHoldEveryBendAndFewMore) {
     for (const dvec3& receiver : yard.draw.receivers)
       for (const uint32_t wedge : arrivals.wedges())
         for (const uint32_t most_depth : {0u, 2u}) {
-          arrivals.joined(wedge, receiver + shift, most_depth, found);
+          arrivals.joined(wedge, receiver + shift, most_depth, 0.0, found);
           const auto expected = bending(yard, tree, wedge, receiver + shift, most_depth);
           ASSERT_TRUE(std::ranges::is_sorted(found));
           EXPECT_TRUE(std::ranges::includes(found, expected)) << "seed " << seed << ", wedge " << wedge;
@@ -97,8 +97,8 @@ TEST(WedgeArrivals, FollowTheImagesOfASourceThatMoves) {
   std::vector<uint32_t> found, expected;
   size_t count = 0;
   for (const uint32_t wedge : arrivals.wedges()) {
-    arrivals.joined(wedge, yard.draw.receivers[0], 3, found);
-    anew.joined(wedge, yard.draw.receivers[0], 3, expected);
+    arrivals.joined(wedge, yard.draw.receivers[0], 3, 0.0, found);
+    anew.joined(wedge, yard.draw.receivers[0], 3, 0.0, expected);
     EXPECT_EQ(found, expected) << wedge;
     count += found.size();
   }

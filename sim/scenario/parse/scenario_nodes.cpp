@@ -228,6 +228,7 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
                              "max_transmissions",
                              "max_diffractions",
                              "two_edge_floor_db",
+                             "corner_step_db",
                              "max_reflections_beside_diffraction",
                              "max_reflections_after",
                              "max_reflections_before_scattering",
@@ -262,6 +263,7 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
   if (const auto f = map.find("max_diffractions")) channel.limits.max_diffractions = f->integer32(1, 2);
   if (const auto f = map.find("two_edge_floor_db"))
     channel.limits.two_edge_floor_db = f->positive(1.0, 1000.0);
+  if (const auto f = map.find("corner_step_db")) channel.limits.corner_step_db = f->positive(0.01, 6.0);
   if (const auto f = map.find("max_reflections_beside_diffraction"))
     channel.limits.max_reflections_beside_diffraction = f->integer32(0, 4);
   if (const auto f = map.find("max_reflections_after"))
