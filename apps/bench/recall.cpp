@@ -17,6 +17,7 @@
 #include "apps/console/exit_code.h"
 #include "apps/console/json_text.h"
 #include "apps/console/progress.h"
+#include "rf/edges/corners.h"
 #include "rf/reference/comparison.h"
 #include "rf/reference/exhaustive_diffraction.h"
 #include "rf/reference/exhaustive_paths.h"
@@ -105,12 +106,20 @@ void add_edges(Case& c, const RecallPaths& sought, const rf::FacetKinds& kinds, 
   std::erase_if(wedges, [&](const scene::Wedge& wedge) {
     return wedge.body != 0 || !hard(wedge.facet_0) || !hard(wedge.facet_n);
   });
+  const rf::OpenCorners corners(scene, kinds, wedges);
+  std::vector<std::array<bool, 2>> open_ends;
+  for (uint32_t i = 0; i < wedges.size(); ++i)
+    open_ends.push_back({corners.open(i, rf::Corner::a), corners.open(i, rf::Corner::b)});
+  const sim::ChannelConfig& channel = c.experiment.scenario.channels[0];
   const auto found = rf::reference::exhaustive_diffraction(
       scene, world, moment.bodies, kinds, wedges,
       transmitter_position(c.experiment.scenario, *c.experiment.world, moment), receivers,
       {.max_depth = sought.max_depth,
        .max_transmissions = sought.max_transmissions,
-       .max_edges = sought.edges});
+       .max_edges = sought.edges,
+       .open_ends = std::move(open_ends),
+       .most_excess_m = rf::largest_excess_m(channel.limits.corner_step_db,
+                                             2.0 * pi * channel.carrier_hz / speed_of_light)});
   for (size_t r = 0; r < found.size(); ++r)
     c.reference.paths[r].insert(c.reference.paths[r].end(), found[r].begin(), found[r].end());
 }

@@ -50,6 +50,7 @@ class Chains {
   }
   /// Returns the facets that can reflect.
   std::span<const uint32_t> facets() const { return facets_; }
+  const FacetWorld& world() const { return world_; }
 
   /// Sets `points` to the beginning, the reflection points of the chain on the way to `end`, and `end`.
   /// Returns false if there are none. The end is mirrored from the last facet to the first, and the lines to

@@ -85,6 +85,21 @@ std::optional<std::pair<dvec3, dvec3>> shortest(const scene::Wedge& first, const
   return std::pair(p, q);
 }
 
+/// Returns how much longer the way over an end of an edge is than over any place of its line.
+double excess_over_end(const scene::Wedge& wedge, const dvec3& end, const dvec3& a, const dvec3& b) {
+  const dvec3 along = glm::normalize(wedge.b - wedge.a);
+  const dvec3 best = wedge.a + unfolded_place(wedge, along, a, b) * along;
+  return glm::distance(a, end) + glm::distance(end, b) - glm::distance(a, best) - glm::distance(best, b);
+}
+
+/// Returns the place from which an end of an edge is seen.
+dvec3 seen_beside(const scene::Wedge& wedge, bool at_b) {
+  const double middle = 0.5 * wedge.n * pi;
+  const dvec3 aside = wedge.tangent_0 * std::cos(middle) + wedge.normal_0 * std::sin(middle);
+  const dvec3 onwards = glm::normalize(at_b ? wedge.b - wedge.a : wedge.a - wedge.b);
+  return (at_b ? wedge.b : wedge.a) + 2e-3 / std::sqrt(2.0) * (aside + onwards);
+}
+
 /// Holds all sequences from one end, and which of them may lead to which wedge.
 struct Side {
   std::vector<Chain> chains;
@@ -114,8 +129,12 @@ class EdgePaths {
     for (uint32_t w = 0; w < wedges_.size(); ++w)
       for (const uint32_t a : before.at[w])
         for (const uint32_t b : after.at[w])
-          if (before.chains[a].facets.size() + after.chains[b].facets.size() + 1 <= options_.max_depth)
+          if (before.chains[a].facets.size() + after.chains[b].facets.size() + 1 <= options_.max_depth) {
             try_pair(w, before.chains[a], after.chains[b], paths);
+            for (const bool at_b : {false, true})
+              if (!options_.open_ends.empty() && options_.open_ends[w][at_b])
+                try_end(w, at_b, before.chains[a], after.chains[b], paths);
+          }
     for (uint32_t v = 0; options_.max_edges > 1 && v < wedges_.size(); ++v)
       for (uint32_t w = 0; w < wedges_.size(); ++w)
         if (v != w) join_pair(v, w, before, after, paths);
@@ -191,6 +210,44 @@ class EdgePaths {
     if (!outside(wedge, out[out.size() - 2]) || !outside(wedge, home[home.size() - 2])) return;
     home.pop_back();  // the point is in both
     add_path(before, {index}, after, out, home, glm::distance(a, *point) + glm::distance(*point, b), paths);
+  }
+
+  void try_end(uint32_t index, bool at_b, const Chain& before, const Chain& after,
+               std::vector<GeometricPath>& paths) const {
+    const scene::Wedge& wedge = wedges_[index];
+    const dvec3 &a = before.images.back(), &b = after.images.back(), &end = at_b ? wedge.b : wedge.a;
+    if (excess_over_end(wedge, end, a, b) > options_.most_excess_m) return;
+    if (!outside(wedge, a) || !outside(wedge, b)) return;
+    std::vector<dvec3> out, home;
+    if (!chains_.reflect(before, end, out) || !chains_.reflect(after, end, home)) return;
+    if (!outside(wedge, out[out.size() - 2]) || !outside(wedge, home[home.size() - 2])) return;
+    home.pop_back();
+    out.back() = seen_beside(wedge, at_b);
+    const size_t already = paths.size();
+    add_path(before, {index}, after, out, home, glm::distance(a, end) + glm::distance(end, b), paths);
+    if (paths.size() == already) return;
+    move_to_end(paths.back(), end, at_b);
+  }
+
+  /// Moves the vertex beside an end into the end, and walls passed onto the straight lines to it.
+  void move_to_end(GeometricPath& path, const dvec3& end, bool at_b) const {
+    std::vector<size_t> turns{0};
+    for (size_t i = 0; i < path.interactions.size(); ++i) {
+      if (path.interactions[i].type == InteractionType::transmission) continue;
+      turns.push_back(i + 1);
+      if (path.interactions[i].type != InteractionType::diffraction) continue;
+      path.interactions[i].patch = at_b ? 2 : 1;
+      path.vertices[i + 1] = end;
+    }
+    turns.push_back(path.vertices.size() - 1);
+    for (size_t run = 0; run + 1 < turns.size(); ++run) {
+      const dvec3 a = path.vertices[turns[run]], b = path.vertices[turns[run + 1]];
+      for (size_t i = turns[run] + 1; i < turns[run + 1]; ++i) {
+        const PosedFacet& wall = chains_.world().facet(path.interactions[i - 1].element);
+        const double from = wall.distance(a), to = wall.distance(b);
+        path.vertices[i] = a + from / (from - to) * (b - a);
+      }
+    }
   }
 
   /// Adds a path if nothing is in its way. `out` runs from the transmitter to the first edge, `home` from the

@@ -7,6 +7,7 @@
 // method.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,12 +26,18 @@ struct DiffractionOptions {
   uint32_t max_transmissions = 0;  ///< walls (FacetKind::wall) that a whole path may pass
   uint32_t max_beside = 2;         ///< reflections on each side of the edges
   uint32_t max_edges = 1;          ///< edges of a path, 1 or 2
+  /// [wedges] whether a path may bend at the end a, and at the end b. Empty: at no end.
+  std::vector<std::array<bool, 2>> open_ends;
+  double most_excess_m = 0.0;  ///< of a path over an end against the way over the edge's line
 };
 
 /// Returns [receivers] all paths with one diffraction or more by these rules, in canonical order:
 /// - The points on the edges are where the unfolded path is shortest, and lie between the edges' ends.
 /// - The points before and after an edge lie in the wedge's exterior.
 /// - No reflection next to an edge is at one of the wedge's own faces, which belongs to the edge's field.
+/// - A path over an open end of an edge is at most `most_excess_m` longer than the shortest unfolded way over
+///   the line of the edge. It is seen from a point 2 mm beside the end, halfway between the middle of the
+///   exterior and the direction in which the edge ends. Such a path has no second edge.
 /// - Between two edges the path is straight. Their points are a millimetre apart at least.
 /// - Reflections and obstruction are those of exhaustive_paths(). The faces of the wedge do not block.
 /// All wedges belong to the static world, and nothing carries the ends. `body_poses` [bodies] are those of

@@ -41,6 +41,7 @@ struct Bounds {
   uint32_t depth = 2, walls = 0;
   bool edges = false;      ///< paths may have a diffraction
   bool two_edges = false;  ///< or two
+  bool corners = false;    ///< or one at the end of an edge
 };
 using CandidateSource = std::function<CandidateList(const RadioModel&, const dvec3& transmitter, Bounds)>;
 
@@ -107,9 +108,19 @@ class Rig {
     RadioEffects effects;
     effects.transmission = bounds.walls > 0;
     effects.diffraction = effects.free_edges = bounds.edges;
+    effects.corner_diffraction = bounds.corners;
     return effects;
   }
   std::span<const scene::Wedge> wedges() const { return model_.wedges; }
+  static double most_excess_m() {
+    return largest_excess_m(PathLimits{}.corner_step_db, 2.0 * pi * carrier_hz / speed_of_light);
+  }
+  std::vector<std::array<bool, 2>> open_ends() const {
+    std::vector<std::array<bool, 2>> open;
+    for (uint32_t i = 0; i < model_.wedges.size(); ++i)
+      open.push_back({model_.corners.open(i, Corner::a), model_.corners.open(i, Corner::b)});
+    return open;
+  }
 
  private:
   std::vector<Crossing> trace(const std::vector<Segment>& segments) {
@@ -248,9 +259,16 @@ Links over_edges(Links links) {
 }
 
 TEST(Properties, EveryPathOverAnEdgeOfTheReferenceAndNoOther) {
-  size_t paths = 0, on_both_sides = 0, two_after = 0, through_walls = 0, over_two = 0, two_and_more = 0;
-  for (const Draw& draw :
-       draws(4, {{2, 1, true}, {3, 0, true}, {4, 1, true}, {2, 0, true, true}, {4, 1, true, true}}, 4)) {
+  size_t paths = 0, on_both_sides = 0, two_after = 0, through_walls = 0, over_two = 0, two_and_more = 0,
+         over_ends = 0;
+  for (const Draw& draw : draws(4,
+                                {{2, 1, true},
+                                 {3, 0, true},
+                                 {4, 1, true},
+                                 {2, 0, true, true},
+                                 {4, 1, true, true},
+                                 {3, 1, true, false, true}},
+                                4)) {
     Rig rig(draw.scene, draw.bounds);
     rig.search(draw.random.transmitter);
     const auto reference =
@@ -259,7 +277,9 @@ TEST(Properties, EveryPathOverAnEdgeOfTheReferenceAndNoOther) {
                                           draw.random.transmitter, draw.random.receivers,
                                           {.max_depth = draw.bounds.depth,
                                            .max_transmissions = draw.bounds.walls,
-                                           .max_edges = draw.bounds.two_edges ? 2u : 1u});
+                                           .max_edges = draw.bounds.two_edges ? 2u : 1u,
+                                           .open_ends = rig.open_ends(),
+                                           .most_excess_m = Rig::most_excess_m()});
     expect_same(reference, over_edges(rig.paths(draw.random.receivers)), draw.name);
     for (const auto& link : reference)
       for (const GeometricPath& path : link) {
@@ -272,6 +292,7 @@ TEST(Properties, EveryPathOverAnEdgeOfTheReferenceAndNoOther) {
             std::ranges::count(path.interactions, InteractionType::diffraction, &Interaction::type);
         ++paths;
         over_two += edges == 2, two_and_more += edges == 2 && path.interactions.size() > 2;
+        over_ends += edge->patch != 0;
         on_both_sides += before > 0 && after > 0, two_after += after > 1;
         through_walls += std::ranges::find(path.interactions, InteractionType::transmission,
                                            &Interaction::type) != path.interactions.end();
@@ -282,6 +303,7 @@ TEST(Properties, EveryPathOverAnEdgeOfTheReferenceAndNoOther) {
   EXPECT_GT(two_after, 200u);
   EXPECT_GT(through_walls, 200u);
   EXPECT_GT(over_two, 500u);
+  EXPECT_GT(over_ends, 500u);
   EXPECT_GT(two_and_more, 200u);
 }
 
@@ -299,7 +321,8 @@ void expect_same_backwards(const Draw& draw) {
 }
 
 TEST(Properties, PathsOverEdgesAreTheSameFromBothEnds) {
-  for (const Draw& draw : draws(2, {{3, 0, true}, {4, 1, true}, {3, 1, true, true}}))
+  for (const Draw& draw :
+       draws(2, {{3, 0, true}, {4, 1, true}, {3, 1, true, true}, {3, 1, true, false, true}}))
     expect_same_backwards(draw);
 }
 
