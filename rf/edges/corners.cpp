@@ -18,7 +18,7 @@ namespace {
 constexpr double same_place_m = 2e-4;
 /// Where a facet is looked for that stands across an edge's end.
 constexpr double look_aside_m = 5e-3, look_along_m = 2.5e-3;
-constexpr double clear_of_faces_m = 2e-3;
+constexpr double seen_inwards_m = 2e-3;
 
 /// Returns the unit direction, perpendicular to the edge, halfway between the faces in the exterior.
 dvec3 middle_of_exterior(const scene::Wedge& wedge) {
@@ -145,9 +145,9 @@ OpenCorners::OpenCorners(const scene::Scene& scene, const FacetKinds& kinds,
         bits_[i] = static_cast<uint8_t>(bits_[i] | static_cast<uint32_t>(corner));
 }
 
-dvec3 beside_corner(const scene::Wedge& wedge, Corner corner) {
-  const dvec3 away = middle_of_exterior(wedge) + outwards(wedge, corner);
-  return corner_point(wedge, corner) + clear_of_faces_m * glm::normalize(away);
+dvec3 seen_corner(const scene::Wedge& wedge, Corner corner) {
+  const double inwards_m = std::min(seen_inwards_m, 0.5 * glm::distance(wedge.a, wedge.b));
+  return corner_point(wedge, corner) - inwards_m * outwards(wedge, corner);
 }
 
 CornerPlace corner_place(double u, double d_u, double v, double d_v) {

@@ -63,9 +63,10 @@ class OpenCorners {
 inline const dvec3& corner_point(const scene::Wedge& wedge, Corner corner) {
   return corner == Corner::a ? wedge.a : wedge.b;
 }
-/// Returns a point 2 mm beside the corner, from which the faces that meet in it hide nothing that they do not
-/// hide from the corner.
-dvec3 beside_corner(const scene::Wedge& posed, Corner corner);
+/// Returns the place from which the corner is seen: on the edge, 2 mm from its end, or in the middle of an edge
+/// below 4 mm. Hence a corner is seen if and only if a diffraction of its edge beside it would be, and other
+/// faces that meet in the corner do not hide it.
+dvec3 seen_corner(const scene::Wedge& posed, Corner corner);
 
 /// Describes where an end lies on the way between two points.
 struct CornerPlace {

@@ -28,12 +28,12 @@ Touched touched_at(const Interaction& interaction, const std::vector<scene::Wedg
   return {wedge.facet_0, wedge.facet_n};
 }
 
-/// Returns the end of a segment at a vertex: beside an edge's end, whose faces are more than two.
+/// Returns the end of a segment at a vertex. An edge's end is seen from a place beside it.
 dvec3 traced_end(const RadioModel& model, const GeometricPath& path, size_t vertex) {
   if (vertex == 0 || vertex > path.interactions.size()) return path.vertices[vertex];
   const Interaction& at = path.interactions[vertex - 1];
   if (at.type != InteractionType::diffraction || at.patch == 0) return path.vertices[vertex];
-  return beside_corner(posed(model.wedges[at.element], model.facets), static_cast<Corner>(at.patch));
+  return seen_corner(posed(model.wedges[at.element], model.facets), static_cast<Corner>(at.patch));
 }
 
 /// Describes a wall that a segment passes.

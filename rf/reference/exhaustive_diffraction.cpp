@@ -94,10 +94,8 @@ double excess_over_end(const scene::Wedge& wedge, const dvec3& end, const dvec3&
 
 /// Returns the place from which an end of an edge is seen.
 dvec3 seen_beside(const scene::Wedge& wedge, bool at_b) {
-  const double middle = 0.5 * wedge.n * pi;
-  const dvec3 aside = wedge.tangent_0 * std::cos(middle) + wedge.normal_0 * std::sin(middle);
-  const dvec3 onwards = glm::normalize(at_b ? wedge.b - wedge.a : wedge.a - wedge.b);
-  return (at_b ? wedge.b : wedge.a) + 2e-3 / std::sqrt(2.0) * (aside + onwards);
+  const double share = std::min(2e-3 / glm::distance(wedge.a, wedge.b), 0.5);
+  return at_b ? glm::mix(wedge.b, wedge.a, share) : glm::mix(wedge.a, wedge.b, share);
 }
 
 /// Holds all sequences from one end, and which of them may lead to which wedge.

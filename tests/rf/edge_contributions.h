@@ -79,7 +79,7 @@ inline void add_single(const Setting& setting, const scene::Wedge& wedge, const 
 /// Appends the path over an end of an edge, if it exists.
 inline void add_corner(const Setting& setting, const scene::Wedge& wedge, Corner corner, const dvec3& tx,
                        const dvec3& rx, std::vector<Contribution>& all) {
-  const dvec3 &at = corner_point(wedge, corner), beside = beside_corner(wedge, corner);
+  const dvec3 &at = corner_point(wedge, corner), beside = seen_corner(wedge, corner);
   if (!in_exterior(wedge, tx) || !in_exterior(wedge, rx) || !setting.visible(tx, beside) ||
       !setting.visible(beside, rx))
     return;
