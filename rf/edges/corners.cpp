@@ -14,8 +14,6 @@
 namespace greatx::rf {
 namespace {
 
-/// Ends of edges this close together are in one place: as corners are welded in find_wedges().
-constexpr double same_place_m = 2e-4;
 /// Where a facet is looked for that stands across an edge's end.
 constexpr double look_aside_m = 5e-3, look_along_m = 2.5e-3;
 constexpr double seen_inwards_m = 2e-3;
@@ -61,7 +59,7 @@ class EndGrid {
     Corner corner;
   };
   static std::array<int64_t, 3> cell_of(const dvec3& point) {
-    const auto cell = [](double x) { return static_cast<int64_t>(std::floor(x / same_place_m)); };
+    const auto cell = [](double x) { return static_cast<int64_t>(std::floor(x / corner_weld_m)); };
     return {cell(point.x), cell(point.y), cell(point.z)};
   }
   static uint64_t hash(const std::array<int64_t, 3>& cell) {
@@ -72,7 +70,7 @@ class EndGrid {
   bool continues(uint32_t wedge, Corner corner, const End& other) const {
     const scene::Wedge &here = wedges_[wedge], &there = wedges_[other.wedge];
     return here.body == there.body &&
-           glm::distance(corner_point(here, corner), corner_point(there, other.corner)) <= same_place_m &&
+           glm::distance(corner_point(here, corner), corner_point(there, other.corner)) <= corner_weld_m &&
            glm::dot(outwards(here, corner), outwards(there, other.corner)) < -0.99999 &&
            glm::dot(middle_of_exterior(here), middle_of_exterior(there)) > 0.9999 &&
            std::abs(here.n - there.n) < 0.01;

@@ -38,6 +38,9 @@
 
 namespace greatx::rf {
 
+/// A facet whose plane is this near to a corner meets in it.
+inline constexpr double corner_weld_m = 2e-4;
+
 /// Names an end of an edge. The values are those of Interaction::patch of a diffraction: 0 is Keller's point.
 enum class Corner : uint32_t { a = 1, b = 2 };
 inline constexpr Corner both_corners[] = {Corner::a, Corner::b};

@@ -100,8 +100,16 @@ bool Midpoints::diffract_at(const Chain& chain, Corner corner, WedgeJoin& join) 
   const auto place = corner_place(join.wedge, corner, before, after);
   if (!place || place->excess_m > most_excess_m_) return false;
   if (!in_exterior(join.wedge, before) || !in_exterior(join.wedge, after)) return false;
-  return bend(chain, {InteractionType::diffraction, join.index, static_cast<uint32_t>(corner)},
-              corner_point(join.wedge, corner), join);
+  const dvec3& at = corner_point(join.wedge, corner);
+  if (!bend(chain, {InteractionType::diffraction, join.index, static_cast<uint32_t>(corner)}, at, join))
+    return false;
+  // The faces that meet in the corner do not reflect a wave that starts there.
+  const std::vector<Interaction>& list = join.path.interactions;
+  const size_t middle = chain.tree.depth(chain.prefix);
+  const auto holds = [&](size_t i) {
+    return std::abs(model_->facets.facet(list[i].element).distance(at)) <= corner_weld_m;
+  };
+  return !(middle > 0 && holds(middle - 1)) && !(middle + 1 < list.size() && holds(middle + 1));
 }
 
 bool Midpoints::bend(const Chain& chain, const Interaction& middle, const dvec3& point,

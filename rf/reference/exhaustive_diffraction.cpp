@@ -210,12 +210,18 @@ class EdgePaths {
     add_path(before, {index}, after, out, home, glm::distance(a, *point) + glm::distance(*point, b), paths);
   }
 
+  /// Tells whether the last facet of a chain meets in the end of an edge.
+  bool meets(const Chain& chain, const dvec3& end) const {
+    return !chain.facets.empty() &&
+           std::abs(chains_.world().facet(chain.facets.back()).distance(end)) <= 2e-4;
+  }
+
   void try_end(uint32_t index, bool at_b, const Chain& before, const Chain& after,
                std::vector<GeometricPath>& paths) const {
     const scene::Wedge& wedge = wedges_[index];
     const dvec3 &a = before.images.back(), &b = after.images.back(), &end = at_b ? wedge.b : wedge.a;
     if (excess_over_end(wedge, end, a, b) > options_.most_excess_m) return;
-    if (!outside(wedge, a) || !outside(wedge, b)) return;
+    if (!outside(wedge, a) || !outside(wedge, b) || meets(before, end) || meets(after, end)) return;
     std::vector<dvec3> out, home;
     if (!chains_.reflect(before, end, out) || !chains_.reflect(after, end, home)) return;
     if (!outside(wedge, out[out.size() - 2]) || !outside(wedge, home[home.size() - 2])) return;

@@ -36,8 +36,8 @@ struct DiffractionOptions {
 /// - The points before and after an edge lie in the wedge's exterior.
 /// - No reflection next to an edge is at one of the wedge's own faces, which belongs to the edge's field.
 /// - A path over an open end of an edge is at most `most_excess_m` longer than the shortest unfolded way over
-///   the line of the edge. It is seen from the edge, 2 mm from the end (or the middle of a shorter edge). Such
-///   a path has no second edge.
+///   the line of the edge, and no facet within 0.2 mm of the end reflects it next to the end. It is seen from
+///   the edge, 2 mm from the end (or the middle of a shorter edge). Such a path has no second edge.
 /// - Between two edges the path is straight. Their points are a millimetre apart at least.
 /// - Reflections and obstruction are those of exhaustive_paths(). The faces of the wedge do not block.
 /// All wedges belong to the static world, and nothing carries the ends. `body_poses` [bodies] are those of
