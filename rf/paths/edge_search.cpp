@@ -70,9 +70,21 @@ EdgeSearch::EdgeSearch(const RadioModel& model, const PathLimits& limits, bool m
 }
 
 void EdgeSearch::move() {
-  if (scene_ && !moving_bodies_) return;
+  if (scene_ && (!moving_bodies_ || same_poses())) return;
   scene_ = std::make_shared<const BeamScene>(model_->facets, model_->kinds, model_->wedges, moving_bodies_);
   answers_.clear();
+}
+
+/// Tells whether all bodies are where they were at the last call. If not, it takes their places.
+bool EdgeSearch::same_poses() {
+  std::vector<Pose> now;
+  for (uint32_t body = 1; body < model_->scene->bodies.size(); ++body)
+    now.push_back(model_->facets.motion(body).pose);
+  const bool same = std::ranges::equal(now, poses_, [](const Pose& a, const Pose& b) {
+    return a.position == b.position && a.orientation == b.orientation;
+  });
+  poses_ = std::move(now);
+  return same;
 }
 
 EdgePairs& EdgeSearch::pairs() {

@@ -37,7 +37,8 @@ class EdgeSearch {
   /// `model` must outlive this object. `moving_bodies`: facets of bodies other than 0 reflect and hide.
   EdgeSearch(const RadioModel& model, const PathLimits& limits, bool moving_bodies);
 
-  /// Must be called when bodies of the model have moved.
+  /// Must be called when bodies of the model may have moved, and not while others ask. Answers stay if no
+  /// body has.
   void move();
   /// Returns what a search at `end` finds, whose `body` hides nothing from it (0: none). The last answers are
   /// kept if `keep`. Many threads may call this.
@@ -51,6 +52,7 @@ class EdgeSearch {
     uint32_t body = 0;
     bool operator==(const Question&) const = default;
   };
+  bool same_poses();
   static constexpr size_t most_answers = 64;  ///< one takes a megabyte, more or less
   EdgeWays search(const dvec3& end, uint32_t body, uint32_t threads) const;
 
@@ -58,6 +60,7 @@ class EdgeSearch {
   PathLimits limits_;
   bool moving_bodies_;
   std::shared_ptr<const BeamScene> scene_;
+  std::vector<Pose> poses_;  ///< [bodies - 1] of `scene_`, if bodies move
   std::mutex pairs_mutex_;
   std::unique_ptr<EdgePairs> pairs_;
   KeptAnswers<Question, EdgeWays> answers_{most_answers};

@@ -56,15 +56,16 @@ ChannelSearch::ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& m
 void ChannelSearch::choose(const EffectPlan& plan, const ChannelEnds& ends) {
   const bool bounces = plan.reflection.on || plan.diffraction.on || plan.scattering.on;
   if (!all_effects_built || !bounces || config_.limits.max_depth == 0) return;
-  // Scattering, rays, and edges that move need everything that the transmitter reaches, not only sequences
-  // that lead to the receivers.
-  const bool whole = config_.candidates == ChannelConfig::Candidates::rays || plan.scattering.on ||
-                     (plan.diffraction.on && move_facets_);
+  // Scattering and rays need everything that the transmitter reaches, not only sequences that lead to the
+  // receivers.
+  const bool whole = config_.candidates == ChannelConfig::Candidates::rays || plan.scattering.on;
   const bool receivers_rest = std::ranges::all_of(ends.receivers, &ChannelEnd::rests);
   if (config_.search == ChannelConfig::Search::every_tick || (move_facets_ && whole)) {
     way_ = Way::every_tick;
     transmitter_.kept = false;
-  } else if (ends.transmitter.rests)
+  } else if (plan.diffraction.on && move_facets_)
+    way_ = Way::between_ends;  // bodies that move change the ways to edges from either end
+  else if (ends.transmitter.rests)
     way_ = Way::once_from_transmitter;
   else if (receivers_rest)
     way_ = Way::once_from_receivers;
@@ -169,8 +170,8 @@ void ChannelSearch::record_ahead(gpu::TickSlot& slot, const dvec3& transmitter,
 void ChannelSearch::grow_solvers(size_t count) {
   rf::PathLimits limits = config_.limits;
   limits.max_transmissions = config_.walls();
-  const bool reflect = move_facets_ && (way_ == Way::every_tick || way_ == Way::by_link);
-  const auto edges = shared_ && !reflect && model_.effects.diffraction ? shared_->edges(limits) : nullptr;
+  const bool reflect = move_facets_ && !once();
+  const auto edges = shared_ && model_.effects.diffraction ? shared_->edges(limits, reflect) : nullptr;
   while (fixed_.size() < count) fixed_.emplace_back(model_, limits, reflect, edges);
   left_out_.resize(fixed_.size());
   while (!moving_searches_.empty() && moving_searches_.size() < count)
@@ -377,7 +378,7 @@ std::vector<std::pair<std::string, std::string>> ChannelSearch::notes(const rf::
   if (beams_ && move_facets_ && (way_ == Way::every_tick || way_ == Way::by_link) &&
       config_.search != ChannelConfig::Search::every_tick)
     notes.emplace_back("reuse",
-                       "none: diffraction, scattering or a list of points with moving reflectors; the whole "
+                       "none: scattering or a list of points with moving reflectors; the whole "
                        "search runs at every tick");
   if (way_ != Way::none && !beams_)
     notes.emplace_back(

@@ -31,19 +31,27 @@ class SharedSearches {
     return fixed_;
   }
   /// Returns the search for ways to edges under these limits. A channel and its legs may have others.
-  std::shared_ptr<rf::EdgeSearch> edges(const rf::PathLimits& limits) {
-    for (const auto& [known, search] : edges_)
-      if (known.max_depth == limits.max_depth && known.max_transmissions == limits.max_transmissions &&
-          known.max_reflections_beside_diffraction == limits.max_reflections_beside_diffraction &&
-          known.max_diffractions == limits.max_diffractions)
-        return search;
-    return edges_.emplace_back(limits, std::make_shared<rf::EdgeSearch>(model_, limits, false)).second;
+  std::shared_ptr<rf::EdgeSearch> edges(const rf::PathLimits& limits, bool moving_bodies) {
+    for (const Edges& known : edges_)
+      if (known.limits.max_depth == limits.max_depth &&
+          known.limits.max_transmissions == limits.max_transmissions &&
+          known.limits.max_reflections_beside_diffraction == limits.max_reflections_beside_diffraction &&
+          known.limits.max_diffractions == limits.max_diffractions && known.moving_bodies == moving_bodies)
+        return known.search;
+    edges_.push_back(
+        {limits, moving_bodies, std::make_shared<rf::EdgeSearch>(model_, limits, moving_bodies)});
+    return edges_.back().search;
   }
 
  private:
   const rf::RadioModel& model_;
   std::shared_ptr<rf::FixedFacets> fixed_;
-  std::vector<std::pair<rf::PathLimits, std::shared_ptr<rf::EdgeSearch>>> edges_;
+  struct Edges {
+    rf::PathLimits limits;
+    bool moving_bodies;
+    std::shared_ptr<rf::EdgeSearch> search;
+  };
+  std::vector<Edges> edges_;
 };
 
 /// Chooses the way to search for candidates, runs the searches, and turns candidates into geometric paths.

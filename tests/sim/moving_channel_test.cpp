@@ -95,6 +95,20 @@ TEST(MovingChannel, BothEndsMoveAndEdgesDiffract) {
     }
 }
 
+TEST(MovingChannel, EdgesDiffractAmongMovingReflectors) {
+  for (const std::string link : {"tx: car/antenna, rx: [uav/antenna]", "tx: bs/antenna, rx: [uav/antenna]"})
+    for (const std::string rest : {"", ", max_reflections_beside_diffraction: 0"}) {
+      const auto run = [&](const std::string& search) {
+        return keep_run(street(link + rest + search, ", diffraction: on, transmission: off"));
+      };
+      const KeptRun between = run(""), whole = run(", search: every_tick");
+      EXPECT_GT(between.counter("csi.paths"), 150u);
+      EXPECT_THAT(between.note("csi.search"), ::testing::StartsWith("every tick, from both ends"));
+      EXPECT_LT(between.counter("csi.candidates"), whole.counter("csi.candidates"));
+      expect_same_bytes(between, whole);
+    }
+}
+
 /// The simulator records the next tick before it computes the fields of a tick. The fields need the facets as
 /// they stood at their own tick.
 TEST(MovingChannel, ATickKnowsNothingOfTheTickAfterIt) {
