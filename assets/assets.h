@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Gives access to the scenarios, and to their schema, that are embedded in the program at build time.
+// Gives access to the scenarios, to their schema, and to the campaigns that are embedded in the program at build time.
 #pragma once
 
 #include <span>
@@ -17,6 +17,9 @@ struct EmbeddedScenario {
 
 /// Returns all embedded scenarios.
 std::span<const EmbeddedScenario> embedded_scenarios();
+
+/// Returns the files of assets/campaigns: campaigns, and the scenarios that they change.
+std::span<const EmbeddedScenario> embedded_campaigns();
 
 /// Returns docs/scenario.schema.json.
 std::string_view scenario_schema();

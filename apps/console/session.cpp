@@ -7,6 +7,7 @@
 
 #include "apps/console/command_line.h"
 #include "assets/assets.h"
+#include "core/fields/named_path.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/parse/override.h"
 
@@ -20,12 +21,39 @@ void ScenarioOptions::add_to(CLI::App& command) {
                   fmt::format("scenario file (.yaml), or an embedded one: {}", fmt::join(names, ", ")))
       ->capture_default_str();
   command.add_option("--assets", assets, "folder to look in for files that are not beside the scenario");
+  command
+      .add_option(
+          "--set", set,
+          "PATH=VALUE: instead of the scenario's own value at a place such as nodes[uav].model; no value "
+          "takes the place away")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
   command.add_option("--seed", seed, "instead of the scenario's seed");
   command.add_option("--ticks", ticks, "instead of the scenario's length")
       ->check(integer_of(1, sim::most_ticks));
   command.add_option("--sequences", sequences, "instead of the scenario's number of sequences")
       ->check(integer_of(1, sim::most_sequences));
 }
+
+namespace {
+
+/// Applies --set to the scenario's text and reads it again.
+sim::Scenario with_values(const sim::Scenario& scenario, const ScenarioOptions& options,
+                          const std::string& name, const std::filesystem::path& folder) {
+  std::string text = scenario.text;
+  for (const std::string& change : options.set) {
+    const size_t equals = change.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw_user_error("--set: expected PATH=VALUE, found '{}'", change);
+    text = set_yaml_value(text, change.substr(0, equals), change.substr(equals + 1), "--set");
+  }
+  sim::Scenario changed = sim::parse_scenario(text, name + " with --set", folder, options.assets);
+  changed.file = scenario.file;
+  return changed;
+}
+
+}  // namespace
 
 void RunOptions::add_to(CLI::App& command) {
   command.add_option(
@@ -46,8 +74,9 @@ sim::Scenario load_scenario(const ScenarioOptions& options, bool chooses) {
   const auto embedded = std::find_if(embedded_scenarios().begin(), embedded_scenarios().end(),
                                      [&](const EmbeddedScenario& s) { return s.name == options.scenario; });
   if (embedded != embedded_scenarios().end()) {
-    scenario = sim::parse_scenario(std::string(embedded->text), std::string(embedded->name) + ".yaml", ".",
-                                   options.assets);
+    const std::string name = std::string(embedded->name) + ".yaml";
+    scenario = sim::parse_scenario(std::string(embedded->text), name, ".", options.assets);
+    if (!options.set.empty()) scenario = with_values(scenario, options, name, ".");
   } else {
     const std::filesystem::path file = options.scenario;
     std::error_code unreadable;  // for example of a symbolic link to itself
@@ -58,6 +87,8 @@ sim::Scenario load_scenario(const ScenarioOptions& options, bool chooses) {
                        fmt::join(names, ", "));
     }
     scenario = sim::load_scenario(file, options.assets);
+    if (!options.set.empty())
+      scenario = with_values(scenario, options, file.string(), std::filesystem::absolute(file).parent_path());
   }
   sim::override_scenario(scenario, {options.seed, options.ticks, options.sequences});
   if (options.ticks && scenario.trajectory_ticks && scenario.ticks > *scenario.trajectory_ticks)

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -23,6 +24,7 @@ struct ScenarioOptions {
   std::optional<uint64_t> seed;
   std::optional<int64_t> ticks;
   std::optional<uint32_t> sequences;
+  std::vector<std::string> set;  ///< "path=value", in this order, before the options above
   void add_to(CLI::App& command);
 };
 

@@ -51,6 +51,7 @@ class Field {
   /// Throws UserError "file:line: path: `message`".
   [[noreturn]] void refuse(const std::string& message) const;
 
+  const FieldValue& value() const { return *value_; }
   bool is_list() const { return value_->kind == FieldValue::Kind::list; }
   bool is_map() const { return value_->kind == FieldValue::Kind::map; }
   bool is_scalar() const { return value_->kind == FieldValue::Kind::scalar; }

@@ -126,8 +126,9 @@ std::string describe_interactions(const rf::Path& path, const PathScene& scene) 
     // Both faces of most edges belong to the same object, which is named once.
     for (std::vector<std::string>* list : {&names.objects, &names.materials})
       list->erase(std::unique(list->begin(), list->end()), list->end());
-    parts.push_back(fmt::format("{} {} ({})", letter_of(interaction.type), fmt::join(names.objects, " | "),
-                                fmt::join(names.materials, " | ")));
+    const bool end = interaction.type == rf::InteractionType::diffraction && interaction.patch != 0;
+    parts.push_back(fmt::format("{}{} {} ({})", letter_of(interaction.type), end ? " end," : "",
+                                fmt::join(names.objects, " | "), fmt::join(names.materials, " | ")));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }

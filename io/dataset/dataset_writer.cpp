@@ -165,7 +165,8 @@ class DatasetWriter::State {
 DatasetWriter::State::State(const fs::path& folder, DatasetInfo info, WriterOptions options)
     : folder_(folder), info_(std::move(info)), description_(dataset_json(info_)), options_(options) {
   check_sensors(info_.sensors);
-  GREATX_CHECK(info_.sequences > 0 && options.queue_packets > 0, "{} sequences, queue of {}", info_.sequences,
+  GREATX_CHECK(options.first_sequence < info_.sequences && options.queue_packets > 0,
+               "{} sequences from {} on, queue of {}", info_.sequences, options.first_sequence,
                options.queue_packets);
   ignore_file_size_signal();
   manifest_.records_per_sensor.assign(info_.sensors.size(), 0);
@@ -232,14 +233,14 @@ void DatasetWriter::State::open_journal(uint64_t bytes) {
 }
 
 void DatasetWriter::State::recover() {
-  const Recovered recovered = read_committed(folder_, info_);
+  const Recovered recovered = read_committed(folder_, info_, options_.first_sequence);
   clear_uncommitted(folder_, info_, recovered);
   fs::remove(inside(folder_, std::string(manifest_file) + ".part"));
   journal_.truncate(recovered.journal_bytes);
   journal_bytes_ = recovered.journal_bytes;
-  next_sequence_ = static_cast<uint32_t>(recovered.closed.size());
+  next_sequence_ = recovered.open_sequence();
   std::vector<int64_t> counts(info_.sensors.size());
-  uint32_t sequence = 0;
+  uint32_t sequence = options_.first_sequence;
   for (const JournalPacket& packet : recovered.packets) {
     if (packet.sequence != sequence) std::fill(counts.begin(), counts.end(), 0);
     sequence = packet.sequence;
@@ -477,8 +478,8 @@ void DatasetWriter::State::end_sequence() {
 
 void DatasetWriter::State::finish() {
   if (finished_) return;
-  GREATX_CHECK(!files_ && next_sequence_ == info_.sequences, "sequence {} of {}", next_sequence_,
-               info_.sequences);
+  GREATX_CHECK(!files_ && next_sequence_ == info_.sequences && options_.first_sequence == 0,
+               "sequence {} of {}, from {} on", next_sequence_, info_.sequences, options_.first_sequence);
   try {
     for (const FileEntry& file : manifest_.files) check_written(file.path, file.size);
     check_frames(0);

@@ -30,6 +30,9 @@ struct WriterOptions {
   uint32_t threads = 0;
   bool resume = false;         ///< continue an unfinished data set
   uint32_t queue_packets = 8;  ///< write() blocks while so many packets wait for their commit
+  /// The first sequence that the folder gets; those before it are elsewhere (io/dataset/part.h). Such a data
+  /// set cannot be finished.
+  uint32_t first_sequence = 0;
 };
 
 struct WriterStats {

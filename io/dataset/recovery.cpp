@@ -23,7 +23,8 @@ bool has_size(const fs::path& folder, const std::string& path, uint64_t size) {
 /// Checks the lines of the journal in order. Throws UserError for a line that this run cannot have written.
 class JournalChecker {
  public:
-  JournalChecker(const fs::path& journal, const DatasetInfo& info) : journal_(journal), info_(info) {}
+  JournalChecker(const fs::path& journal, const DatasetInfo& info, uint32_t first_sequence)
+      : journal_(journal), info_(info), sequence_(first_sequence) {}
 
   void check(const JournalEntry& entry) {
     if (const auto* const end = std::get_if<JournalEnd>(&entry.entry)) {
@@ -59,7 +60,7 @@ class JournalChecker {
   }
   const fs::path journal_;
   const DatasetInfo& info_;
-  uint32_t sequence_ = 0;
+  uint32_t sequence_;
   int64_t next_tick_ = 0;
 };
 
@@ -87,18 +88,19 @@ bool frames_are_there(const fs::path& folder, const DatasetInfo& info, const Jou
 
 }  // namespace
 
-Recovered read_committed(const fs::path& folder, const DatasetInfo& info) {
+Recovered read_committed(const fs::path& folder, const DatasetInfo& info, uint32_t first_sequence) {
   Recovered recovered;
+  recovered.first_sequence = first_sequence;
   if (!exists_inside(folder, journal_file)) return recovered;
   const fs::path journal = folder / journal_file;
   std::vector<JournalEntry> entries = parse_journal(read_text_file(journal), journal.string());
-  JournalChecker checker(journal, info);
+  JournalChecker checker(journal, info, first_sequence);
   for (const JournalEntry& entry : entries) checker.check(entry);
   // Packets before the last end of a sequence are not examined, because their sequences were complete.
   size_t closed_until = 0;
   for (size_t i = 0; i < entries.size(); ++i)
     if (std::holds_alternative<JournalEnd>(entries[i].entry)) closed_until = i + 1;
-  uint32_t open_sequence = 0;
+  uint32_t open_sequence = first_sequence;
   for (size_t i = 0; i < closed_until; ++i)
     open_sequence += std::holds_alternative<JournalEnd>(entries[i].entry);
 
@@ -145,7 +147,7 @@ void clear_uncommitted(const fs::path& folder, const DatasetInfo& info, const Re
       keep.insert(file.path);
     }
   }
-  const auto open_sequence = static_cast<uint32_t>(recovered.closed.size());
+  const uint32_t open_sequence = recovered.open_sequence();
   if (open_sequence < info.sequences) {
     for (const std::string& path : SequenceFiles::stack_paths(info, open_sequence)) {
       const fs::path part = inside(folder, path + ".part");

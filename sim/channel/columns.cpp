@@ -43,6 +43,7 @@ LinkColumn of_link(const char* name, const char* unit, const char* text, Value v
 struct Where {
   uint8_t type = 0;
   uint32_t facet = 0, element = 0, object = 0, material = 0;
+  uint8_t end = 0;  ///< of a wedge
 };
 
 Where where_of(const rf::Interaction& interaction, const ColumnContext& context) {
@@ -56,6 +57,7 @@ Where where_of(const rf::Interaction& interaction, const ColumnContext& context)
   if (interaction.type == rf::InteractionType::diffraction) {
     facet = context.model->wedges[interaction.element].facet_0;
     where.element = interaction.element + 1;
+    where.end = static_cast<uint8_t>(interaction.patch);
   } else if (interaction.type == rf::InteractionType::scattering) {
     where.element = interaction.patch + 1;
   }
@@ -185,6 +187,10 @@ std::vector<PathColumn> path_columns(const ColumnContext& context) {
   columns.push_back(of_interactions("element",
                                     "[path, i] wedge + 1, or the scattering facet's patch + 1; 0: none",
                                     context, depth, &Where::element));
+  if (context.model->effects.corner_diffraction)
+    columns.push_back(of_interactions("end",
+                                      "[path, i] 1, 2: diffraction at this end of the wedge; 0: not so",
+                                      context, depth, &Where::end));
   columns.push_back(of_interactions("object", "[path, i] index into instances + 1; 0: none", context, depth,
                                     &Where::object));
   columns.push_back(of_interactions("object_material", "[path, i] index into materials + 1; 0: none", context,

@@ -53,4 +53,14 @@ io::DatasetInfo dataset_info(const Experiment& experiment, const gpu::Device& de
   return info;
 }
 
+io::DatasetInfo with_sequences(io::DatasetInfo info, const Scenario& scenario) {
+  nlohmann::json run = nlohmann::json::parse(info.run_json);
+  run["scenario_sha256"] = Sha256().update(scenario.text).hex();
+  info.run_json = run.dump();
+  info.scenario_text = scenario.text;
+  info.run_key = Sha256().update(info.run_json).hex();
+  info.sequences = scenario.sequences;
+  return info;
+}
+
 }  // namespace greatx::sim

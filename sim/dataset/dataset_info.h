@@ -18,4 +18,7 @@ namespace greatx::sim {
 io::DatasetInfo dataset_info(const Experiment& experiment, const gpu::Device& device,
                              const std::vector<SensorSpec>& sensors);
 
+/// Returns what the data set says of the same run with another number of sequences, as `scenario` has it.
+io::DatasetInfo with_sequences(io::DatasetInfo info, const Scenario& scenario);
+
 }  // namespace greatx::sim

@@ -85,8 +85,9 @@ def known_normals(channel):
 
 def check_identity(p, worst, known, where):
     """Checks that ids and sequences of interactions correspond one to one, at all ticks."""
+    names = [name for name in ("interaction", "facet", "element", "end") if name in p]
     for i in range(len(p["rx"])):
-        sequence = tuple(tuple(p[name][i]) for name in ("interaction", "facet", "element"))
+        sequence = tuple(tuple(p[name][i]) for name in names)
         by_id = known.setdefault(int(p["id"][i]), sequence)
         by_sequence = known.setdefault(sequence, int(p["id"][i]))
         worst.add(

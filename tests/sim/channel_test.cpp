@@ -102,6 +102,8 @@ std::vector<std::map<uint64_t, Known>> paths_of(const RadioRun& run, size_t pack
   const auto delay = run.values<double>(packet, "delay"), doppler = run.values<double>(packet, "doppler");
   const auto type = run.values<uint8_t>(packet, "interaction");
   const auto facet = run.values<uint32_t>(packet, "facet"), element = run.values<uint32_t>(packet, "element");
+  const auto end =
+      run.find(packet, "csi", "end") ? run.values<uint8_t>(packet, "end") : std::vector<uint8_t>(type.size());
   const auto transfer = run.values<std::complex<float>>(packet, "transfer");
   const size_t depth = id.empty() ? 0 : type.size() / id.size();
   for (size_t i = 0; i < id.size(); ++i) {
@@ -109,6 +111,7 @@ std::vector<std::map<uint64_t, Known>> paths_of(const RadioRun& run, size_t pack
     path.types.assign(type.begin() + i * depth, type.begin() + (i + 1) * depth);
     path.facets.assign(facet.begin() + i * depth, facet.begin() + (i + 1) * depth);
     path.elements.assign(element.begin() + i * depth, element.begin() + (i + 1) * depth);
+    path.elements.insert(path.elements.end(), end.begin() + i * depth, end.begin() + (i + 1) * depth);
     path.delay = delay[i], path.doppler = doppler[i];
     std::copy_n(transfer.begin() + 4 * i, 4, path.transfer);
     EXPECT_TRUE(paths[rx[i]].emplace(id[i], path).second) << "an id twice in one link";

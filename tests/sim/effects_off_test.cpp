@@ -290,7 +290,7 @@ const std::map<std::string, Tried> tried{
     {"transmission", {channel_sensor, {"reflection"}}},
     {"diffraction", {channel_sensor, {}}},
     {"diffraction_lit_region", {channel_sensor, {"diffraction"}}},
-    {"corner_diffraction", {channel_sensor, {"diffraction"}}},
+    {"corner_diffraction", {channel_sensor, {"diffraction", "diffraction_lit_region"}}},
     {"free_edges", {channel_sensor, {"diffraction", "diffraction_lit_region"}}},
     {"scattering", {channel_sensor, {}}},
     {"roughness", {channel_sensor, {"reflection"}}},

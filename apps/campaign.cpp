@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/campaign/index.h"
+#include "apps/campaign/merge.h"
+#include "apps/campaign/plan.h"
+#include "apps/campaign/run.h"
+#include "apps/campaign/store.h"
+#include "apps/commands.h"
+#include "apps/console/command_line.h"
+#include "apps/console/exit_code.h"
+#include "apps/console/json_text.h"
+#include "apps/console/progress.h"
+#include "apps/console/session.h"
+#include "apps/console/watch.h"
+#include "apps/files/consistency_files.h"
+#include "assets/assets.h"
+#include "io/dataset/verify.h"
+
+namespace greatx::apps {
+namespace {
+
+struct Options {
+  CampaignOptions campaign;
+  RunOptions run;
+  bool json = false, quiet = false;
+  std::string shard = "1/1";
+  std::vector<std::string> from;
+  uint32_t threads = 0;
+  int64_t measured_ticks = 4;
+  std::vector<uint32_t> cores{32, 320};
+};
+
+std::string campaign_help() {
+  std::string names;
+  for (const EmbeddedScenario& embedded : embedded_campaigns())
+    if (embedded.text.find("\ngreatx_campaign:") != std::string_view::npos)
+      names += (names.empty() ? "" : ", ") + std::string(embedded.name);
+  return "campaign file (.yaml), or an embedded one: " + names;
+}
+
+void add_common(CLI::App& command, const std::shared_ptr<Options>& options) {
+  command.add_option("CAMPAIGN", options->campaign.file, campaign_help())->required();
+  command.add_option("-o,--output", options->campaign.output, "folder of the campaign")
+      ->capture_default_str();
+  command.add_option("--assets", options->campaign.assets,
+                     "folder to look in for files that are not beside the scenarios");
+  command.add_option("--cell", options->campaign.cells, "only these cells; `plan` lists them");
+  command.add_flag("--json", options->json, "print one JSON object");
+  command.add_flag("-q,--quiet", options->quiet, "print nothing but warnings and errors");
+}
+
+void print(const Options& options, const nlohmann::json& json, const std::string& text) {
+  if (options.json)
+    std::cout << json_text(json) << '\n';
+  else if (!options.quiet)
+    std::cout << text;
+}
+
+void plan(const Options& options) {
+  const OpenCampaign open = open_campaign(options.campaign);
+  std::vector<CellCost> costs;
+  if (options.measured_ticks > 0) {
+    gpu::Device device(options.run.device_options());
+    install_interrupt_handler();
+    Progress progress("measuring", static_cast<int64_t>(open.cells.size()), options.quiet || options.json,
+                      "cells");
+    for (const sim::CampaignCell& cell : open.cells) {
+      const TerminalWatch watch(true);
+      costs.push_back(measure_cell(cell, device, options.measured_ticks));
+      progress.update(static_cast<int64_t>(costs.size()));
+      if (interrupted()) throw Interrupted("the plan was interrupted");
+    }
+    check_validation(device);
+  }
+  CampaignPlan plan = plan_of(open, costs, std::max(1u, std::thread::hardware_concurrency()), options.cores);
+  print(options, plan.json, plan.text);
+  const auto beyond = [&](const char* what, const std::optional<double>& most, const char* key) {
+    if (!most || costs.empty() || plan.json[key] <= *most) return;
+    throw_user_error("{}: budget.{}: expected at most {:g}, found {:.3g} to go", options.campaign.file, what,
+                     *most, plan.json[key].get<double>());
+  };
+  beyond("hours", open.campaign.most_hours, "hours");
+  beyond("gigabytes", open.campaign.most_gigabytes, "gigabytes");
+}
+
+void run(const Options& options) {
+  const Shard shard = parse_shard(options.shard);
+  const OpenCampaign open = open_campaign(options.campaign);
+  claim_folder(open);
+  gpu::Device device(options.run.device_options());
+  install_interrupt_handler();
+  const std::vector<CampaignUnit> all = open.units();
+  const CampaignRun run =
+      run_units(open, units_of(all, shard), device, options.threads, options.quiet || options.json);
+  check_validation(device);
+  print(
+      options,
+      {{"output", options.campaign.output},
+       {"done", run.done},
+       {"complete_before", run.skipped},
+       {"ticks", run.ticks},
+       {"seconds", run.seconds},
+       {"start_seconds", run.start_seconds}},
+      fmt::format("{}: {} sequences made ({} ticks, {:.1f} s, of these {:.1f} s to begin cells), {} were "
+                  "complete before\n",
+                  options.campaign.output, run.done, run.ticks, run.seconds, run.start_seconds, run.skipped));
+}
+
+void status(const Options& options) {
+  const OpenCampaign open = open_campaign(options.campaign);
+  nlohmann::json json{{"cells", nlohmann::json::array()}};
+  std::string text;
+  uint64_t complete = 0, begun = 0;
+  for (size_t c = 0; c < open.cells.size(); ++c) {
+    uint64_t done = 0, open_units = 0;
+    for (uint32_t s = 0; s < open.sequences(c); ++s) {
+      const io::PartState state = open.state({c, s});
+      done += state.complete, open_units += state.begun && !state.complete;
+    }
+    std::error_code ignored;
+    const bool merged = std::filesystem::exists(open.data(c) / io::manifest_file, ignored);
+    json["cells"].push_back({{"cell", open.cells[c].name},
+                             {"sequences", open.sequences(c)},
+                             {"complete", done},
+                             {"begun", open_units},
+                             {"merged", merged}});
+    text +=
+        fmt::format("{}: {} of {} sequences{}{}\n", open.cells[c].name, done, open.sequences(c),
+                    open_units > 0 ? fmt::format(", {} begun", open_units) : "", merged ? ", merged" : "");
+    complete += done, begun += open_units;
+  }
+  const uint64_t all = open.units().size();
+  json["sequences"] = all, json["complete"] = complete, json["begun"] = begun;
+  text += fmt::format("{} of {} sequences are complete, {} are begun\n", complete, all, begun);
+  print(options, json, text);
+}
+
+void merge(const Options& options) {
+  const OpenCampaign open = open_campaign(options.campaign);
+  claim_folder(open);
+  gather_parts(open, {options.from.begin(), options.from.end()});
+  for (const CampaignUnit& unit : open.units())
+    if (!open.state(unit).complete)
+      throw_user_error(
+          "{}: cell '{}': expected sequence {}, complete; found it {}; `greatx campaign run` makes it",
+          open.folder.string(), open.cells[unit.cell].name, unit.sequence,
+          open.state(unit).begun ? "unfinished" : "missing");
+  uint64_t merged = 0;
+  Progress progress("merging", static_cast<int64_t>(open.cells.size()), options.quiet || options.json,
+                    "cells");
+  for (size_t c = 0; c < open.cells.size(); ++c) {
+    merged += merge_cell(open, c);
+    progress.update(static_cast<int64_t>(c) + 1);
+  }
+  write_splits(open);
+  const uint64_t records = write_index(open, options.quiet || options.json);
+  print(options, {{"output", options.campaign.output}, {"merged", merged}, {"records", records}},
+        fmt::format("{}: {} of {} cells merged, {} records in index.sqlite and index.csv\n",
+                    options.campaign.output, merged, open.cells.size(), records));
+}
+
+void verify(const Options& options) {
+  const OpenCampaign open = open_campaign(options.campaign);
+  nlohmann::json json{{"problems", nlohmann::json::array()}};
+  std::string text;
+  for (size_t c = 0; c < open.cells.size(); ++c) {
+    const std::filesystem::path folder = open.data(c);
+    std::error_code ignored;
+    std::vector<io::Problem> problems;
+    if (!std::filesystem::exists(folder / io::dataset_file, ignored)) {
+      problems.push_back({"", "data set of the cell", "one that is merged", "none"});
+    } else {
+      problems = io::verify(folder);
+      if (problems.empty()) problems = verify_consistency(folder).problems;
+    }
+    for (const io::Problem& problem : problems) {
+      json["problems"].push_back({{"cell", open.cells[c].name},
+                                  {"file", problem.file},
+                                  {"what", problem.what},
+                                  {"expected", problem.expected},
+                                  {"found", problem.found}});
+      text += fmt::format("{}: {}\n", open.cells[c].name, problem.str());
+    }
+  }
+  const size_t count = json["problems"].size();
+  text += fmt::format("{}: {}\n", options.campaign.output,
+                      count == 0 ? fmt::format("{} cells are complete and sound", open.cells.size())
+                                 : fmt::format("{} problems", count));
+  print(options, json, text);
+  if (count > 0) throw Failed{exit_user};
+}
+
+}  // namespace
+
+void add_campaign(CLI::App& app) {
+  CLI::App* campaign = app.add_subcommand(
+      "campaign", "make many data sets from one file: plan, run in shards, merge, index (docs/campaigns.md)");
+  campaign->require_subcommand(1);
+  const auto add = [&](const char* name, const char* text, void (*call)(const Options&)) {
+    CLI::App* command = campaign->add_subcommand(name, text);
+    auto options = std::make_shared<Options>();
+    add_common(*command, options);
+    command->callback([options, call] { call(*options); });
+    return std::pair(command, options);
+  };
+  const auto [of_plan, planned] =
+      add("plan", "print the cells and what they cost, measured on a few ticks of each", plan);
+  planned->run.add_to(*of_plan);
+  of_plan->add_option("--measure", planned->measured_ticks, "ticks of each cell that are run; 0: none")
+      ->capture_default_str()
+      ->check(integer_of(0, 1000));
+  of_plan->add_option("--cores", planned->cores, "also the hours on so many cores")
+      ->capture_default_str()
+      ->check(integer_of(1, 1'000'000));
+  const auto [of_run, ran] =
+      add("run", "make the sequences that are not complete; goes on where it was stopped", run);
+  ran->run.add_to(*of_run);
+  of_run->add_option("--shard", ran->shard, "only part I of N of the sequences: I/N")->capture_default_str();
+  of_run
+      ->add_option("--threads", ran->threads,
+                   "threads that encode and write; 0: one per processor. Changes no byte")
+      ->capture_default_str()
+      ->check(integer_of(0, 1024));
+  add("status", "say which sequences are complete", status);
+  const auto [of_merge, merged] =
+      add("merge", "put the data set of each cell together, and write the index and the splits", merge);
+  of_merge->add_option("--from", merged->from,
+                       "folders of other shards, whose sequences are moved here first");
+  add("verify", "check every data set as `greatx verify` does", verify);
+}
+
+}  // namespace greatx::apps

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/campaign/run.h"
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "apps/console/progress.h"
+#include "apps/console/watch.h"
+#include "apps/files/consistency_files.h"
+#include "core/watch.h"
+#include "io/dataset/dataset_writer.h"
+#include "io/files/file.h"
+#include "sim/dataset/dataset_info.h"
+#include "sim/run/simulator.h"
+
+namespace greatx::apps {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Runs units one after another. It keeps the simulator of the last cell.
+class UnitRunner {
+ public:
+  UnitRunner(const OpenCampaign& open, gpu::Device& device, uint32_t threads)
+      : open_(open), device_(device), threads_(threads) {}
+
+  /// Returns false if it was interrupted. `tick_done` is called after every tick.
+  template <typename TickDone>
+  bool run(const CampaignUnit& unit, const TickDone& tick_done) {
+    if (!simulator_ || unit.cell != cell_) enter(unit.cell);
+    const sim::Scenario scenario = sim::with_sequences(experiment_->scenario, unit.sequence + 1);
+    io::DatasetWriter writer(open_.part(unit), sim::with_sequences(*info_, scenario),
+                             {.threads = threads_, .resume = true, .first_sequence = unit.sequence});
+    const io::DatasetWriter::Position position = writer.resume_position();
+    if (position.sequence > unit.sequence) return true;  // another process has finished it meanwhile
+    writer.begin_sequence(unit.sequence);
+    simulator_->start(unit.sequence, position.next_tick);
+    while (simulator_->step(writer)) {
+      tick_done();
+      if (!interrupted()) continue;
+      simulator_->drain(writer);
+      writer.flush();
+      return false;
+    }
+    writer.end_sequence();
+    keep_consistency(unit);
+    return true;
+  }
+  /// Prints what was lost. Called once more after the last unit.
+  void leave() {
+    if (!simulator_) return;
+    device_.wait_idle();
+    for (const std::string& warning : simulator_->statistics().warnings)
+      spdlog::warn("{}: {}", open_.cells[cell_].name, warning);
+    simulator_.reset();
+  }
+  double start_seconds() const { return start_s_; }
+
+ private:
+  void enter(size_t cell) {
+    leave();
+    const Clock::time_point begin = Clock::now();
+    const sim::Scenario& scenario = open_.cells[cell].scenario;
+    auto next = std::make_unique<sim::Experiment>(experiment_ ? sim::make_experiment(scenario, *experiment_)
+                                                              : sim::make_experiment(scenario));
+    experiment_ = std::move(next);
+    simulator_.emplace(device_, *experiment_);
+    info_ = sim::dataset_info(*experiment_, device_, simulator_->sensors());
+    cell_ = cell;
+    rows_ = 0;
+    start_s_ += seconds_since(begin);
+  }
+
+  /// Keeps the rows that this unit has added beside its part.
+  void keep_consistency(const CampaignUnit& unit) {
+    const std::vector<sim::ConsistencyRow> all = simulator_->statistics().rows;
+    const std::vector<sim::ConsistencyRow> own(all.begin() + static_cast<ptrdiff_t>(rows_), all.end());
+    rows_ = all.size();
+    if (!own.empty())
+      io::write_file_atomically(consistency_of(open_.journals(unit.cell), unit.sequence),
+                                consistency_csv(own));
+  }
+
+  const OpenCampaign& open_;
+  gpu::Device& device_;
+  uint32_t threads_;
+  std::unique_ptr<sim::Experiment> experiment_;
+  std::optional<sim::Simulator> simulator_;
+  std::optional<io::DatasetInfo> info_;
+  size_t cell_ = 0, rows_ = 0;
+  double start_s_ = 0.0;
+};
+
+}  // namespace
+
+CampaignRun run_units(const OpenCampaign& open, std::span<const CampaignUnit> units, gpu::Device& device,
+                      uint32_t threads, bool quiet) {
+  const Clock::time_point begin = Clock::now();
+  CampaignRun run;
+  std::vector<CampaignUnit> pending;
+  int64_t total = 0;
+  for (const CampaignUnit& unit : units) {
+    const io::PartState state = open.state(unit);
+    if (state.complete) {
+      ++run.skipped;
+      continue;
+    }
+    pending.push_back(unit);
+    total += open.cells[unit.cell].scenario.ticks - state.next_tick;
+  }
+  Progress progress(open.campaign.name, total, quiet);
+  UnitRunner runner(open, device, threads);
+  const TerminalWatch watch(quiet);
+  bool complete = true;
+  try {
+    for (const CampaignUnit& unit : pending) {
+      complete = runner.run(unit, [&] { progress.update(++run.ticks); });
+      if (!complete) break;
+      ++run.done;
+    }
+  } catch (const Interrupted&) {
+    complete = false;
+  }
+  runner.leave();
+  run.seconds = seconds_since(begin), run.start_seconds = runner.start_seconds();
+  if (!complete)
+    throw Interrupted(fmt::format("{}: {} of {} sequences are complete; the same command goes on",
+                                  open.folder.string(), run.done + run.skipped, units.size()));
+  return run;
+}
+
+}  // namespace greatx::apps

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "apps/campaign/store.h"
+#include "gpu/device.h"
+#include "sim/experiment/experiment.h"
+
+namespace greatx::apps {
+
+/// Holds what a run has done.
+struct CampaignRun {
+  uint64_t done = 0, skipped = 0;  ///< units
+  int64_t ticks = 0;
+  double seconds = 0.0, start_seconds = 0.0;  ///< all; of these, worlds, pipelines and searches of cells
+};
+
+/// Makes the units that are not complete yet, in their order. Units of one cell share its world, its passes
+/// and its searches; cells of one scene share the scene. Throws Interrupted if the user interrupts it; what
+/// is complete stays.
+CampaignRun run_units(const OpenCampaign& open, std::span<const CampaignUnit> units, gpu::Device& device,
+                      uint32_t threads, bool quiet);
+
+}  // namespace greatx::apps

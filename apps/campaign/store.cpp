@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/campaign/store.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/console/json_text.h"
+#include "assets/assets.h"
+#include "core/hash.h"
+#include "core/input_file.h"
+#include "io/files/file.h"
+
+namespace greatx::apps {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* cells_file = "cells.json";
+
+bool is_there(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+std::string identity_of(const sim::CampaignCell& cell) {
+  return Sha256().update(sim::with_sequences(cell.scenario, 1).text).hex();
+}
+
+/// Returns the text of an embedded file of assets/campaigns, with or without its extension.
+std::optional<std::string> embedded_text(const std::string& name) {
+  for (const EmbeddedScenario& embedded : embedded_campaigns())
+    if (name == embedded.name || name == fmt::format("{}.yaml", embedded.name))
+      return std::string(embedded.text);
+  return {};
+}
+
+/// Returns a base scenario: an embedded one, or a file, relative to the campaign's folder or among the assets.
+sim::BaseScenario base_scenario(const std::string& name, const fs::path& folder, const fs::path& assets) {
+  for (const EmbeddedScenario& embedded : embedded_scenarios())
+    if (embedded.name == name)
+      return {std::string(embedded.text), fmt::format("{}.yaml", embedded.name), folder, assets};
+  fs::path file = folder / name;
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored) && !assets.empty()) file = assets / name;
+  if (!fs::is_regular_file(file, ignored))
+    if (const auto text = embedded_text(name)) return {*text, name, folder, assets};
+  if (!fs::is_regular_file(file, ignored))
+    throw_user_error("base: expected an embedded scenario or a file beside the campaign, found no '{}'",
+                     name);
+  return {InputFile(file, fmt::format("{}: expected a scenario", file.string()), budget::yaml_file).text(),
+          file.string(), file.parent_path(), assets};
+}
+
+/// Reads the hashes of the cells that a folder knows. An empty object if it knows none.
+nlohmann::json known_cells(const fs::path& file) {
+  if (!is_there(file)) return nlohmann::json::object();
+  const nlohmann::json known = nlohmann::json::parse(io::read_text_file(file), nullptr, false);
+  if (!known.is_object()) throw_user_error("{}: expected a JSON object, found something else", file.string());
+  return known;
+}
+
+}  // namespace
+
+fs::path OpenCampaign::part(const CampaignUnit& unit) const {
+  return folder / "parts" / cells[unit.cell].name / fmt::format("{:04}", unit.sequence);
+}
+fs::path OpenCampaign::journals(size_t cell) const { return folder / "journals" / cells[cell].name; }
+fs::path OpenCampaign::data(size_t cell) const { return folder / "data" / cells[cell].name; }
+
+io::PartState OpenCampaign::state(const CampaignUnit& unit) const {
+  if (is_there(io::kept_journal(journals(unit.cell), unit.sequence))) return {true, true, 0};
+  return io::part_state(part(unit), unit.sequence);
+}
+
+fs::path consistency_of(const fs::path& journals, uint32_t sequence) {
+  return journals / fmt::format("{}.csv", io::sequence_folder(sequence));
+}
+
+std::vector<CampaignUnit> OpenCampaign::units() const {
+  std::vector<CampaignUnit> all;
+  for (size_t cell = 0; cell < cells.size(); ++cell)
+    for (uint32_t sequence = 0; sequence < sequences(cell); ++sequence) all.push_back({cell, sequence});
+  return all;
+}
+
+OpenCampaign open_campaign(const CampaignOptions& options) {
+  OpenCampaign open;
+  const fs::path file = options.file;
+  const auto embedded = embedded_text(options.file);
+  const std::string text =
+      embedded && !is_there(file)
+          ? *embedded
+          : InputFile(file, fmt::format("{}: expected a campaign file", options.file), budget::yaml_file)
+                .text();
+  open.campaign = sim::parse_campaign(text, options.file, fs::absolute(file).parent_path());
+  open.folder = options.output;
+  open.cells = sim::campaign_cells(open.campaign, [&](const std::string& name) {
+    return base_scenario(name, open.campaign.folder, options.assets);
+  });
+  if (options.cells.empty()) return open;
+  for (const std::string& name : options.cells)
+    if (std::ranges::find(open.cells, name, &sim::CampaignCell::name) == open.cells.end())
+      throw_user_error(
+          "--cell: expected one of the cells of {}, found '{}'; `greatx campaign plan` lists them",
+          options.file, name);
+  std::erase_if(open.cells, [&](const sim::CampaignCell& cell) {
+    return std::ranges::find(options.cells, cell.name) == options.cells.end();
+  });
+  return open;
+}
+
+void claim_folder(const OpenCampaign& open) {
+  io::create_folders(open.folder);
+  const fs::path file = open.folder / cells_file;
+  nlohmann::json cells = known_cells(file);
+  bool changed = false;
+  for (const sim::CampaignCell& cell : open.cells) {
+    const std::string identity = identity_of(cell);
+    const auto known = cells.find(cell.name);
+    if (known != cells.end() && *known != identity)
+      throw_user_error(
+          "{}: cell '{}' was begun with another scenario; choose another folder (-o), or undo the change of "
+          "{} "
+          "or of its base scenario. More sequences and new cells are no change",
+          open.folder.string(), cell.name, open.campaign.file);
+    changed = changed || known == cells.end();
+    cells[cell.name] = identity;
+  }
+  if (changed) io::write_file_atomically(file, json_text(cells));
+  io::write_file_atomically(open.folder / "campaign.yaml", open.campaign.text);
+}
+
+Shard parse_shard(const std::string& text) {
+  const size_t slash = text.find('/');
+  const auto number = [&](std::string_view part) {
+    uint32_t value = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return error == std::errc() && end == part.data() + part.size() ? value : 0u;
+  };
+  Shard shard{0, 0};
+  if (slash != std::string::npos)
+    shard = {number(std::string_view(text).substr(0, slash)),
+             number(std::string_view(text).substr(slash + 1))};
+  if (shard.index < 1 || shard.index > shard.count)
+    throw_user_error("--shard: expected I/N with 1 <= I <= N, such as 2/8, found '{}'", text);
+  return shard;
+}
+
+std::span<const CampaignUnit> units_of(std::span<const CampaignUnit> units, const Shard& shard) {
+  const size_t first = units.size() * (shard.index - 1) / shard.count;
+  return units.subspan(first, units.size() * shard.index / shard.count - first);
+}
+
+}  // namespace greatx::apps

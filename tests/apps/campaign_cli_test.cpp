@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Makes small campaigns with the program: in shards, killed and resumed, merged, grown. The data sets must
+// have the bytes of single runs.
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace greatx::apps::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+constexpr const char* base = R"(greatx: 1
+name: base
+seed: 4
+ticks: 6
+tick_rate_hz: 10
+scene: {generate: {kind: canyon, seed: 3, size_m: 60}}
+nodes:
+  - name: bs
+    trajectory: {type: static, position_m: [1, -20, 6]}
+    sensors: [{name: a, type: antenna}]
+  - name: uav
+    trajectory: {type: bezier, box: {min_m: [-3, -15, 3], max_m: [3, 15, 8]}, offset_m: [1, 1, 1]}
+    sensors:
+      - {name: a, type: antenna}
+      - {name: cam, type: camera, rate_hz: 10, width: 48, height: 32, fov_deg: 90, outputs: [rgb, depth]}
+channels:
+  - {name: csi, tx: bs/a, rx: [uav/a], rate_hz: 10, bandwidth_hz: 20e6, subcarriers: 16, max_depth: 1}
+)";
+
+class CampaignCli : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream(folder_ / "base.yaml") << base;
+    write(3, "\n      channels[csi].carrier_hz: 28e9");
+  }
+  void write(int sequences, const std::string& high) const {
+    std::ofstream(folder_ / "c.yaml") << fmt::format(
+        "greatx_campaign: 1\nname: c\nbase: base.yaml\nsequences: {}\naxes:\n  carrier:\n    low: {{}}\n    "
+        "high: "
+        "{}\n",
+        sequences, high);
+  }
+  std::string in(const std::string& name) const { return (folder_ / name).string(); }
+  Outcome campaign(const std::string& command, const std::string& output,
+                   const std::string& rest = "") const {
+    return greatx(fmt::format("campaign {} '{}' -o '{}' {}", command, in("c.yaml"), in(output), rest));
+  }
+  /// All files below a folder with their contents.
+  static std::map<std::string, std::string> files_of(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+      if (entry.is_regular_file())
+        files[entry.path().lexically_relative(folder).string()] = read_file(entry.path());
+    return files;
+  }
+  /// Compares each data set with that of `greatx generate` on its own scenario.
+  void expect_single_runs(const std::string& output) const {
+    for (const std::string cell : {"low", "high"}) {
+      const fs::path data = folder_ / output / "data" / cell;
+      const std::string single = in(output + "_" + cell);
+      const Outcome run =
+          greatx(fmt::format("generate '{}' -o '{}' -q", (data / "scenario.yaml").string(), single));
+      ASSERT_EQ(run.code, 0) << run.err;
+      EXPECT_EQ(files_of(data), files_of(single)) << cell;
+    }
+  }
+
+  greatx::test::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
+};
+
+TEST_F(CampaignCli, ShardsInAnyOrderGiveTheBytesOfSingleRuns) {
+  for (const int shard : {3, 1, 4, 2}) {
+    const Outcome run = campaign("run", "out", fmt::format("--shard {}/4 -q", shard));
+    ASSERT_EQ(run.code, 0) << run.err;
+  }
+  const Outcome merged = campaign("merge", "out");
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  EXPECT_THAT(merged.out, HasSubstr("2 of 2 cells merged"));
+  EXPECT_THAT(campaign("verify", "out").out, HasSubstr("2 cells are complete and sound"));
+  expect_single_runs("out");
+  EXPECT_THAT(read_file(folder_ / "out/splits.csv"), HasSubstr("high,2,"));
+  // Again there is nothing to do.
+  EXPECT_THAT(campaign("run", "out").out, HasSubstr("0 sequences made"));
+  EXPECT_THAT(campaign("merge", "out").out, HasSubstr("0 of 2 cells merged"));
+}
+
+TEST_F(CampaignCli, ACampaignGrowsAndKeepsWhatItHas) {
+  ASSERT_EQ(campaign("run", "out", "-q").code, 0);
+  ASSERT_EQ(campaign("merge", "out", "-q").code, 0);
+  const auto before = files_of(folder_ / "out/data/low/sequence_0001");
+  write(5, "\n      channels[csi].carrier_hz: 28e9");
+  EXPECT_THAT(campaign("status", "out").out, HasSubstr("6 of 10 sequences are complete"));
+  const Outcome more = campaign("run", "out");
+  ASSERT_EQ(more.code, 0) << more.err;
+  EXPECT_THAT(more.out, HasSubstr("4 sequences made"));
+  const Outcome merged = campaign("merge", "out");
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  EXPECT_EQ(files_of(folder_ / "out/data/low/sequence_0001"), before);
+  expect_single_runs("out");
+}
+
+TEST_F(CampaignCli, ItMayBeKilledAtAnyMoment) {
+  // Each run is killed a little later than the one before, until one ends.
+  int kills = 0;
+  for (useconds_t patience = 300'000;; patience += 150'000) {
+    const pid_t child = fork();
+    if (child == 0) {
+      setenv("GREATX_CACHE", "off", 1);
+      if (freopen("/dev/null", "w", stdout) == nullptr) _exit(126);
+      execl(GREATX_PROGRAM, "greatx", "campaign", "run", in("c.yaml").c_str(), "-o", in("out").c_str(), "-q",
+            static_cast<char*>(nullptr));
+      _exit(127);
+    }
+    usleep(patience);
+    int status = 0;
+    const bool ended = waitpid(child, &status, WNOHANG) == child;
+    if (ended) {
+      ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+      break;
+    }
+    kill(child, SIGKILL);
+    waitpid(child, &status, 0);
+    ++kills;
+  }
+  EXPECT_GT(kills, 0);
+  const Outcome merged = campaign("merge", "out");
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  expect_single_runs("out");
+}
+
+TEST_F(CampaignCli, FoldersOfShardsAreGathered) {
+  ASSERT_EQ(campaign("run", "one", "--shard 1/2 -q").code, 0);
+  ASSERT_EQ(campaign("run", "two", "--shard 2/2 -q").code, 0);
+  EXPECT_THAT(campaign("merge", "one").err, HasSubstr("expected sequence"));
+  const Outcome merged = campaign("merge", "one", fmt::format("--from '{}'", in("two")));
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  expect_single_runs("one");
+}
+
+TEST_F(CampaignCli, FaultsAreSaidBeforeAnythingRuns) {
+  ASSERT_EQ(campaign("run", "out", "--shard 1/6 -q").code, 0);
+  ASSERT_EQ(campaign("run", "again", "--shard 1/6 -q").code, 0);
+  const Outcome overlap = campaign("merge", "out", fmt::format("--from '{}'", in("again")));
+  EXPECT_EQ(overlap.code, 1);
+  EXPECT_THAT(overlap.err, HasSubstr("shards overlapped"));
+  for (const std::string shard : {"0/4", "5/4", "x", "1/0", "1"})
+    EXPECT_THAT(campaign("run", "out", "--shard " + shard).err, HasSubstr("--shard: expected I/N")) << shard;
+  EXPECT_THAT(campaign("run", "out", "--cell middle").err, HasSubstr("expected one of the cells"));
+  write(3, "\n      channels[csi].carrier_hz: 60e9");
+  const Outcome changed = campaign("run", "out");
+  EXPECT_EQ(changed.code, 1);
+  EXPECT_THAT(changed.err, HasSubstr("cell 'high' was begun with another scenario"));
+  EXPECT_THAT(greatx("campaign plan missing.yaml").err, HasSubstr("missing.yaml"));
+}
+
+TEST_F(CampaignCli, APlanMeasuresAndKeepsToTheBudget) {
+  const Outcome plan = campaign("plan", "out", "--measure 2 --json");
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  const nlohmann::json json = nlohmann::json::parse(plan.out);
+  EXPECT_EQ(json["sequences"], 6);
+  EXPECT_EQ(json["ticks"], 36);
+  ASSERT_EQ(json["cells"].size(), 2u);
+  EXPECT_GT(json["cells"][0]["tick_bytes"], 1000.0);
+  EXPECT_GT(json["cells"][0]["tick_s"], 0.0);
+  EXPECT_FALSE(fs::exists(folder_ / "out"));  // a plan writes nothing
+  std::ofstream(folder_ / "c.yaml", std::ios::app) << "budget: {gigabytes: 1.0e-6}\n";
+  const Outcome dear = campaign("plan", "out", "--measure 2");
+  EXPECT_EQ(dear.code, 1);
+  EXPECT_THAT(dear.err, HasSubstr("budget.gigabytes"));
+}
+
+TEST_F(CampaignCli, TheIndexHasEveryRecord) {
+  ASSERT_EQ(campaign("run", "out", "-q").code, 0);
+  const Outcome merged = campaign("merge", "out");
+  // 2 cells, 3 sequences, 6 ticks, 3 sensors: poses, camera, channel.
+  EXPECT_THAT(merged.out, HasSubstr("108 records"));
+  const std::string csv = read_file(folder_ / "out/index.csv");
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 109);
+  EXPECT_THAT(csv, HasSubstr("sequence_0002/uav/cam/rgb/000005.png"));
+  EXPECT_EQ(read_file(folder_ / "out/index.sqlite").substr(0, 15), "SQLite format 3");
+}
+
+}  // namespace
+}  // namespace greatx::apps::test
