@@ -51,8 +51,8 @@ class UnitRunner {
       writer.flush();
       return false;
     }
+    keep_consistency(unit);  // before the end of the sequence, which makes the unit complete
     writer.end_sequence();
-    keep_consistency(unit);
     return true;
   }
   /// Prints what was lost. Called once more after the last unit.
@@ -85,9 +85,9 @@ class UnitRunner {
     const std::vector<sim::ConsistencyRow> all = simulator_->statistics().rows;
     const std::vector<sim::ConsistencyRow> own(all.begin() + static_cast<ptrdiff_t>(rows_), all.end());
     rows_ = all.size();
-    if (!own.empty())
-      io::write_file_atomically(consistency_of(open_.journals(unit.cell), unit.sequence),
-                                consistency_csv(own));
+    if (own.empty()) return;
+    io::create_folders(open_.journals(unit.cell));
+    io::write_file_atomically(consistency_of(open_.journals(unit.cell), unit.sequence), consistency_csv(own));
   }
 
   const OpenCampaign& open_;

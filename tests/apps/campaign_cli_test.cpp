@@ -70,14 +70,17 @@ class CampaignCli : public ::testing::Test {
     return files;
   }
   /// Compares each data set with that of `greatx generate` on its own scenario.
-  void expect_single_runs(const std::string& output) const {
+  void expect_single_runs(const std::string& output, bool resumed = false) const {
     for (const std::string cell : {"low", "high"}) {
       const fs::path data = folder_ / output / "data" / cell;
       const std::string single = in(output + "_" + cell);
       const Outcome run =
           greatx(fmt::format("generate '{}' -o '{}' -q", (data / "scenario.yaml").string(), single));
       ASSERT_EQ(run.code, 0) << run.err;
-      EXPECT_EQ(files_of(data), files_of(single)) << cell;
+      auto merged = files_of(data), alone = files_of(single);
+      // As after `generate --resume`, what compares the sensors begins where the run went on.
+      if (resumed) merged.erase("consistency.csv"), alone.erase("consistency.csv");
+      EXPECT_EQ(merged, alone) << cell;
     }
   }
 
@@ -142,7 +145,7 @@ TEST_F(CampaignCli, ItMayBeKilledAtAnyMoment) {
   EXPECT_GT(kills, 0);
   const Outcome merged = campaign("merge", "out");
   ASSERT_EQ(merged.code, 0) << merged.err;
-  expect_single_runs("out");
+  expect_single_runs("out", true);
 }
 
 TEST_F(CampaignCli, FoldersOfShardsAreGathered) {
