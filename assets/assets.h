@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Gives access to the scenarios, to their schema, and to the campaigns that are embedded in the program at build time.
+// Gives access to the scenarios, to their schema, and to the campaigns that are embedded in the program at
+// build time.
 #pragma once
 
 #include <span>

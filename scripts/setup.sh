@@ -11,11 +11,11 @@ set -euo pipefail
 
 packages=(
   build-essential cmake ninja-build pkg-config ccache glslang-tools
-  libvulkan-dev vulkan-validationlayers libglm-dev libtinygltf-dev libopenexr-dev libhdf5-dev libsqlite3-dev libstb-dev
+  libvulkan-dev vulkan-validationlayers libglm-dev libtinygltf-dev libopenexr-dev libhdf5-dev libstb-dev
   libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libspdlog-dev libssl-dev zlib1g-dev libpng-dev
   libjpeg-dev libdeflate-dev libwebp-dev libpugixml-dev libkissfft-dev libglfw3-dev libimgui-dev
-  libgtest-dev libgmock-dev pybind11-dev python3-dev python3-numpy python3-h5py python3-jsonschema
-  python3-yaml xvfb xauth fonts-dejavu-core
+  libsqlite3-dev libgtest-dev libgmock-dev pybind11-dev python3-dev python3-numpy python3-h5py
+  python3-jsonschema python3-yaml xvfb xauth fonts-dejavu-core
 )
 # lavapipe, Mesa's software Vulkan driver, runs greatx from mesa_minimum on: rays go through greatx's own
 # trees. From mesa_newer on it is twice as fast and also has ray queries and conditional rendering.

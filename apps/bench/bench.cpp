@@ -269,8 +269,12 @@ void add_bench(CLI::App& app) {
           "of --recall: paths over one edge as well, with reflections on both sides of it; --edges=2: over "
           "two, of any strength")
       ->check(integer_of(0, 2));
-  command->add_flag("--scattering", recall.paths.scattering,
-                    "of --recall: hold the scattered paths of several budgets against those of all patches");
+  command
+      ->add_flag(
+          "--scattering{1}", recall.paths.scattering,
+          "of --recall: hold the scattered paths of several budgets against those of all patches; "
+          "--scattering=2: those of two patches, and with --edges of an edge and a patch, against many draws")
+      ->check(integer_of(0, 2));
   command->add_option("--budgets", recall.budgets, "of --recall --scattering: values of scattering_budget")
       ->delimiter(',')
       ->capture_default_str()

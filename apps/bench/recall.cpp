@@ -14,6 +14,7 @@
 #include "apps/bench/measure.h"
 #include "apps/bench/recall_scene.h"
 #include "apps/bench/scatter_recall.h"
+#include "apps/bench/two_bend_recall.h"
 #include "apps/console/exit_code.h"
 #include "apps/console/json_text.h"
 #include "apps/console/progress.h"
@@ -251,8 +252,8 @@ void run_recall(const RecallOptions& options) {
   if (options.every_scene) names = {"room", "canyon", "city"};
   gpu::Device device(options.run.device_options());
   nlohmann::json results = nlohmann::json::array();
-  if (options.paths.scattering) {
-    measure_scattering(device, options, names, results);
+  if (options.paths.scattering > 0) {
+    (options.paths.scattering > 1 ? measure_two_bends : measure_scattering)(device, options, names, results);
     if (options.json) std::cout << json_text(results) << '\n';
     return;
   }

@@ -88,7 +88,9 @@ sim::Scenario frozen_for_recall(sim::Scenario scenario, const RecallPaths& sough
   const auto only_if = [](bool on) { return on ? sim::Switch::on : sim::Switch::off; };
   scenario.effects["transmission"] = only_if(sought.max_transmissions > 0);
   scenario.effects["diffraction"] = only_if(sought.edges > 0);
-  scenario.effects["scattering"] = only_if(sought.scattering);
+  scenario.effects["scattering"] = only_if(sought.scattering > 0);
+  channel.limits.max_scatterings = std::max(1u, sought.scattering);
+  channel.limits.scattering_beside_diffraction = sought.scattering > 1;
   return scenario;
 }
 

@@ -18,7 +18,9 @@ struct RecallPaths {
   uint32_t max_depth = 3;          ///< largest number of interactions of a path
   uint32_t max_transmissions = 0;  ///< largest number of transmissions of a path
   uint32_t edges = 0;              ///< largest number of diffractions of a path, at most 2
-  bool scattering = false;         ///< scattered paths, which are held against those of all patches
+  /// Largest number of bends of scattered paths, at most 2; 0: nothing scatters. Those with one bend are held
+  /// against those of all patches, and those with two against the mean of many draws.
+  uint32_t scattering = 0;
 };
 
 /// Returns the scenario with every node at rest at its pose of tick 0, so that the whole world is static. It

@@ -9,16 +9,13 @@
 
 #include <fmt/format.h>
 
-#include "apps/bench/measure.h"
+#include "apps/bench/scatter_run.h"
 #include "core/error.h"
 #include "core/units.h"
 #include "rf/channel/statistics.h"
-#include "sim/channel/channel_paths.h"
 #include "sim/experiment/experiment.h"
-#include "sim/plan/plan_options.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/parse/receiver_list.h"
-#include "sim/world/moment.h"
 
 namespace greatx::apps {
 
@@ -37,11 +34,8 @@ struct Scattered {
   dvec3 direction{0.0};               ///< mean of the directions of arrival, weighted by power
 };
 
-struct Run {
+struct Run : ScatterRun {
   std::vector<Scattered> receivers;
-  double cpu_ms = 0.0, wall_ms = 0.0;  ///< of all receivers, without the search from the transmitter
-  double search_ms = 0.0;              ///< processor time of that search and of what it prepares
-  uint64_t chains = 0;
 };
 
 Scattered sum_of(const std::vector<rf::Path>& paths) {
@@ -70,39 +64,10 @@ Run solve(gpu::Device& device, const sim::Experiment& base, std::span<const dvec
           size_t at_once) {
   sim::Scenario scenario = base.scenario;
   scenario.channels[0].limits.scattering_budget = budget;
-  const sim::Experiment experiment = sim::make_experiment(std::move(scenario), base.world);
-  scene::GpuScene gpu_scene(device, experiment.scene(), sim::gpu_scene_options(experiment.plan));
-  rf::CrossingPass crossings(gpu_scene, rf::facet_kinds(experiment.scene(), sim::radio_effects(experiment)));
-  sim::ChannelPaths paths(gpu_scene, crossings, experiment, 0);
-  const sim::Courses courses = sim::make_courses(experiment.scenario, *experiment.world, 0);
-  const sim::Moment moment =
-      sim::moment_at(*experiment.world, courses, sim::Clock(experiment.scenario.tick_rate_hz), 0);
-  paths.set_points(receivers.first(1));
-  double cpu = cpu_milliseconds();
-  paths.start(moment.context);
   Run run;
-  run.search_ms = cpu_milliseconds() - cpu;
-  gpu::TickRing ring(device, 1, 1u << 20, 1u << 20);
-  for (size_t first = 0; first < receivers.size(); first += at_once) {
-    paths.set_points(receivers.subspan(first, std::min(at_once, receivers.size() - first)), first);
-    cpu = cpu_milliseconds();
-    const Clock::time_point begin = Clock::now();
-    gpu::TickSlot& slot = ring.begin();
-    gpu_scene.record_update(slot, moment.bodies);
-    paths.record(slot, moment.context);
-    ring.submit(slot);
-    ring.wait(slot);
-    const sim::ChannelPaths::Result result = paths.collect(slot);
-    run.cpu_ms += cpu_milliseconds() - cpu;
-    run.wall_ms += milliseconds_since(begin);
-    for (const sim::ChannelPaths::Link& link : result.links) run.receivers.push_back(sum_of(link.paths));
-  }
-  std::map<std::string, uint64_t> counters;
-  paths.count(counters);
-  if (counters["path_overflow"] > 0)
-    throw_user_error("{}: {} paths lie beyond max_paths; expected none, for a comparison with all patches",
-                     experiment.scenario.name, counters["path_overflow"]);
-  run.chains = counters["geometric_paths"];
+  static_cast<ScatterRun&>(run) =
+      run_receivers(device, base, std::move(scenario), receivers, at_once,
+                    [&](const std::vector<rf::Path>& paths) { run.receivers.push_back(sum_of(paths)); });
   return run;
 }
 

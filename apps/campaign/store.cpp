@@ -41,7 +41,8 @@ std::optional<std::string> embedded_text(const std::string& name) {
   return {};
 }
 
-/// Returns a base scenario: an embedded one, or a file, relative to the campaign's folder or among the assets.
+/// Returns a base scenario: an embedded one, or a file, relative to the campaign's folder or among the
+/// assets.
 sim::BaseScenario base_scenario(const std::string& name, const fs::path& folder, const fs::path& assets) {
   for (const EmbeddedScenario& embedded : embedded_scenarios())
     if (embedded.name == name)

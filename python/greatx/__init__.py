@@ -12,6 +12,7 @@ from typing import Any
 
 from .antenna import Array
 from .arrays import Frames, Ragged
+from .campaign import Campaign, campaign
 from .dataset import Dataset, Record, Sensor, Sequence, Tick, load
 from .errors import DatasetError, Error
 from .events import Events
@@ -25,6 +26,7 @@ __version__ = "0.1.0"
 __all__ = [
     "Array",
     "Arrays",
+    "Campaign",
     "Dataset",
     "DatasetError",
     "Error",
@@ -39,6 +41,7 @@ __all__ = [
     "Sensor",
     "Sequence",
     "Tick",
+    "campaign",
     "load",
 ]
 

@@ -65,7 +65,9 @@ TransferSpectrum Dispersion::spectrum(const Path& path, const FacetWorld& world)
                                .edges_diffract = path.edges_diffract,
                                .edge_sides = path.edge_sides,
                                .keller_side = path.keller_side,
-                               .from_receiver = path.from_receiver};
+                               .from_receiver = path.from_receiver,
+                               .stratum = path.stratum,
+                               .second_patch_area_m2 = path.second_patch_area_m2};
   TransferSpectrum spectrum(subcarriers_.size());
   // The line of sight in air that attenuates nothing is the same at every frequency. An echo of surfaces
   // keeps the carrier's values.

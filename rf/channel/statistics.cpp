@@ -112,7 +112,8 @@ double drawn_deviation(std::span<const Path> paths, std::span<const double> powe
   double variance = 0.0;
   for (size_t i = 0; i < strata.size(); i += 2)
     variance += (strata[i] - strata[i + 1]) * (strata[i] - strata[i + 1]);
-  return std::sqrt(variance);
+  for (size_t i = 0; i < paths.size(); ++i) variance += powers[i] * powers[i] * paths[i].draw_variance;
+  return std::sqrt(std::max(0.0, variance));
 }
 
 LinkStatistics link_statistics(std::span<const Path> paths, std::span<const double> powers) {

@@ -23,7 +23,9 @@ std::vector<double> path_powers(std::span<const Path> paths, const ArrayPose& tr
 /// Returns an estimate of the standard deviation of the sum of `powers`, [paths], by the draws of scatterings
 /// (rf/paths/scatter_draw.h). A stratum of which nothing is among the paths was hidden. Neighbouring strata
 /// are compared (collapsed strata: W. G. Cochran, Sampling Techniques, 3rd ed., 1977, 5A.12), so that the
-/// estimate also holds their true difference and is on average too large. 0: nothing was drawn. Thread-safe.
+/// estimate also holds their true difference and is on average too large. Paths with two bends add the
+/// variance of the draw before that of the strata (GeometricPath::draw_variance). 0: nothing was drawn.
+/// Thread-safe.
 double drawn_deviation(std::span<const Path> paths, std::span<const double> powers);
 
 /// Holds the statistics of a link. Means and spreads are weighted by power. If no path has power, path_gain

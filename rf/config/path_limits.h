@@ -16,8 +16,8 @@ struct PathLimits {
   uint32_t max_diffractions = 1;  ///< edges of a path, 1 or 2, as a part of max_depth
   /// A path over two edges is left out if it is certain to be weaker than free space over its length by this.
   double two_edge_floor_db = 60.0;
-  /// With corner diffraction: the largest step that may be left where the field of an edge ends with the edge,
-  /// in dB of that field. The waves of ends that are less are left out.
+  /// With corner diffraction: the largest step that may be left where the field of an edge ends with the
+  /// edge, in dB of that field. The waves of ends that are less are left out.
   double corner_step_db = 0.3;
   /// Reflections between a scattering and the target (the end that the search does not start from, whichever
   /// end transmits), as a part of max_depth.
@@ -29,6 +29,12 @@ struct PathLimits {
   /// Scatterings of a link that are traced. If there are more, seeded draws stand for the others, so that the
   /// expected power is theirs (rf/paths/scatter_draw.h). 0: every one is traced.
   uint32_t scattering_budget = 0;
+  /// Scatterings of a path, 1 or 2, one right after the other, as a part of max_depth. Pairs are only drawn:
+  /// 2 needs a budget.
+  uint32_t max_scatterings = 1;
+  /// Whether a path may have a diffraction right before or right behind its scattering. Such paths are only
+  /// drawn, too (rf/paths/indirect_light.h, rf/paths/edge_behind_patch.h).
+  bool scattering_beside_diffraction = false;
   uint64_t max_paths = 1'000'000;  ///< geometric paths of a link; paths beyond it are counted, not traced
 };
 

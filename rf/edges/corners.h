@@ -66,9 +66,9 @@ class OpenCorners {
 inline const dvec3& corner_point(const scene::Wedge& wedge, Corner corner) {
   return corner == Corner::a ? wedge.a : wedge.b;
 }
-/// Returns the place from which the corner is seen: on the edge, 2 mm from its end, or in the middle of an edge
-/// below 4 mm. Hence a corner is seen if and only if a diffraction of its edge beside it would be, and other
-/// faces that meet in the corner do not hide it.
+/// Returns the place from which the corner is seen: on the edge, 2 mm from its end, or in the middle of an
+/// edge below 4 mm. Hence a corner is seen if and only if a diffraction of its edge beside it would be, and
+/// other faces that meet in the corner do not hide it.
 dvec3 seen_corner(const scene::Wedge& posed, Corner corner);
 
 /// Describes where an end lies on the way between two points.

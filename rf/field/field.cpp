@@ -15,6 +15,7 @@
 #include "rf/edges/diffraction.h"
 #include "rf/edges/two_edges.h"
 #include "rf/surface/incidence.h"
+#include "rf/surface/scattering.h"
 
 namespace greatx::rf {
 namespace {
@@ -36,7 +37,23 @@ struct Runs {
   size_t bends[2] = {0, 0};
   size_t bend_count = 0;
   double parts_m[3] = {0.0, 0.0, 0.0};  ///< [bends + 1] unfolded lengths of the parts
-  bool scattered = false;               ///< the bend is a scattering, from which the wave spreads anew
+  /// Which bends are scatterings, from which the wave spreads anew.
+  bool scatters[2] = {false, false};
+  bool scattered() const { return scatters[0] || scatters[1]; }
+  /// The length by which the field's amplitude falls: that of the path, or the product of the lengths between
+  /// its ends and its scatterings, m^(scatterings + 1). A patch is a disk to the next one.
+  double spreading(const GeometricPath& path) const {
+    if (!scattered()) return path.length_m;
+    double product = 1.0, since_m = 0.0;
+    for (size_t part = 0; part <= bend_count; ++part) {
+      since_m += parts_m[part];
+      if (part < bend_count && !scatters[part]) continue;
+      const bool to_another = part == 1 && bend_count == 2 && scatters[0];
+      product *= to_another ? between_patches_m(since_m, path.patch_area_m2) : since_m;
+      since_m = 0.0;
+    }
+    return product;
+  }
 };
 
 /// Sets the directions of the runs [first, last), which reflections join. Returns the sum of their lengths.
@@ -71,9 +88,8 @@ Runs runs_of(const GeometricPath& path, const FacetWorld& world) {
   for (size_t i = 0; i < path.interactions.size(); ++i) {
     if (path.interactions[i].type == InteractionType::transmission) continue;
     if (bends(path.interactions[i].type)) {
-      runs.scattered |= path.interactions[i].type == InteractionType::scattering;
-      GREATX_CHECK(runs.bend_count < (runs.scattered ? 1u : 2u),
-                   "path with more than one scattering or two diffractions");
+      GREATX_CHECK(runs.bend_count < 2, "path with more than two scatterings and diffractions");
+      runs.scatters[runs.bend_count] = path.interactions[i].type == InteractionType::scattering;
       runs.bends[runs.bend_count++] = runs.vertices.size();
     }
     runs.vertices.push_back(i + 1);
@@ -241,10 +257,11 @@ void diffract(const GeometricPath& path, const FieldModel& model, const Runs& ru
   const dvec3& out = runs.directions[runs.bends[bend]];
   const uint32_t corner = path.interactions[runs.vertices[runs.bends[bend]] - 1].patch;
   if (corner != 0)
-    return field.diffract_at(wedge(0), static_cast<Corner>(corner), before(0), out, runs.parts_m[0],
-                             runs.parts_m[1], path.keller_side);
-  if (runs.bend_count == 1)
-    return field.diffract(wedge(0), before(0), out, runs.parts_m[0], runs.parts_m[1], path.edge_sides[0]);
+    return field.diffract_at(wedge(bend), static_cast<Corner>(corner), before(bend), out, runs.parts_m[bend],
+                             runs.parts_m[bend + 1], path.keller_side);
+  if (runs.bend_count == 1 || runs.scattered())
+    return field.diffract(wedge(bend), before(bend), out, runs.parts_m[bend], runs.parts_m[bend + 1],
+                          path.edge_sides[0]);
   if (bend == 0) return field.leave_first_edge(out);
   field.diffract_at_both(wedge(0), wedge(1),
                          {before(0),
@@ -260,6 +277,7 @@ void diffract(const GeometricPath& path, const FieldModel& model, const Runs& ru
 void travel(const GeometricPath& path, const FieldModel& model, const Runs& runs, Travelling& field) {
   const FacetWorld& world = *model.world;
   size_t run = 0, part = 0;
+  double patch_m2 = path.patch_area_m2;
   double before_m = 0.0;  // since the transmitter or the last bend
   for (size_t i = 0; i <= path.interactions.size(); ++i) {
     const dvec3& in = runs.directions[run];
@@ -278,7 +296,8 @@ void travel(const GeometricPath& path, const FieldModel& model, const Runs& runs
         field.transmit(world.facet(interaction.element), in);
         break;
       case InteractionType::scattering:
-        field.scatter(world.facet(interaction.element), interaction, path.patch_area_m2, in, out);
+        field.scatter(world.facet(interaction.element), interaction, patch_m2, in, out);
+        patch_m2 = path.second_patch_area_m2;
         break;
       case InteractionType::diffraction:
         diffract(path, model, runs, part, field);
@@ -295,7 +314,7 @@ void travel(const GeometricPath& path, const FieldModel& model, const Runs& runs
 void set_transfer(const GeometricPath& path, const FieldModel& model, const Runs& runs,
                   Complex (&transfer)[4]) {
   Travelling field(model, runs.directions.front());
-  double spreading = runs.scattered ? 1.0 / (runs.parts_m[0] * runs.parts_m[1]) : 1.0 / path.length_m;
+  double spreading = 1.0 / runs.spreading(path);
   if constexpr (all_effects_built) {
     travel(path, model, runs, field);
     spreading *= foliage_amplitude(model, path.foliage_m);
@@ -364,6 +383,8 @@ Path path_field(const GeometricPath& geometry, const FieldModel& model, const dv
   path.keller_side = geometry.keller_side;
   path.from_receiver = back;
   path.stratum = geometry.stratum;
+  path.second_patch_area_m2 = geometry.second_patch_area_m2;
+  path.draw_variance = geometry.draw_variance;
   path.delay_s = geometry.length_m / speed_of_light;
   path.doppler_hz = closing_rate(wave, model, runs, back ? receiver_velocity : transmitter_velocity,
                                  back ? transmitter_velocity : receiver_velocity) /

@@ -42,9 +42,9 @@ struct FieldModel {
   const FiniteReflectors* reflectors = nullptr;  ///< set if and only if effects.finite_reflectors is on
 };
 
-/// Computes the field along one path with any number of reflections and transmissions, and at most one
-/// scattering or two diffractions, one right after the other. Velocities are in m/s along local axes;
-/// FacetWorld::move gives those of facets and wedges.
+/// Computes the field along one path with any number of reflections and transmissions, and at most two
+/// scatterings and diffractions, of which two diffractions follow one right after the other. Velocities are
+/// in m/s along local axes; FacetWorld::move gives those of facets and wedges.
 ///
 /// - Directions. A run is a straight part of the path, between two interactions that turn the path; walls
 ///   that the path passes do not split a run. The longest run takes its direction from its ends. The
@@ -70,7 +70,10 @@ struct FieldModel {
 /// - Air. Each segment loses its dB in theta_hat and phi_hat of its direction. Foliage takes foliage_db of
 ///   the depth.
 /// - Transfer. The theta and phi components at the receiver of the two unit fields at the transmitter, with
-///   the spreading 1/length (for scattering 1/(s' s)).
+///   the spreading 1/length (for scattering 1/(s' s)). A wave spreads from its last scattering on, also
+///   across an edge: by 1/((s'' + s') s) over an edge before a patch. Behind a patch of the area A, another
+///   one at the distance s' has 1/sqrt(s'^2 + A/pi) in place of 1/s', as on the axis of a disk: patches that
+///   touch would else send each other more power than they have.
 /// - Delay and Doppler shift. delay = length / c. doppler = (f/c)(v_tx . k_0 - v_rx . k_n + sum v_i . (k_i -
 ///   k_{i-1})), positive for approaching ends. It is a sum of small numbers and not a product of factors (1 +
 ///   v/c), and is therefore accurate for 1e-3 Hz and for 7500 m/s alike. The phase turns as e^{+j 2 pi

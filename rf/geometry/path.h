@@ -88,6 +88,13 @@ struct GeometricPath {
   /// Number, from 1 on, of the stratum of scatterings of this link for which this one was drawn; 0: it stands
   /// for itself alone (rf/paths/scatter_draw.h).
   uint32_t stratum = 0;
+  /// Area of the second patch as the wave meets them, which starts at the receiver if from_receiver; 0: there
+  /// is none. patch_area_m2 is that of the first one.
+  double second_patch_area_m2 = 0.0;
+  /// Variance that the draw of what lights the last patch adds to the power of this path, relative to its
+  /// square (rf/paths/indirect_light.h). It may be negative, but the sum over the paths of a link is not on
+  /// average.
+  double draw_variance = 0.0;
   FacetSequence facets() const { return reflecting_facets(interactions); }
   /// Makes this an empty path that keeps its memory.
   void clear() {
@@ -99,6 +106,8 @@ struct GeometricPath {
     keller_side = KellerSide::by_place;
     from_receiver = false;
     stratum = 0;
+    second_patch_area_m2 = 0.0;
+    draw_variance = 0.0;
   }
 };
 
@@ -116,6 +125,8 @@ struct Path {
   KellerSide keller_side = KellerSide::by_place;  ///< as in GeometricPath
   bool from_receiver = false;                     ///< as in GeometricPath
   uint32_t stratum = 0;                           ///< as in GeometricPath
+  double second_patch_area_m2 = 0.0;              ///< as in GeometricPath
+  double draw_variance = 0.0;                     ///< as in GeometricPath
   double delay_s = 0.0;                           ///< length / c
   /// nu = (1/lambda)(v_tx . k_0 - v_rx . k_n + sum v_i . (k_i - k_{i-1})); approaching ends give nu > 0.
   double doppler_hz = 0.0;

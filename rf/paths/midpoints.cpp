@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "core/watch.h"
 #include "rf/edges/diffraction.h"
+#include "rf/paths/edge_behind_patch.h"
 #include "rf/paths/two_edge_paths.h"
 
 namespace greatx::rf {
@@ -51,11 +52,16 @@ Midpoints::Midpoints(const RadioModel& model, const PathLimits& limits, bool mov
                      std::shared_ptr<EdgeSearch> shared)
     : model_(&model), limits_(limits) {
   if (model.effects.scattering) scatterers_.emplace(model, limits, moving_bodies);
+  scatter_beside_edges_ = scatterers_ && model.effects.diffraction && limits.max_depth > 1 &&
+                          limits.scattering_beside_diffraction;
+  if (scatter_beside_edges_ || (scatterers_ && limits.max_scatterings > 1))
+    indirect_ = std::make_unique<IndirectLight>(model, limits);
   if (!model.effects.diffraction || limits.max_depth == 0) return;
   if (model.effects.corner_diffraction)
     most_excess_m_ = largest_excess_m(limits.corner_step_db, 2.0 * pi / model.surfaces.wavelength_m());
   two_edges_ = limits.max_diffractions > 1 && limits.max_depth > 1;
-  search_target_ = two_edges_ || (limits.max_reflections_beside_diffraction > 0 && limits.max_depth > 1);
+  search_target_ = two_edges_ || scatter_beside_edges_ ||
+                   (limits.max_reflections_beside_diffraction > 0 && limits.max_depth > 1);
   edges_ = std::move(shared);
   if (!edges_ && search_target_) edges_ = std::make_shared<EdgeSearch>(model, limits, moving_bodies);
 }
@@ -69,6 +75,7 @@ void Midpoints::set_candidates(const CandidateList& candidates, const ImageTree&
     at_wedges_.place(tree, model_->wedges);
   }
   if (scatterers_) scatterers_->set_candidates(candidates, tree);
+  if (indirect_) indirect_->forget();
 }
 
 void Midpoints::find_edge_ways(const ImageTree& tree, uint32_t body, uint32_t threads) {
@@ -78,12 +85,14 @@ void Midpoints::find_edge_ways(const ImageTree& tree, uint32_t body, uint32_t th
   edge_tree_.emplace(model_->facets, tree.source(), ways->list, tree.end());
   at_wedges_ = WedgeArrivals(ways->list, model_->wedges);
   at_wedges_.place(*edge_tree_, model_->wedges);
+  if (indirect_) indirect_->forget();
 }
 
 void Midpoints::move(const ImageTree& tree) {
   if (model_->effects.diffraction) at_wedges_.place(tree, model_->wedges);
   if (edges_) edges_->move();
   if (scatterers_) scatterers_->move(tree);
+  if (indirect_) indirect_->forget();
 }
 
 /// Sets the path over Keller's point. Returns false if there is none.
@@ -146,18 +155,18 @@ std::vector<Midpoints::Meeting> Midpoints::meetings(const CandidateList& suffixe
   return all;
 }
 
-LeftOut Midpoints::solve_wedges(const ImageTree& tree, const Target& target, uint32_t threads,
-                                std::vector<GeometricPath>& paths) const {
-  std::shared_ptr<const EdgeWays> ways;
-  if (search_target_) {
-    ways = edges_->from(target.position, target.body, threads, target.keep);
-  } else {
-    EdgeWays straight;
-    straight.list.add({});
-    ways = std::make_shared<const EdgeWays>(std::move(straight));
-  }
-  const ImageTree images(model_->facets, target.position, ways->list, opposite(tree.end()));
-  const std::vector<Meeting> all = meetings(ways->list);
+/// Returns the ways from a target to wedges.
+std::shared_ptr<const EdgeWays> Midpoints::ways_to_edges(const Target& target, uint32_t threads) const {
+  if (search_target_) return edges_->from(target.position, target.body, threads, target.keep);
+  EdgeWays straight;
+  straight.list.add({});
+  return std::make_shared<const EdgeWays>(std::move(straight));
+}
+
+void Midpoints::solve_wedges(const ImageTree& tree, const Target& target, const EdgeWays& ways,
+                             uint32_t threads, std::vector<GeometricPath>& paths) const {
+  const ImageTree images(model_->facets, target.position, ways.list, opposite(tree.end()));
+  const std::vector<Meeting> all = meetings(ways.list);
   constexpr size_t meetings_at_once = 1024;
   std::vector<std::vector<GeometricPath>> found((all.size() + meetings_at_once - 1) / meetings_at_once);
   parallel_for(found.size(), threads, [&](size_t i) {
@@ -166,8 +175,18 @@ LeftOut Midpoints::solve_wedges(const ImageTree& tree, const Target& target, uin
             found[i]);
   });
   for (std::vector<GeometricPath>& some : found) std::ranges::move(some, std::back_inserter(paths));
-  if (two_edges_) add_over_two_edges(tree, images, *ways, threads, paths);
-  return ways->left_out;
+  if (two_edges_) add_over_two_edges(tree, images, ways, threads, paths);
+}
+
+/// Appends the paths with a scattering and another bend. `ways`: those of the target to wedges, null without
+/// diffraction.
+void Midpoints::scatter_and_bend(const ImageTree& tree, const Target& target, const EdgeWays* ways,
+                                 std::vector<GeometricPath>& paths) const {
+  const bool edges = scatter_beside_edges_ && ways != nullptr;
+  indirect_->solve({*scatterers_, tree, edge_tree_ ? *edge_tree_ : tree, edges ? &at_wedges_ : nullptr},
+                   target.position, paths);
+  if (edges)
+    scatter_over_edges(*model_, limits_, *scatterers_, tree, target.position, ways->list.wedges_of(0), paths);
 }
 
 void Midpoints::add_over_two_edges(const ImageTree& tree, const ImageTree& images, const EdgeWays& ways,
@@ -209,9 +228,14 @@ void Midpoints::join_at(std::span<const Meeting> at, const ImageTree& tree, cons
 LeftOut Midpoints::solve(const ImageTree& tree, const Target& target, uint32_t threads,
                          std::vector<GeometricPath>& paths) const {
   LeftOut left_out = edge_left_out_;
-  if (model_->effects.diffraction && limits_.max_depth > 0)
-    left_out.add(solve_wedges(edge_tree_ ? *edge_tree_ : tree, target, threads, paths));
+  std::shared_ptr<const EdgeWays> ways;
+  if (model_->effects.diffraction && limits_.max_depth > 0) {
+    ways = ways_to_edges(target, threads);
+    solve_wedges(edge_tree_ ? *edge_tree_ : tree, target, *ways, threads, paths);
+    left_out.add(ways->left_out);
+  }
   if (scatterers_) left_out.add(scatterers_->solve(tree, target.position, target.body, threads, paths));
+  if (indirect_) scatter_and_bend(tree, target, ways.get(), paths);
   return left_out;
 }
 

@@ -4,6 +4,7 @@
 // Finds paths with a diffraction or a scattering in the middle: reflections lead from the source to a wedge
 // or a patch (prefix) and from there to the target (suffix). Prefixes come from the source's candidates, and
 // suffixes from a search at the target: that of EdgeSearch for wedges, a whole one for patches (Scatterers).
+// Paths with a scattering and another bend are drawn (IndirectLight, scatter_over_edges()).
 #pragma once
 
 #include <compare>
@@ -18,6 +19,7 @@
 #include "rf/geometry/geometry.h"
 #include "rf/geometry/path.h"
 #include "rf/paths/edge_search.h"
+#include "rf/paths/indirect_light.h"
 #include "rf/paths/radio_model.h"
 #include "rf/paths/scatterers.h"
 #include "rf/paths/wedge_arrivals.h"
@@ -67,8 +69,11 @@ class Midpoints {
   };
   uint32_t most_before(uint32_t after) const;
   std::vector<Meeting> meetings(const CandidateList& suffixes) const;
-  LeftOut solve_wedges(const ImageTree& tree, const Target& target, uint32_t threads,
-                       std::vector<GeometricPath>& paths) const;
+  std::shared_ptr<const EdgeWays> ways_to_edges(const Target& target, uint32_t threads) const;
+  void solve_wedges(const ImageTree& tree, const Target& target, const EdgeWays& ways, uint32_t threads,
+                    std::vector<GeometricPath>& paths) const;
+  void scatter_and_bend(const ImageTree& tree, const Target& target, const EdgeWays* ways,
+                        std::vector<GeometricPath>& paths) const;
   void add_over_two_edges(const ImageTree& tree, const ImageTree& images, const EdgeWays& ways,
                           uint32_t threads, std::vector<GeometricPath>& paths) const;
   void join_at(std::span<const Meeting> at, const ImageTree& tree, const ImageTree& suffixes,
@@ -84,6 +89,8 @@ class Midpoints {
   LeftOut edge_left_out_;
   WedgeArrivals at_wedges_;
   std::optional<Scatterers> scatterers_;  ///< set if scattering is on
+  bool scatter_beside_edges_ = false;
+  std::unique_ptr<IndirectLight> indirect_;  ///< set if a scattering may come with another bend
 };
 
 }  // namespace greatx::rf

@@ -73,6 +73,8 @@ bool insert_walls(const FacetWorld& world, const GeometricPath& path, std::span<
   full.patch_area_m2 = path.patch_area_m2;
   full.from_receiver = path.from_receiver;
   full.stratum = path.stratum;
+  full.second_patch_area_m2 = path.second_patch_area_m2;
+  full.draw_variance = path.draw_variance;
   for (size_t i = 0; i < crossings.size(); ++i) {
     const Crossing& crossing = crossings[i];
     if constexpr (all_effects_built) {
@@ -103,6 +105,17 @@ struct StraightToPatches {
   std::unordered_map<uint64_t, uint32_t> to[2];
 };
 
+/// Lets the segment `leader`, which leads straight from a patch to an end, have the answer of an earlier one.
+void share_straight(const Interaction& patch, bool to_receiver, size_t leader, std::vector<Segment>& segments,
+                    StraightToPatches& straight) {
+  const uint64_t key = uint64_t{patch.element} << 32 | patch.patch;
+  const auto [known, is_new] = straight.to[to_receiver].try_emplace(key, static_cast<uint32_t>(leader));
+  // The paths with the fewest interactions, which may pass the most walls, come first. finish() counts the
+  // walls again.
+  if (!is_new && segments[known->second].walls >= segments[leader].walls)
+    segments[leader].same_as = known->second;
+}
+
 /// Lets most segments of a path with a bend depend on one leader, because such paths are very many and most
 /// of them are blocked. The leader is the segment between two bends, or else one next to the bend that leads
 /// straight to an end, if there is one. The others are traced only if the leader is clear. The segments of
@@ -116,13 +129,30 @@ void hang_on_one(const GeometricPath& path, size_t bend, size_t first, std::vect
   for (size_t i = first; i < segments.size(); ++i)
     if (i != leader) segments[i].only_if = static_cast<uint32_t>(leader);
   const Interaction& patch = path.interactions[bend];
-  if (patch.type != InteractionType::scattering || !(to_receiver || to_transmitter)) return;
-  const uint64_t key = uint64_t{patch.element} << 32 | patch.patch;
-  const auto [known, is_new] = straight.to[to_receiver].try_emplace(key, static_cast<uint32_t>(leader));
-  // The paths with the fewest interactions, which may pass the most walls, come first. finish() counts the
-  // walls again.
-  if (!is_new && segments[known->second].walls >= segments[leader].walls)
-    segments[leader].same_as = known->second;
+  if (patch.type == InteractionType::scattering && (to_receiver || to_transmitter))
+    share_straight(patch, to_receiver, leader, segments, straight);
+}
+
+bool scatters(const GeometricPath& path) { return path.patch_area_m2 > 0.0; }
+
+/// Lets the other segments of a path with a scattering and another bend depend on the last one as the wave
+/// runs, the segments from `first` on. Everything before it has been tested against what is at rest, and the
+/// paths that have one patch before the target share it, also with those of a single scattering.
+void hang_on_last(const GeometricPath& path, size_t first, std::vector<Segment>& segments,
+                  StraightToPatches& straight) {
+  const bool to_receiver = !path.from_receiver;
+  const size_t leader = to_receiver ? segments.size() - 1 : first;
+  for (size_t i = first; i < segments.size(); ++i)
+    if (i != leader) segments[i].only_if = static_cast<uint32_t>(leader);
+  const Interaction& last = to_receiver ? path.interactions.back() : path.interactions.front();
+  if (last.type == InteractionType::scattering) share_straight(last, to_receiver, leader, segments, straight);
+}
+
+bool has_two_bends_and_scatters(const GeometricPath& path) {
+  return scatters(path) && std::ranges::count_if(path.interactions, [](const Interaction& i) {
+                             return i.type == InteractionType::diffraction ||
+                                    i.type == InteractionType::scattering;
+                           }) > 1;
 }
 
 bool less(const GeometricPath& a, const GeometricPath& b) {
@@ -260,6 +290,7 @@ void PathSolver::find_edge_sides(std::vector<GeometricPath>& paths, const FacetW
     return sides;
   };
   for (GeometricPath& path : paths) {
+    if (scatters(path)) continue;  // it was drawn without its neighbours, so that its angles decide
     size_t edge = 0;
     for (size_t i = 0; i < path.interactions.size(); ++i)
       if (path.interactions[i].type == InteractionType::diffraction)
@@ -289,9 +320,12 @@ void PathSolver::add_segments(std::span<const GeometricPath> paths, const EndSta
       if (i == count) segment.body_b = body_or_none(receiver.body);
       segments.push_back(segment);
     }
-    if constexpr (all_effects_built)
-      if (const std::optional<size_t> bend = bend_of(path))
+    if constexpr (all_effects_built) {
+      if (has_two_bends_and_scatters(path))
+        hang_on_last(path, first, segments, straight);
+      else if (const std::optional<size_t> bend = bend_of(path))
         hang_on_one(path, *bend, first, segments, straight);
+    }
   }
 }
 

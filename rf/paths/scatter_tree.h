@@ -6,6 +6,7 @@
 // B. Walter et al., "Lightcuts: a scalable approach to illumination", ACM Trans. Graph. 24(3), 2005.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -68,6 +69,16 @@ class ScatterTree {
   /// patch, and 0 only if it is 0 for every patch.
   double to(const Node& node, const dvec3& target) const;
 
+  struct Descent {
+    uint32_t patch = none;
+    double probability = 0.0;
+  };
+  /// Goes down from the root to a patch. At each node a child is taken with the probability of its share in
+  /// weight(node), which must be greater than 0 for every node with a patch that matters. `u`: uniform in
+  /// [0, 1). Returns the patch, or none if no patch matters.
+  template <typename Weight>
+  Descent descend(const Weight& weight, double u) const;
+
  private:
   void build(uint32_t first, uint32_t last);
   void sum_up(Node& node) const;
@@ -75,5 +86,27 @@ class ScatterTree {
   std::vector<LitPatch> patches_;
   std::vector<Node> nodes_;
 };
+
+template <typename Weight>
+ScatterTree::Descent ScatterTree::descend(const Weight& weight, double u) const {
+  if (empty() || !(weight(nodes_[0]) > 0.0)) return {};
+  uint32_t at = 0;
+  double probability = 1.0;
+  while (nodes_[at].second != none) {
+    const uint32_t second = nodes_[at].second;
+    const double a = weight(nodes_[at + 1]), b = weight(nodes_[second]);
+    if (!(a + b > 0.0)) return {};
+    const double share = a / (a + b);
+    if (u < share) {
+      u /= share, probability *= share;
+      ++at;
+    } else {
+      u = std::min((u - share) / (1.0 - share), 1.0 - 0x1.0p-53);
+      probability *= 1.0 - share;
+      at = second;
+    }
+  }
+  return {nodes_[at].first, probability};
+}
 
 }  // namespace greatx::rf

@@ -164,7 +164,6 @@ void Scatterers::place_ways(const ImageTree& tree, const std::vector<PlaneWindow
   tree_ = ScatterTree(std::move(lit));
 }
 
-/// Returns the share of the power that passes everything at rest on a segment; 0: it is blocked.
 double Scatterers::passes_what_rests(const Segment& segment) const {
   Crossing crossing;
   at_rest_->settle(model_->facets, segment, crossing);
@@ -195,8 +194,6 @@ double Scatterers::reaches(const PatchArrival& way, const Patch& patch, const dv
   return share;
 }
 
-/// Returns the mean share of the power of both polarizations that a facet reflects. A share that is too small
-/// costs accuracy, and one of 0 would lose power.
 double Scatterers::reflected(uint32_t index, const dvec3& in) const {
   const PosedFacet& facet = model_->facets.facet(index);
   const double towards = glm::dot(in, facet.normal);
@@ -222,22 +219,41 @@ std::optional<LitPatch> Scatterers::lit_patch(uint32_t number, uint32_t arrival,
     from = to;
     key = RandomStream(key, at_patches_.facets[i], i - way.first).bits();
   }
+  std::optional<LitPatch> lit = met(number, way.from, share, way.length_m * way.length_m);
+  if (!lit) return std::nullopt;
+  lit->length_m = way.length_m;
+  lit->arrival = arrival;
+  lit->clock = exponential(RandomStream(key, patch.facet, patch.number));
+  return lit;
+}
+
+std::optional<LitPatch> Scatterers::met(uint32_t number, const dvec3& from, double share,
+                                        double spread_m2) const {
+  const Patch& patch = patches_[number];
+  const PosedFacet& facet = model_->facets.facet(patch.facet);
+  const double side = facet.distance(from);
+  if (std::abs(side) <= facet.tolerance_m) return std::nullopt;
   LitPatch lit;
   lit.position = center(patch);
   lit.normal = side > 0.0 ? facet.normal : -facet.normal;
-  const dvec3 in = glm::normalize(lit.position - way.from);
+  const dvec3 in = glm::normalize(lit.position - from);
   const double cosine = std::max(1e-9, -glm::dot(in, lit.normal));
   lit.specular = in + 2.0 * cosine * lit.normal;
   lit.surface = &model_->surfaces.surface(facet.material).scattering;
   lit.power = share * reflected(patch.facet, in) * lit.surface->coefficient * lit.surface->coefficient *
-              cosine * patch.area_m2 / (way.length_m * way.length_m);
+              cosine * patch.area_m2 / spread_m2;
   if (!(lit.power > 0.0)) return std::nullopt;
-  lit.length_m = way.length_m;
   lit.facet = patch.facet;
   lit.patch = number;
-  lit.arrival = arrival;
-  lit.clock = exponential(RandomStream(key, patch.facet, patch.number));
   return lit;
+}
+
+void Scatterers::append_way(const LitPatch& lit, GeometricPath& path) const {
+  const PatchArrival& way = at_patches_.arrivals[lit.arrival];
+  for (uint32_t i = way.first; i < way.first + way.depth; ++i) {
+    path.interactions.push_back({InteractionType::reflection, at_patches_.facets[i]});
+    path.vertices.push_back(at_patches_.points[i]);
+  }
 }
 
 /// Appends the path of a prefix and a suffix that meet at a patch, if both reach its centre from the same

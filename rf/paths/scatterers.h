@@ -48,6 +48,23 @@ class Scatterers {
   LeftOut solve(const ImageTree& tree, const dvec3& target, uint32_t target_body, uint32_t threads,
                 std::vector<GeometricPath>& paths) const;
 
+  /// The functions below serve paths with another bend beside the scattering. There must be a budget.
+  const std::vector<Patch>& patches() const { return patches_; }
+  /// Returns the patches that the source lights, with the ways that lead to them.
+  const ScatterTree& lit() const { return tree_; }
+  dvec3 center(const Patch& patch) const;
+  /// Returns the number of reflections on the way to a patch of lit(), and appends them to a path.
+  uint32_t reflections_to(const LitPatch& lit) const { return at_patches_.arrivals[lit.arrival].depth; }
+  void append_way(const LitPatch& lit, GeometricPath& path) const;
+  /// Returns the share of the power that passes everything at rest on a segment; 0: it is blocked.
+  double passes_what_rests(const Segment& segment) const;
+  /// Returns the mean share of the power of both polarizations that a facet reflects. A share that is too
+  /// small costs accuracy, and one of 0 would lose power.
+  double reflected(uint32_t facet, const dvec3& in) const;
+  /// Describes a patch as a wave from `from` meets it that brings the power share / spread_m2 per area. None:
+  /// it scatters nothing.
+  std::optional<LitPatch> met(uint32_t patch, const dvec3& from, double share, double spread_m2) const;
+
  private:
   /// Holds for every facet the sequences that lead to it: [facets + 1] into `sequences`, ascending.
   struct Arrivals {
@@ -74,11 +91,8 @@ class Scatterers {
                                     const ImageTree& tree) const;
   PatchArrivals straight_to_patches(const dvec3& from) const;
   void place_ways(const ImageTree& tree, const std::vector<PlaneWindow>& windows);
-  double reflected(uint32_t facet, const dvec3& in) const;
-  double passes_what_rests(const Segment& segment) const;
   double reaches(const PatchArrival& way, const Patch& patch, const dvec3& source) const;
   std::optional<LitPatch> lit_patch(uint32_t patch, uint32_t arrival, const dvec3& source) const;
-  dvec3 center(const Patch& patch) const;
   void join(const ImageTree& tree, const dvec3& target, size_t patch, const PatchArrival& before,
             const PatchArrival& after, const PatchArrivals& suffixes,
             std::vector<GeometricPath>& paths) const;

@@ -6,9 +6,11 @@
 // 55(1), 2007.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 
+#include "core/units.h"
 #include "core/vec.h"
 #include "rf/antenna/field_vector.h"
 #include "scene/material/material.h"
@@ -59,5 +61,12 @@ struct ScatteringMatrix {
   Complex ss, sp, ps, pp;  ///< [out in]: the first letter is the scattered component
 };
 ScatteringMatrix scattering_matrix(double cross_polarization, uint64_t seed, uint32_t facet, uint32_t patch);
+
+/// Returns the distance that stands for the one between two patches in 1/distance^2: the first one, which
+/// sends, is a disk with its area, seen on its axis (J. R. Wallace, K. A. Elmquist, E. A. Haines, "A ray
+/// tracing algorithm for progressive radiosity", SIGGRAPH 1989).
+inline double between_patches_m(double distance_m, double area_m2) {
+  return std::sqrt(distance_m * distance_m + area_m2 / pi);
+}
 
 }  // namespace greatx::rf

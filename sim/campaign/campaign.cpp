@@ -162,8 +162,8 @@ CampaignSplit parse_split(const Field& field, const std::vector<CampaignAxis>& a
   return split;
 }
 
-/// Returns the fraction of number times the golden section: numbers that follow one another fill 0 to 1 evenly,
-/// however many they are (H. Weyl's sequence).
+/// Returns the fraction of number times the golden section: numbers that follow one another fill 0 to 1
+/// evenly, however many they are (H. Weyl's sequence).
 double golden_place(uint32_t number) { return number * 2654435769u * 0x1.0p-32; }
 
 }  // namespace

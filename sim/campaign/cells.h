@@ -30,8 +30,8 @@ struct CampaignCell {
 };
 
 /// Returns all cells in the order of the axes, the last one running fastest, without those that are excluded.
-/// Throws UserError, which names the campaign's line, if a change leads nowhere or makes a faulty scenario, if
-/// nothing is left, or if an exclusion leaves nothing out.
+/// Throws UserError, which names the campaign's line, if a change leads nowhere or makes a faulty scenario,
+/// if nothing is left, or if an exclusion leaves nothing out.
 std::vector<CampaignCell> campaign_cells(const Campaign& campaign, const FindBase& find_base);
 
 /// Returns a scenario's text with this many sequences. It is what a unit's files say of their run: the

@@ -331,6 +331,20 @@ const char* ChannelSearch::by_link_times() const {
                                                             : "; every tick";
 }
 
+/// Says which paths with a scattering and another bend are drawn.
+void ChannelSearch::note_two_bends(std::vector<std::pair<std::string, std::string>>& notes) const {
+  const bool pairs = config_.limits.max_scatterings > 1,
+             edges = config_.limits.scattering_beside_diffraction && model_.effects.diffraction;
+  if (!pairs && !edges) return;
+  const char* which = !edges   ? "two patches"
+                      : !pairs ? "an edge and a patch, in either order"
+                               : "two patches, or an edge and a patch in either order";
+  notes.emplace_back("scattering_twice",
+                     fmt::format("paths over {} are drawn: the expected power is that of all, and the "
+                                 "deviation of the gain tells how far one draw is from it",
+                                 which));
+}
+
 std::vector<std::pair<std::string, std::string>> ChannelSearch::notes(const rf::LeftOut& left_out) const {
   constexpr const char* ways[] = {"none",
                                   "once, from the transmitter",
@@ -375,6 +389,7 @@ std::vector<std::pair<std::string, std::string>> ChannelSearch::notes(const rf::
                     "for each stratum of delay and place, with the stratum's power "
                     "(scattering_budget; 0 traces all)",
                     budget, budget));
+  if (model_.effects.scattering) note_two_bends(notes);
   if (beams_ && move_facets_ && (way_ == Way::every_tick || way_ == Way::by_link) &&
       config_.search != ChannelConfig::Search::every_tick)
     notes.emplace_back("reuse",

@@ -113,6 +113,7 @@ class ChannelSearch {
     return from.end == rf::Source::transmitter ? transmitter : receivers[from.receiver];
   }
   const char* by_link_times() const;
+  void note_two_bends(std::vector<std::pair<std::string, std::string>>& notes) const;
   size_t source_of(size_t receiver) const { return source_of_.empty() ? 0 : source_of_[receiver]; }
   void make_beams();
   bool once() const { return way_ == Way::once_from_transmitter || way_ == Way::once_from_receivers; }

@@ -195,7 +195,8 @@ void add_scattering(Table& table, const ChannelConfig& channel) {
                         channel.limits.patch_m, "longest side of the pieces that scatter as one", "m"));
   const uint32_t budget = channel.limits.scattering_budget;
   std::vector<double> budgets = around(budget > 0 ? budget : 4000, {0.25, 0.5, 1, 2}, true);
-  budgets.push_back(0);
+  const bool two_bends = channel.limits.max_scatterings > 1 || channel.limits.scattering_beside_diffraction;
+  if (!two_bends) budgets.push_back(0);  // such paths are only drawn
   add(table.add_numbers("scattering_budget", {"scattering_budget"}, std::move(budgets), budget,
                         "scatterings of a link that are traced, of which some stand for others; 0: all"));
   add(table.add_numbers("max_reflections_before_scattering", {"max_reflections_before_scattering"},

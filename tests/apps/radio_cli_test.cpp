@@ -224,6 +224,30 @@ TEST_F(RadioCli, ScatteringsBeyondTheBudgetAreDrawnAndSaid) {
   }
 }
 
+TEST_F(RadioCli, PathsWithTwoBendsAreDrawnAndSaid) {
+  const auto with = [&](const std::string& options) {
+    change("house.yaml", radio_scenario, "max_depth: 2", "max_depth: 2, scattering_patch_m: 0.5, " + options);
+    write("house.yaml", greatx::apps::test::read_file(folder_ / "house.yaml") +
+                            "effects: {scattering: on, diffraction: on}\n");
+  };
+  with("scattering_budget: 200");
+  EXPECT_FALSE(json::parse(run("paths", "--json").out).contains("scattering_twice"));
+  with("scattering_budget: 200, max_scatterings: 2, scattering_beside_diffraction: true");
+  const Outcome outcome = run("paths", "--json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json drawn = json::parse(outcome.out);
+  EXPECT_THAT(drawn["scattering_twice"].get<std::string>(),
+              HasSubstr("two patches, or an edge and a patch in either order"));
+  EXPECT_THAT(run("explain").out, HasSubstr("paths over two patches"));
+  for (const std::string option : {"max_scatterings: 2", "scattering_beside_diffraction: true"}) {
+    with("scattering_budget: 0, " + option);
+    fails(option,
+          {"house.yaml:", "channels[0]." + option.substr(0, option.find(':')), "with scattering_budget: 0"});
+  }
+  with("max_scatterings: 3");
+  fails("three", {"house.yaml:", "channels[0].max_scatterings", "'3'"});
+}
+
 // Transmissions have a bound of their own, which a path of greater depth keeps.
 TEST_F(RadioCli, TheDeepestPathsRun) {
   change("house.yaml", radio_scenario, "max_depth: 2", "max_depth: 16");

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Recomputes a data set's channels from its paths, and the fields of its paths from their vertices. Prints
 the largest differences and fails if one exceeds its bound. Usage: check_channel.py DATASET [CHANNEL]"""
+
 import sys
 
 import numpy as np

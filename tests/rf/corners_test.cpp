@@ -61,8 +61,8 @@ Parts diffracted(const Setting& setting, const dvec3& tx, const dvec3& rx) {
   return parts;
 }
 
-/// The wave of a corner is Kirchhoff's to the first order of its integral. Where three directions meet closely,
-/// the ray and both edges of an oblique corner, it is off by up to 5 % of the direct wave.
+/// The wave of a corner is Kirchhoff's to the first order of its integral. Where three directions meet
+/// closely, the ray and both edges of an oblique corner, it is off by up to 5 % of the direct wave.
 TEST(Corners, PlatesOfAnyOutlineHaveKirchhoffsField) {
   const std::vector<std::vector<dvec2>> outlines = {
       {{-6, -9}, {6, -9}, {6, 9}, {-6, 9}},               // rectangle

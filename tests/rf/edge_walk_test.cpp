@@ -83,9 +83,9 @@ bool differ_by_a_pair(std::vector<uint32_t> a, std::vector<uint32_t> b) {
   return std::ranges::any_of(differ, [](uint32_t path) { return path >= 2000 && path < 3000; });
 }
 
-/// Walks along a closed curve, place(0) to place(2 pi), and returns the largest step of the field where a path appears
-/// or ends, relative to the field there, dB. Changes by paths over two edges count only if `of_pairs`: their
-/// ends have no waves of their own.
+/// Walks along a closed curve, place(0) to place(2 pi), and returns the largest step of the field where a
+/// path appears or ends, relative to the field there, dB. Changes by paths over two edges count only if
+/// `of_pairs`: their ends have no waves of their own.
 double largest_step_db(const Setting& setting, const OpenCorners& open,
                        const std::function<dvec3(double)>& place, const dvec3& tx, const dvec3& sent,
                        bool of_pairs, int& changes) {

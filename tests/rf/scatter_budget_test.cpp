@@ -12,140 +12,19 @@
 
 #include "core/units.h"
 #include "rf/channel/statistics.h"
-#include "rf/paths/path_solver.h"
 #include "rf/paths/scatter_draw.h"
-#include "rf/search/beam_search.h"
-#include "tests/support/gpu_fixture.h"
-#include "tests/support/tiny_scene.h"
+#include "tests/rf/scattering_links.h"
 
 namespace greatx::rf {
 namespace {
 
-using scene::ScatteringPattern;
-using test::TinyScene;
-
-constexpr double budget_hz = 3.5e9;
-
-/// Adds a half-space of concrete that scatters (index 1) and one that does not (2).
-TinyScene rough_materials(ScatteringPattern pattern) {
-  TinyScene tiny;
-  for (const double coefficient : {0.4, 0.0}) {
-    scene::Material material;
-    material.name = coefficient > 0.0 ? "rough" : "smooth";
-    scene::RadioMaterial radio;
-    radio.layers.push_back({*scene::itu_medium("concrete"), 0.0});
-    radio.scattering_coefficient = coefficient;
-    radio.pattern = pattern;
-    material.radio = radio;
-    tiny.material_as(material);
-  }
-  return tiny;
-}
+using namespace testing;
 
 /// A plate of 40 m by 20 m in the plane x = 0.
 TinyScene plate(ScatteringPattern pattern = ScatteringPattern::lambertian) {
   TinyScene tiny = rough_materials(pattern);
   tiny.object("plate", 0, 1).quad({0, -20, 0}, {0, 20, 0}, {0, 20, 20}, {0, -20, 20});
   return tiny;
-}
-
-/// Ground, a wall and a house that hides parts of both.
-TinyScene yard(ScatteringPattern pattern = ScatteringPattern::directive) {
-  TinyScene tiny = rough_materials(pattern);
-  tiny.object("ground", 0, 1).quad({-30, -30, 0}, {30, -30, 0}, {30, 30, 0}, {-30, 30, 0});
-  tiny.object("wall", 0, 1).quad({-20, 25, 0}, {20, 25, 0}, {20, 25, 12}, {-20, 25, 12});
-  tiny.object("house", 0, 1).box({-4, 0, 0}, {5, 6, 7});
-  return tiny;
-}
-
-RadioEffects with_scattering(uint64_t seed = 1) {
-  RadioEffects effects;
-  effects.scattering = true;
-  effects.field.seed = seed;
-  return effects;
-}
-
-/// Traces segments in a scene at rest.
-class Obstacles {
- public:
-  explicit Obstacles(const scene::Scene& scene)
-      : gpu_scene_(test::device(), scene, {}),
-        pass_(gpu_scene_, facet_kinds(scene, with_scattering())),
-        bodies_(scene.bodies.size()) {}
-  std::vector<Crossing> on(const std::vector<Segment>& segments, const FacetWorld& world) {
-    gpu::TickRing ring(test::device(), 1, 1u << 16, 1u << 16);
-    gpu::TickSlot& slot = ring.begin();
-    gpu_scene_.record_update(slot, bodies_);
-    const CrossingPass::Pending pending = pass_.record(slot, segments);
-    ring.submit(slot);
-    ring.wait(slot);
-    return pass_.collect(pending, segments, world);
-  }
-
- private:
-  scene::GpuScene gpu_scene_;
-  CrossingPass pass_;
-  std::vector<Pose> bodies_;
-};
-
-/// Solves links from one source.
-class Links {
- public:
-  Links(const scene::Scene& scene, const dvec3& source, const PathLimits& limits, uint64_t seed = 1,
-        Source end = Source::transmitter)
-      : model_(scene, budget_hz, with_scattering(seed)), source_(source), end_(end), solver_(model_, limits) {
-    const BeamSearch search(model_.facets, model_.kinds, {}, {.max_depth = limits.max_depth});
-    solver_.set_candidates(search.search(source).list, source, end);
-  }
-  std::vector<GeometricPath> geometry(const dvec3& target, uint32_t threads = 1) const {
-    return solver_.geometry({.position = target}, threads).paths;
-  }
-  /// Returns the paths as if nothing were in the way.
-  std::vector<Path> unhidden(const dvec3& target) const {
-    const auto paths = geometry(target);
-    size_t segments = 0;
-    for (const GeometricPath& path : paths) segments += path.interactions.size() + 1;
-    return solver_.finish(paths, std::vector<Crossing>(segments), transmitter(target), receiver(target),
-                          model_.facets);
-  }
-  std::vector<Path> lit(const dvec3& target, Obstacles& obstacles) const {
-    const auto paths = geometry(target);
-    std::vector<Segment> segments;
-    solver_.add_segments(paths, transmitter(target), receiver(target), segments);
-    return solver_.finish(paths, obstacles.on(segments, model_.facets), transmitter(target), receiver(target),
-                          model_.facets);
-  }
-  const RadioModel& model() const { return model_; }
-
- private:
-  EndState transmitter(const dvec3& target) const {
-    return {.position = end_ == Source::transmitter ? source_ : target};
-  }
-  EndState receiver(const dvec3& target) const {
-    return {.position = end_ == Source::transmitter ? target : source_};
-  }
-  RadioModel model_;
-  dvec3 source_;
-  Source end_;
-  PathSolver solver_;
-};
-
-bool scatters(const std::vector<Interaction>& interactions) {
-  return std::ranges::find(interactions, InteractionType::scattering, &Interaction::type) !=
-         interactions.end();
-}
-
-double power_of(const Path& path) {
-  double power = 0.0;
-  for (const Complex& t : path.transfer) power += 0.5 * std::norm(t);
-  return power;
-}
-
-double scattered(const std::vector<Path>& paths) {
-  double power = 0.0;
-  for (const Path& path : paths)
-    if (scatters(path.interactions)) power += power_of(path);
-  return power;
 }
 
 size_t scatterings(const std::vector<GeometricPath>& paths) {

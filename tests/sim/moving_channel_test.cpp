@@ -113,8 +113,8 @@ std::map<uint64_t, std::vector<std::byte>> transfers_of(const KeptRun& run, size
 }
 
 TEST(MovingChannel, EdgesDiffractAmongMovingReflectors) {
-  // The whole search leaves out what is nearer to other edges than its clearance. What is found from both ends
-  // may hold such paths, too; all others are the same to the bit.
+  // The whole search leaves out what is nearer to other edges than its clearance. What is found from both
+  // ends may hold such paths, too; all others are the same to the bit.
   size_t same = 0, more = 0;
   for (const std::string link :
        {"tx: car/antenna, rx: [uav/antenna]",

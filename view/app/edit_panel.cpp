@@ -36,6 +36,8 @@ const std::vector<std::string> knobs_of_channels{"candidates",
                                                  "max_reflections_after",
                                                  "scattering_patch_m",
                                                  "scattering_budget",
+                                                 "max_scatterings",
+                                                 "scattering_beside_diffraction",
                                                  "subcarriers",
                                                  "time_samples"};
 const std::vector<std::string> knobs_of_sensors{

@@ -234,6 +234,8 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
                              "max_reflections_before_scattering",
                              "scattering_patch_m",
                              "scattering_budget",
+                             "max_scatterings",
+                             "scattering_beside_diffraction",
                              "max_paths",
                              "candidates",
                              "rays",
@@ -273,6 +275,16 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
   if (const auto f = map.find("scattering_patch_m")) channel.limits.patch_m = f->positive(1e-3, 1e8);
   if (const auto f = map.find("scattering_budget"))
     channel.limits.scattering_budget = f->integer32(0, 1u << 30);
+  const bool drawn = channel.limits.scattering_budget > 0;
+  if (const auto f = map.find("max_scatterings")) {
+    channel.limits.max_scatterings = f->integer32(1, 2);
+    if (channel.limits.max_scatterings > 1 && !drawn) f->fail("1 with scattering_budget: 0", "2");
+  }
+  if (const auto f = map.find("scattering_beside_diffraction")) {
+    channel.limits.scattering_beside_diffraction = f->boolean();
+    if (channel.limits.scattering_beside_diffraction && !drawn)
+      f->fail("false with scattering_budget: 0", "true");
+  }
   if (const auto f = map.find("max_paths")) channel.limits.max_paths = f->integer32(1, 1u << 30);
   if (const auto f = map.find("candidates"))
     channel.candidates = std::array{ChannelConfig::Candidates::beams,
