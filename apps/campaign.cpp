@@ -1,13 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
 #include <iostream>
 #include <memory>
+#include <span>
 #include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "apps/campaign/index.h"
+#include "apps/campaign/jobs.h"
 #include "apps/campaign/merge.h"
 #include "apps/campaign/plan.h"
 #include "apps/campaign/run.h"
@@ -32,7 +36,7 @@ struct Options {
   bool json = false, quiet = false;
   std::string shard = "1/1";
   std::vector<std::string> from;
-  uint32_t threads = 0;
+  uint32_t threads = 0, jobs = 1;
   int64_t measured_ticks = 4;
   std::vector<uint32_t> cores{32, 320};
 };
@@ -90,27 +94,56 @@ void plan(const Options& options) {
   beyond("gigabytes", open.campaign.most_gigabytes, "gigabytes");
 }
 
+/// Runs a shard in `jobs` processes, each with a part of it.
+CampaignRun run_jobs(const OpenCampaign& open, const Shard& shard, const Options& options) {
+  const std::vector<CampaignUnit> all = open.units();
+  const std::span<const CampaignUnit> units = units_of(all, shard);
+  const auto complete = [&] {
+    return static_cast<uint64_t>(
+        std::ranges::count_if(units, [&](const CampaignUnit& unit) { return open.state(unit).complete; }));
+  };
+  CampaignRun run;
+  run.skipped = complete();
+  const auto begin = std::chrono::steady_clock::now();
+  Progress progress(open.campaign.name, static_cast<int64_t>(units.size()), options.quiet || options.json,
+                    "sequences");
+  const uint32_t threads = options.threads > 0
+                               ? options.threads
+                               : std::max(1u, std::thread::hardware_concurrency() / options.jobs);
+  in_processes(
+      options.jobs,
+      [&](uint32_t job) {
+        gpu::Device device(options.run.device_options());
+        run_units(open, units_of(units, {job + 1, options.jobs}), device, threads, true);
+        check_validation(device);
+      },
+      [&] { progress.update(static_cast<int64_t>(complete())); });
+  run.done = complete() - run.skipped;
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return run;
+}
+
 void run(const Options& options) {
   const Shard shard = parse_shard(options.shard);
   const OpenCampaign open = open_campaign(options.campaign);
   claim_folder(open);
-  gpu::Device device(options.run.device_options());
   install_interrupt_handler();
-  const std::vector<CampaignUnit> all = open.units();
-  const CampaignRun run =
-      run_units(open, units_of(all, shard), device, options.threads, options.quiet || options.json);
-  check_validation(device);
-  print(
-      options,
-      {{"output", options.campaign.output},
-       {"done", run.done},
-       {"complete_before", run.skipped},
-       {"ticks", run.ticks},
-       {"seconds", run.seconds},
-       {"start_seconds", run.start_seconds}},
-      fmt::format("{}: {} sequences made ({} ticks, {:.1f} s, of these {:.1f} s to begin cells), {} were "
-                  "complete before\n",
-                  options.campaign.output, run.done, run.ticks, run.seconds, run.start_seconds, run.skipped));
+  CampaignRun run;
+  if (options.jobs > 1) {
+    run = run_jobs(open, shard, options);
+  } else {
+    gpu::Device device(options.run.device_options());
+    const std::vector<CampaignUnit> all = open.units();
+    run = run_units(open, units_of(all, shard), device, options.threads, options.quiet || options.json);
+    check_validation(device);
+  }
+  print(options,
+        {{"output", options.campaign.output},
+         {"done", run.done},
+         {"complete_before", run.skipped},
+         {"seconds", run.seconds}},
+        fmt::format("{}: {} sequences made in {:.1f} s, {} were complete before\n", options.campaign.output,
+                    run.done, run.seconds, run.skipped));
 }
 
 void status(const Options& options) {
@@ -228,6 +261,10 @@ void add_campaign(CLI::App& app) {
                    "threads that encode and write; 0: one per processor. Changes no byte")
       ->capture_default_str()
       ->check(integer_of(0, 1024));
+  of_run
+      ->add_option("--jobs", ran->jobs, "processes that share the shard; two keep two cores busier than one")
+      ->capture_default_str()
+      ->check(integer_of(1, 1024));
   add("status", "say which sequences are complete", status);
   const auto [of_merge, merged] =
       add("merge", "put the data set of each cell together, and write the index and the splits", merge);

@@ -63,12 +63,10 @@ class UnitRunner {
       spdlog::warn("{}: {}", open_.cells[cell_].name, warning);
     simulator_.reset();
   }
-  double start_seconds() const { return start_s_; }
 
  private:
   void enter(size_t cell) {
     leave();
-    const Clock::time_point begin = Clock::now();
     const sim::Scenario& scenario = open_.cells[cell].scenario;
     auto next = std::make_unique<sim::Experiment>(experiment_ ? sim::make_experiment(scenario, *experiment_)
                                                               : sim::make_experiment(scenario));
@@ -77,7 +75,6 @@ class UnitRunner {
     info_ = sim::dataset_info(*experiment_, device_, simulator_->sensors());
     cell_ = cell;
     rows_ = 0;
-    start_s_ += seconds_since(begin);
   }
 
   /// Keeps the rows that this unit has added beside its part.
@@ -97,7 +94,6 @@ class UnitRunner {
   std::optional<sim::Simulator> simulator_;
   std::optional<io::DatasetInfo> info_;
   size_t cell_ = 0, rows_ = 0;
-  double start_s_ = 0.0;
 };
 
 }  // namespace
@@ -107,7 +103,7 @@ CampaignRun run_units(const OpenCampaign& open, std::span<const CampaignUnit> un
   const Clock::time_point begin = Clock::now();
   CampaignRun run;
   std::vector<CampaignUnit> pending;
-  int64_t total = 0;
+  int64_t total = 0, ticks = 0;
   for (const CampaignUnit& unit : units) {
     const io::PartState state = open.state(unit);
     if (state.complete) {
@@ -123,7 +119,7 @@ CampaignRun run_units(const OpenCampaign& open, std::span<const CampaignUnit> un
   bool complete = true;
   try {
     for (const CampaignUnit& unit : pending) {
-      complete = runner.run(unit, [&] { progress.update(++run.ticks); });
+      complete = runner.run(unit, [&] { progress.update(++ticks); });
       if (!complete) break;
       ++run.done;
     }
@@ -131,7 +127,7 @@ CampaignRun run_units(const OpenCampaign& open, std::span<const CampaignUnit> un
     complete = false;
   }
   runner.leave();
-  run.seconds = seconds_since(begin), run.start_seconds = runner.start_seconds();
+  run.seconds = seconds_since(begin);
   if (!complete)
     throw Interrupted(fmt::format("{}: {} of {} sequences are complete; the same command goes on",
                                   open.folder.string(), run.done + run.skipped, units.size()));

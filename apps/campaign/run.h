@@ -15,8 +15,7 @@ namespace greatx::apps {
 /// Holds what a run has done.
 struct CampaignRun {
   uint64_t done = 0, skipped = 0;  ///< units
-  int64_t ticks = 0;
-  double seconds = 0.0, start_seconds = 0.0;  ///< all; of these, worlds, pipelines and searches of cells
+  double seconds = 0.0;
 };
 
 /// Makes the units that are not complete yet, in their order. Units of one cell share its world, its passes

@@ -148,6 +148,15 @@ TEST_F(CampaignCli, ItMayBeKilledAtAnyMoment) {
   expect_single_runs("out", true);
 }
 
+TEST_F(CampaignCli, JobsShareAShard) {
+  const Outcome run = campaign("run", "out", "--jobs 3");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("6 sequences made"));
+  ASSERT_EQ(campaign("merge", "out", "-q").code, 0);
+  expect_single_runs("out");
+  EXPECT_EQ(campaign("run", "bad", "--jobs 2 --device nowhere").code, 1);
+}
+
 TEST_F(CampaignCli, FoldersOfShardsAreGathered) {
   ASSERT_EQ(campaign("run", "one", "--shard 1/2 -q").code, 0);
   ASSERT_EQ(campaign("run", "two", "--shard 2/2 -q").code, 0);
