@@ -98,9 +98,11 @@ void plan(const Options& options) {
 CampaignRun run_jobs(const OpenCampaign& open, const Shard& shard, const Options& options) {
   const std::vector<CampaignUnit> all = open.units();
   const std::span<const CampaignUnit> units = units_of(all, shard);
+  // What is complete stays so, and need not be looked at again.
+  std::vector<CampaignUnit> pending(units.begin(), units.end());
   const auto complete = [&] {
-    return static_cast<uint64_t>(
-        std::ranges::count_if(units, [&](const CampaignUnit& unit) { return open.state(unit).complete; }));
+    std::erase_if(pending, [&](const CampaignUnit& unit) { return open.state(unit).complete; });
+    return units.size() - pending.size();
   };
   CampaignRun run;
   run.skipped = complete();
@@ -114,7 +116,7 @@ CampaignRun run_jobs(const OpenCampaign& open, const Shard& shard, const Options
       options.jobs,
       [&](uint32_t job) {
         gpu::Device device(options.run.device_options());
-        run_units(open, units_of(units, {job + 1, options.jobs}), device, threads, true);
+        run_units(open, units_of(pending, {job + 1, options.jobs}), device, threads, true);
         check_validation(device);
       },
       [&] { progress.update(static_cast<int64_t>(complete())); });

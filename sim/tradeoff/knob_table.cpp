@@ -203,6 +203,9 @@ void add_scattering(Table& table, const ChannelConfig& channel) {
                         up_to(table.quick() ? 1 : 2), channel.limits.max_reflections_before_scattering,
                         "reflections between a scattering and the end that is searched from at most"));
   if (table.quick()) return;
+  if (budget > 0)
+    add(table.add_numbers("max_scatterings", {"max_scatterings"}, {1, 2}, channel.limits.max_scatterings,
+                          "scatterings of a path at most"));
   const auto with_edges = [&](Knob& knob) {
     if (!table.plan().diffraction.on)
       Table::within(knob, "with diffraction", {effect_change("diffraction", true)});

@@ -102,8 +102,9 @@ std::vector<std::map<uint64_t, Known>> paths_of(const RadioRun& run, size_t pack
   const auto delay = run.values<double>(packet, "delay"), doppler = run.values<double>(packet, "doppler");
   const auto type = run.values<uint8_t>(packet, "interaction");
   const auto facet = run.values<uint32_t>(packet, "facet"), element = run.values<uint32_t>(packet, "element");
-  const auto end =
-      run.find(packet, "csi", "end") ? run.values<uint8_t>(packet, "end") : std::vector<uint8_t>(type.size());
+  const auto& arrays = run.spec("csi").arrays;
+  const bool has_end = std::ranges::find(arrays, "end", &ArraySpec::name) != arrays.end();
+  const auto end = has_end ? run.values<uint8_t>(packet, "end") : std::vector<uint8_t>(type.size());
   const auto transfer = run.values<std::complex<float>>(packet, "transfer");
   const size_t depth = id.empty() ? 0 : type.size() / id.size();
   for (size_t i = 0; i < id.size(); ++i) {
