@@ -15,6 +15,7 @@
 #include "apps/campaign/merge.h"
 #include "apps/campaign/plan.h"
 #include "apps/campaign/run.h"
+#include "apps/campaign/stats.h"
 #include "apps/campaign/store.h"
 #include "apps/commands.h"
 #include "apps/console/command_line.h"
@@ -201,6 +202,15 @@ void merge(const Options& options) {
                     options.campaign.output, merged, open.cells.size(), records));
 }
 
+void stats(const Options& options) {
+  const OpenCampaign open = open_campaign(options.campaign);
+  const CampaignStats stats = campaign_stats(open);
+  const std::string table = write_stats(open, stats);
+  print(options, stats.json,
+        table + fmt::format("{}: wrote stats.json, stats.png, card.md and croissant.json\n",
+                            options.campaign.output));
+}
+
 void verify(const Options& options) {
   const OpenCampaign open = open_campaign(options.campaign);
   nlohmann::json json{{"problems", nlohmann::json::array()}};
@@ -272,6 +282,7 @@ void add_campaign(CLI::App& app) {
       add("merge", "put the data set of each cell together, and write the index and the splits", merge);
   of_merge->add_option("--from", merged->from,
                        "folders of other shards, whose sequences are moved here first");
+  add("stats", "histograms, a data card and Croissant metadata of a merged campaign", stats);
   add("verify", "check every data set as `greatx verify` does", verify);
 }
 

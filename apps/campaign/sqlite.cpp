@@ -11,8 +11,17 @@
 
 namespace greatx::apps {
 
-SqliteFile::SqliteFile(const std::filesystem::path& file) : file_(file) {
-  if (sqlite3_open(file.c_str(), &handle_) != SQLITE_OK) fail("open");
+double SqliteRow::number(int column) const { return sqlite3_column_double(statement_, column); }
+
+std::string SqliteRow::text(int column) const {
+  const unsigned char* text = sqlite3_column_text(statement_, column);
+  return text == nullptr ? std::string() : std::string(reinterpret_cast<const char*>(text));
+}
+
+SqliteFile::SqliteFile(const std::filesystem::path& file, Mode mode) : file_(file) {
+  const int flags = mode == Mode::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  if (sqlite3_open_v2(file.c_str(), &handle_, flags, nullptr) != SQLITE_OK) fail("open");
+  if (mode == Mode::read) return;
   // The file is written once and renamed when it is whole: nothing needs to survive a crash.
   run("PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF; PRAGMA cache_size=-65536; BEGIN");
 }
@@ -21,6 +30,15 @@ SqliteFile::~SqliteFile() { sqlite3_close(handle_); }
 
 void SqliteFile::run(const std::string& sql) {
   if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail("write");
+}
+
+void SqliteFile::each(const std::string& sql, const std::function<void(const SqliteRow&)>& visit) {
+  sqlite3_stmt* statement = nullptr;
+  if (sqlite3_prepare_v2(handle_, sql.c_str(), -1, &statement, nullptr) != SQLITE_OK) fail("read");
+  int result = SQLITE_ROW;
+  while ((result = sqlite3_step(statement)) == SQLITE_ROW) visit(SqliteRow(statement));
+  sqlite3_finalize(statement);
+  if (result != SQLITE_DONE) fail("read");
 }
 
 void SqliteFile::fail(const char* what) const {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,14 +16,27 @@ struct sqlite3_stmt;
 
 namespace greatx::apps {
 
-/// A data base that is written once. Every failure throws UserError with the file and SQLite's reason.
+/// A row of a query.
+class SqliteRow {
+ public:
+  explicit SqliteRow(sqlite3_stmt* statement) : statement_(statement) {}
+  double number(int column) const;
+  std::string text(int column) const;
+
+ private:
+  sqlite3_stmt* statement_;
+};
+
+/// A data base that is written once, or read. Every failure throws UserError with the file and SQLite's reason.
 class SqliteFile {
  public:
-  explicit SqliteFile(const std::filesystem::path& file);
+  enum class Mode : uint8_t { write, read };
+  explicit SqliteFile(const std::filesystem::path& file, Mode mode = Mode::write);
   ~SqliteFile();
   SqliteFile(const SqliteFile&) = delete;
   SqliteFile& operator=(const SqliteFile&) = delete;
   void run(const std::string& sql);
+  void each(const std::string& sql, const std::function<void(const SqliteRow&)>& visit);
 
  private:
   friend class SqliteInsert;

@@ -162,6 +162,17 @@ CampaignSplit parse_split(const Field& field, const std::vector<CampaignAxis>& a
   return split;
 }
 
+CampaignCard parse_card(const Field& field) {
+  const FieldMap map(field, {"description", "license", "citation", "creators"});
+  CampaignCard card;
+  if (const auto f = map.find("description")) card.description = f->text();
+  if (const auto f = map.find("license")) card.license = f->text();
+  if (const auto f = map.find("citation")) card.citation = f->text();
+  if (const auto f = map.find("creators"))
+    for (const Field& creator : f->list("creators", 1)) card.creators.push_back(creator.text());
+  return card;
+}
+
 /// Returns the fraction of number times the golden section: numbers that follow one another fill 0 to 1
 /// evenly, however many they are (H. Weyl's sequence).
 double golden_place(uint32_t number) { return number * 2654435769u * 0x1.0p-32; }
@@ -171,8 +182,8 @@ double golden_place(uint32_t number) { return number * 2654435769u * 0x1.0p-32; 
 Campaign parse_campaign(const std::string& text, const std::string& file,
                         const std::filesystem::path& folder) {
   const Field root = Field::parse_yaml(text, {file, folder, {}});
-  const FieldMap map(
-      root, {"greatx_campaign", "name", "base", "set", "axes", "exclude", "sequences", "split", "budget"});
+  const FieldMap map(root, {"greatx_campaign", "name", "base", "set", "axes", "exclude", "sequences", "split",
+                            "budget", "card"});
   map.require("greatx_campaign", "1 (the format's version)").choice({"1"});
   Campaign campaign;
   campaign.text = text, campaign.file = file, campaign.folder = folder;
@@ -186,6 +197,7 @@ Campaign parse_campaign(const std::string& text, const std::string& file,
   if (const auto f = map.find("sequences")) campaign.sequences = f->integer32(1, most_sequences);
   if (const auto f = map.find("exclude")) campaign.exclusions = parse_exclusions(*f, campaign.axes);
   if (const auto f = map.find("split")) campaign.split = parse_split(*f, campaign.axes);
+  if (const auto f = map.find("card")) campaign.card = parse_card(*f);
   if (const auto f = map.find("budget")) {
     const FieldMap budget(*f, {"hours", "gigabytes"});
     if (const auto hours = budget.find("hours")) campaign.most_hours = hours->positive(1e-6, 1e9);

@@ -61,6 +61,12 @@ struct CampaignExclusion {
   SourceLocation where;
 };
 
+/// What the data card says of a campaign, as its makers state it.
+struct CampaignCard {
+  std::string description, license, citation;
+  std::vector<std::string> creators;
+};
+
 struct Campaign {
   std::string name, text;
   std::string file;                     ///< for messages
@@ -71,6 +77,7 @@ struct Campaign {
   std::vector<CampaignExclusion> exclusions;
   uint32_t sequences = 1;  ///< of each cell
   CampaignSplit split;
+  CampaignCard card;
   std::optional<double> most_hours, most_gigabytes;  ///< the budget
 };
 

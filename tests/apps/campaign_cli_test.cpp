@@ -198,6 +198,35 @@ TEST_F(CampaignCli, APlanMeasuresAndKeepsToTheBudget) {
   EXPECT_THAT(dear.err, HasSubstr("budget.gigabytes"));
 }
 
+TEST_F(CampaignCli, StatsComeFromTheIndex) {
+  std::ofstream(folder_ / "c.yaml", std::ios::app)
+      << "card: {description: Two carriers., license: CC-BY-4.0, creators: [A. Person]}\n"
+         "split: {train: 0.5, test: 0.5}\n";
+  EXPECT_THAT(campaign("stats", "out").err, HasSubstr("merge` writes it"));
+  ASSERT_EQ(campaign("run", "out", "-q").code, 0);
+  ASSERT_EQ(campaign("merge", "out", "-q").code, 0);
+  const Outcome stats = campaign("stats", "out", "--json");
+  ASSERT_EQ(stats.code, 0) << stats.err;
+  const nlohmann::json json = nlohmann::json::parse(stats.out);
+  // Sequences 0 to 2 are in train, test, train: multiples of the golden section.
+  EXPECT_EQ(json["sequences"]["train"], 4);
+  EXPECT_EQ(json["sequences"]["test"], 2);
+  EXPECT_EQ(json["records"]["train"]["camera"], 24);
+  EXPECT_EQ(json["poses_in_two_splits"], 0);
+  const nlohmann::json& gain = json["quantities"]["path_gain_db"]["train"];
+  EXPECT_EQ(gain["count"], 24);
+  EXPECT_LE(gain["p5"], gain["median"]);
+  EXPECT_LT(gain["most"], -50.0);
+  // Two sensors of one node, five steps of each of four sequences.
+  EXPECT_EQ(json["quantities"]["speed_mps"]["train"]["count"], 40);
+  EXPECT_EQ(read_file(folder_ / "out/stats.png").substr(1, 3), "PNG");
+  EXPECT_THAT(read_file(folder_ / "out/card.md"),
+              AllOf(HasSubstr("CC-BY-4.0"), HasSubstr("carrier (low, high)")));
+  const nlohmann::json croissant = nlohmann::json::parse(read_file(folder_ / "out/croissant.json"));
+  EXPECT_EQ(croissant["distribution"][0]["@id"], "index.csv");
+  EXPECT_GT(croissant["recordSet"][0]["field"].size(), 20u);
+}
+
 TEST_F(CampaignCli, TheIndexHasEveryRecord) {
   ASSERT_EQ(campaign("run", "out", "-q").code, 0);
   const Outcome merged = campaign("merge", "out");
