@@ -27,7 +27,8 @@ class SqliteRow {
   sqlite3_stmt* statement_;
 };
 
-/// A data base that is written once, or read. Every failure throws UserError with the file and SQLite's reason.
+/// A data base that is written once, or read. Every failure throws UserError with the file and SQLite's
+/// reason.
 class SqliteFile {
  public:
   enum class Mode : uint8_t { write, read };
