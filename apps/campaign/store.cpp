@@ -42,16 +42,17 @@ std::optional<std::string> embedded_text(const std::string& name) {
 }
 
 /// Returns a base scenario: an embedded one, or a file, relative to the campaign's folder or among the
-/// assets.
-sim::BaseScenario base_scenario(const std::string& name, const fs::path& folder, const fs::path& assets) {
+/// assets. An embedded campaign has its base beside it in the program.
+sim::BaseScenario base_scenario(const std::string& name, const fs::path& folder, const fs::path& assets,
+                                bool of_embedded) {
   for (const EmbeddedScenario& embedded : embedded_scenarios())
     if (embedded.name == name)
       return {std::string(embedded.text), fmt::format("{}.yaml", embedded.name), folder, assets};
+  if (of_embedded)
+    if (const auto text = embedded_text(name)) return {*text, name, folder, assets};
   fs::path file = folder / name;
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored) && !assets.empty()) file = assets / name;
-  if (!fs::is_regular_file(file, ignored))
-    if (const auto text = embedded_text(name)) return {*text, name, folder, assets};
   if (!fs::is_regular_file(file, ignored))
     throw_user_error("base: expected an embedded scenario or a file beside the campaign, found no '{}'",
                      name);
@@ -94,16 +95,15 @@ std::vector<CampaignUnit> OpenCampaign::units() const {
 OpenCampaign open_campaign(const CampaignOptions& options) {
   OpenCampaign open;
   const fs::path file = options.file;
-  const auto embedded = embedded_text(options.file);
+  const auto embedded = is_there(file) ? std::nullopt : embedded_text(options.file);
   const std::string text =
-      embedded && !is_there(file)
-          ? *embedded
-          : InputFile(file, fmt::format("{}: expected a campaign file", options.file), budget::yaml_file)
-                .text();
+      embedded ? *embedded
+               : InputFile(file, fmt::format("{}: expected a campaign file", options.file), budget::yaml_file)
+                     .text();
   open.campaign = sim::parse_campaign(text, options.file, fs::absolute(file).parent_path());
   open.folder = options.output;
   open.cells = sim::campaign_cells(open.campaign, [&](const std::string& name) {
-    return base_scenario(name, open.campaign.folder, options.assets);
+    return base_scenario(name, open.campaign.folder, options.assets, embedded.has_value());
   });
   if (options.cells.empty()) return open;
   for (const std::string& name : options.cells)

@@ -227,6 +227,13 @@ TEST_F(CampaignCli, StatsComeFromTheIndex) {
   EXPECT_GT(croissant["recordSet"][0]["field"].size(), 20u);
 }
 
+TEST_F(CampaignCli, EmbeddedCampaignsHaveWhatTheirTableSays) {
+  const Outcome mini = greatx("campaign plan great_mcd_mini --measure 0");
+  EXPECT_THAT(mini.out, HasSubstr("24 cells, 96 sequences, 960 ticks"));
+  const Outcome whole = greatx("campaign plan great_mcd --measure 0");
+  EXPECT_THAT(whole.out, HasSubstr("24 cells, 3600 sequences, 960000 ticks"));
+}
+
 TEST_F(CampaignCli, TheIndexHasEveryRecord) {
   ASSERT_EQ(campaign("run", "out", "-q").code, 0);
   const Outcome merged = campaign("merge", "out");
