@@ -186,6 +186,11 @@ SETTINGS = [
     ),
     (
         "reflection, one edge",
+        "diffraction: on, corner_diffraction: off, scattering: off, transmission: off",
+        ", max_reflections_beside_diffraction: 1",
+    ),
+    (
+        "and ends of edges",
         "diffraction: on, scattering: off, transmission: off",
         ", max_reflections_beside_diffraction: 1",
     ),
