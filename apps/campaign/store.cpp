@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
 
 #include "apps/console/json_text.h"
 #include "assets/assets.h"
@@ -105,6 +106,11 @@ OpenCampaign open_campaign(const CampaignOptions& options) {
   open.cells = sim::campaign_cells(open.campaign, [&](const std::string& name) {
     return base_scenario(name, open.campaign.folder, options.assets, embedded.has_value());
   });
+  if (std::ranges::any_of(open.cells, [](const auto& cell) { return !cell.scenario.accuracy.empty(); }))
+    spdlog::warn(
+        "{}: a campaign takes the settings that are written, and chooses none for 'accuracy' and "
+        "'time_budget_ms_per_tick'; `greatx calibrate` writes a scenario with the choice",
+        options.file);
   if (options.cells.empty()) return open;
   for (const std::string& name : options.cells)
     if (std::ranges::find(open.cells, name, &sim::CampaignCell::name) == open.cells.end())
