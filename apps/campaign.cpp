@@ -160,8 +160,7 @@ void status(const Options& options) {
       const io::PartState state = open.state({c, s});
       done += state.complete, open_units += state.begun && !state.complete;
     }
-    std::error_code ignored;
-    const bool merged = std::filesystem::exists(open.data(c) / io::manifest_file, ignored);
+    const bool merged = open.merged(c);
     json["cells"].push_back({{"cell", open.cells[c].name},
                              {"sequences", open.sequences(c)},
                              {"complete", done},

@@ -256,7 +256,7 @@ uint64_t write_index(const OpenCampaign& open, bool quiet) {
     IndexWriter writer(open, io::part_name(sqlite), io::part_name(csv));
     Progress progress("index", static_cast<int64_t>(open.cells.size()), quiet, "cells");
     for (size_t cell = 0; cell < open.cells.size(); ++cell) {
-      if (!fs::exists(open.data(cell) / io::manifest_file, ignored)) continue;
+      if (!open.merged(cell)) continue;
       IndexedSet set(open.data(cell));
       for (uint32_t s = 0; s < set.reader().sequences(); ++s)
         for (const io::IndexRow& row : set.reader().records(s)) writer.add(cell, s, row, set);

@@ -43,13 +43,9 @@ void join_consistency(const OpenCampaign& open, size_t cell) {
 }
 
 void check_folder(const OpenCampaign& open, const fs::path& folder) {
-  const fs::path own = open.folder / "cells.json", other = folder / "cells.json";
-  std::error_code ignored;
-  if (!fs::exists(other, ignored))
+  const nlohmann::json cells = known_cells(open.folder), others = known_cells(folder);
+  if (others.empty())
     throw_user_error("--from: {}: expected the folder of a campaign, found no cells.json", folder.string());
-  const nlohmann::json cells = nlohmann::json::parse(io::read_text_file(own), nullptr, false),
-                       others = nlohmann::json::parse(io::read_text_file(other), nullptr, false);
-  if (!others.is_object()) throw_user_error("{}: expected a JSON object", other.string());
   for (const auto& [name, identity] : others.items())
     if (const auto known = cells.find(name); known != cells.end() && *known != identity)
       throw_user_error("--from: {}: cell '{}' has another scenario than in {}", folder.string(), name,
@@ -62,6 +58,7 @@ void gather_parts(const OpenCampaign& open, const std::vector<fs::path>& folders
   struct Move {
     fs::path from, to, csv_from, csv_to;
   };
+  if (folders.empty()) return;
   std::vector<Move> moves;
   for (const fs::path& folder : folders) check_folder(open, folder);
   for (const CampaignUnit& unit : open.units()) {
@@ -80,18 +77,13 @@ void gather_parts(const OpenCampaign& open, const std::vector<fs::path>& folders
       throw_user_error("{} and {} both hold sequence {} of cell '{}': shards overlapped; remove one of them",
                        holders[0].string(), holders[1].string(), unit.sequence, open.cells[unit.cell].name);
   }
-  const auto move = [](const fs::path& from, const fs::path& to) {
-    io::create_folders(to.parent_path());
-    std::error_code error;
-    fs::rename(from, to, error);
-    if (!error) return;
-    fs::copy(from, to, fs::copy_options::recursive);
-    fs::remove_all(from);
-  };
   for (const Move& part : moves) {
     std::error_code ignored;
-    if (fs::exists(part.csv_from, ignored)) move(part.csv_from, part.csv_to);
-    move(part.from, part.to);
+    io::create_folders(part.csv_to.parent_path());
+    io::create_folders(part.to.parent_path());
+    if (fs::exists(part.csv_from, ignored))
+      fs::copy_file(part.csv_from, part.csv_to, fs::copy_options::overwrite_existing);
+    io::move_folder(part.from, part.to);
   }
 }
 
@@ -101,9 +93,7 @@ bool merge_cell(const OpenCampaign& open, size_t cell) {
   const auto info_of = [&](uint32_t count) {
     return sim::with_sequences(stored, sim::with_sequences(scenario, count));
   };
-  const fs::path manifest = open.data(cell) / io::manifest_file;
-  std::error_code ignored;
-  if (fs::exists(manifest, ignored) && stored.sequences == scenario.sequences) return false;
+  if (open.merged(cell) && stored.sequences == scenario.sequences) return false;
   io::assemble({.folder = open.data(cell),
                 .journals = open.journals(cell),
                 .info = info_of(scenario.sequences),

@@ -79,7 +79,7 @@ class UnitRunner {
 
   /// Keeps the rows that this unit has added beside its part.
   void keep_consistency(const CampaignUnit& unit) {
-    const std::vector<sim::ConsistencyRow> all = simulator_->statistics().rows;
+    const std::vector<sim::ConsistencyRow>& all = simulator_->consistency_rows();
     const std::vector<sim::ConsistencyRow> own(all.begin() + static_cast<ptrdiff_t>(rows_), all.end());
     rows_ = all.size();
     if (own.empty()) return;

@@ -61,14 +61,6 @@ sim::BaseScenario base_scenario(const std::string& name, const fs::path& folder,
           file.string(), file.parent_path(), assets};
 }
 
-/// Reads the hashes of the cells that a folder knows. An empty object if it knows none.
-nlohmann::json known_cells(const fs::path& file) {
-  if (!is_there(file)) return nlohmann::json::object();
-  const nlohmann::json known = nlohmann::json::parse(io::read_text_file(file), nullptr, false);
-  if (!known.is_object()) throw_user_error("{}: expected a JSON object, found something else", file.string());
-  return known;
-}
-
 }  // namespace
 
 fs::path OpenCampaign::part(const CampaignUnit& unit) const {
@@ -76,6 +68,8 @@ fs::path OpenCampaign::part(const CampaignUnit& unit) const {
 }
 fs::path OpenCampaign::journals(size_t cell) const { return folder / "journals" / cells[cell].name; }
 fs::path OpenCampaign::data(size_t cell) const { return folder / "data" / cells[cell].name; }
+
+bool OpenCampaign::merged(size_t cell) const { return is_there(data(cell) / io::manifest_file); }
 
 io::PartState OpenCampaign::state(const CampaignUnit& unit) const {
   if (is_there(io::kept_journal(journals(unit.cell), unit.sequence))) return {true, true, 0};
@@ -123,10 +117,18 @@ OpenCampaign open_campaign(const CampaignOptions& options) {
   return open;
 }
 
+nlohmann::json known_cells(const fs::path& folder) {
+  const fs::path file = folder / cells_file;
+  if (!is_there(file)) return nlohmann::json::object();
+  const nlohmann::json known = nlohmann::json::parse(io::read_text_file(file), nullptr, false);
+  if (!known.is_object()) throw_user_error("{}: expected a JSON object, found something else", file.string());
+  return known;
+}
+
 void claim_folder(const OpenCampaign& open) {
   io::create_folders(open.folder);
   const fs::path file = open.folder / cells_file;
-  nlohmann::json cells = known_cells(file);
+  nlohmann::json cells = known_cells(open.folder);
   bool changed = false;
   for (const sim::CampaignCell& cell : open.cells) {
     const std::string identity = identity_of(cell);

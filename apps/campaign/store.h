@@ -20,6 +20,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "io/dataset/part.h"
 #include "sim/campaign/cells.h"
 
@@ -40,6 +42,7 @@ struct OpenCampaign {
   std::filesystem::path part(const CampaignUnit& unit) const;
   std::filesystem::path journals(size_t cell) const;
   std::filesystem::path data(size_t cell) const;
+  bool merged(size_t cell) const;  ///< whether the cell has a finished data set
   /// Returns the state of a unit; merged units are complete.
   io::PartState state(const CampaignUnit& unit) const;
   uint32_t sequences(size_t cell) const { return cells[cell].scenario.sequences; }
@@ -59,6 +62,10 @@ struct CampaignOptions {
 /// Reads a campaign and makes its cells. Throws UserError as parse_campaign() and campaign_cells() do, and if
 /// a cell of --cell does not exist.
 OpenCampaign open_campaign(const CampaignOptions& options);
+
+/// Returns the scenarios' hashes by the names of the cells that a folder knows: an empty object if it knows
+/// none. Throws UserError if its cells.json is no object.
+nlohmann::json known_cells(const std::filesystem::path& folder);
 
 /// Writes campaign.yaml and cells.json. Throws UserError if a cell of the folder had another scenario: the
 /// campaign has changed. New cells and more sequences are no change.

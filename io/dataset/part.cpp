@@ -37,7 +37,8 @@ void check_part(const Assembly& assembly, uint32_t sequence) {
                    differences.empty() ? "  the text of dataset.json differs\n" : differences);
 }
 
-/// Moves a folder, also to another file system.
+}  // namespace
+
 void move_folder(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::rename(from, to, error);
@@ -48,8 +49,6 @@ void move_folder(const fs::path& from, const fs::path& to) {
   fs::rename(half, to);
   fs::remove_all(from);
 }
-
-}  // namespace
 
 PartState part_state(const fs::path& folder, uint32_t sequence) {
   PartState state;

@@ -23,6 +23,9 @@ struct PartState {
 /// Reads the state of a part from its journal. Throws UserError if the journal is not one of this sequence.
 PartState part_state(const std::filesystem::path& folder, uint32_t sequence);
 
+/// Moves a folder, also to another file system. What is at `to` is whole or not there at any moment.
+void move_folder(const std::filesystem::path& from, const std::filesystem::path& to);
+
 struct Assembly {
   std::filesystem::path folder;    ///< of the data set
   std::filesystem::path journals;  ///< keeps the journal of each sequence, so that more can be added later

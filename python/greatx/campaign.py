@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Opens a campaign: many data sets with one index (docs/campaigns.md)."""
-
 from __future__ import annotations
 
 import csv
@@ -14,7 +13,7 @@ import numpy as np
 
 from .dataset import Dataset, load
 from .errors import DatasetError
-from .samples import Samples
+from .samples import Samples, as_torch
 
 SPLITS = ("train", "validation", "test")
 
@@ -100,14 +99,7 @@ class Campaign:
         transform: Any = None,
     ) -> Any:
         """Returns a torch.utils.data.Dataset of the same. Raises ImportError without torch."""
-        try:
-            from .torch_dataset import TorchDataset
-        except ImportError as error:
-            raise ImportError(
-                f"Campaign.torch needs PyTorch (`pip install torch`): {error}. "
-                "Campaign.samples gives the same as NumPy arrays"
-            ) from error
-        return TorchDataset(self.samples(arrays, split, cells), transform)
+        return as_torch(self.samples(arrays, split, cells), transform, "Campaign")
 
     def __reduce__(self) -> Tuple[Any, Tuple[pathlib.Path]]:
         return Campaign, (self.path,)

@@ -166,14 +166,9 @@ class Dataset:
         those of greatx.samples.Samples; `transform` is applied to each dict. Raises ImportError without
         torch.
         """
-        try:
-            from .torch_dataset import TorchDataset
-        except ImportError as error:
-            raise ImportError(
-                f"Dataset.torch needs PyTorch (`pip install torch`): {error}. "
-                "Dataset.samples gives the same as NumPy arrays"
-            ) from error
-        return TorchDataset(self.samples(arrays, sequences, pad), transform)
+        from .samples import as_torch
+
+        return as_torch(self.samples(arrays, sequences, pad), transform, "Dataset")
 
     def __repr__(self) -> str:
         return (

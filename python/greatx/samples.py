@@ -14,6 +14,20 @@ if TYPE_CHECKING:
     from .dataset import Dataset, Sensor
 
 
+def as_torch(samples: Any, transform: Any, name: str) -> Any:
+    """Returns a torch.utils.data.Dataset of samples. `name` is the class whose method `torch` asks for it.
+    Raises ImportError without torch.
+    """
+    try:
+        from .torch_dataset import TorchDataset
+    except ImportError as error:
+        raise ImportError(
+            f"{name}.torch needs PyTorch (`pip install torch`): {error}. "
+            f"{name}.samples gives the same as NumPy arrays"
+        ) from error
+    return TorchDataset(samples, transform)
+
+
 class Samples:
     """A sequence of dicts of NumPy arrays, one for every tick at which all requested sensors have a record.
 

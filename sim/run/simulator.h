@@ -77,6 +77,8 @@ class Simulator {
   /// Returns whether start() at a later tick runs through the ticks before it, because a sensor remembers.
   bool remembers() const;
   RunStatistics statistics() const;
+  /// Returns RunStatistics::rows so far, without a copy.
+  const std::vector<ConsistencyRow>& consistency_rows() const { return comparer_.rows(); }
   void keep_pass_samples(bool keep) { keep_samples_ = keep; }
   /// Keeps the times of each tick for times(), from the next step() on.
   void keep_tick_times(bool keep) { keep_times_ = keep; }
