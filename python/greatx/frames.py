@@ -5,6 +5,7 @@
 The readers support the variants that data sets hold (docs/dataset.md). They raise DatasetError for all other
 files of these formats.
 """
+
 from __future__ import annotations
 
 import pathlib

@@ -3,6 +3,7 @@
 """Reads dataset.json, which describes the sensors, their arrays, and the outputs that hold them
 (docs/dataset.md).
 """
+
 from __future__ import annotations
 
 import dataclasses
