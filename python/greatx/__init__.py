@@ -6,7 +6,6 @@
 conventions of other tools. `greatx.Simulation` computes scenes, paths and channels. It needs the compiled
 module greatx._native, which is imported when `Simulation` is first used.
 """
-
 from __future__ import annotations
 
 from typing import Any

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Describes antennas that a simulation places, and their orientations."""
-
 from __future__ import annotations
 
 import dataclasses

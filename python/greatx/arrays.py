@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Opens the arrays of a sensor over a sequence: stacks, ragged stacks, and outputs of one file per record."""
-
 from __future__ import annotations
 
 import pathlib

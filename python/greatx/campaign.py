@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Opens a campaign: many data sets with one index (docs/campaigns.md)."""
-
 from __future__ import annotations
 
 import csv

@@ -3,7 +3,6 @@
 """Opens a generated data set by memory maps, and gives access by sequence, by sensor and by tick
 (docs/python.md).
 """
-
 from __future__ import annotations
 
 import os

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Reads the events of an event camera, and makes pictures and tensors of them (docs/events.md)."""
-
 from __future__ import annotations
 
 import dataclasses

@@ -4,7 +4,6 @@
 must not contain a symbolic link, and must lead to plain files. Errors that parsers raise on damaged data
 become a DatasetError that names the file.
 """
-
 from __future__ import annotations
 
 import contextlib

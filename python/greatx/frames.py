@@ -5,7 +5,6 @@
 The readers support the variants that data sets hold (docs/dataset.md). They raise DatasetError for all other
 files of these formats.
 """
-
 from __future__ import annotations
 
 import pathlib

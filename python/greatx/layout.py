@@ -3,7 +3,6 @@
 """Reads dataset.json, which describes the sensors, their arrays, and the outputs that hold them
 (docs/dataset.md).
 """
-
 from __future__ import annotations
 
 import dataclasses

@@ -5,7 +5,6 @@
 The table tells where the packed bytes of each array of each record lie, so that neither h5py nor the HDF5
 library is needed. Both are made for files of known origin.
 """
-
 from __future__ import annotations
 
 import dataclasses

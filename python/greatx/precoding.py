@@ -9,7 +9,6 @@ transmitter sends x = W s, where the columns of W [tx_ant, stream] are precoders
 power of 1 W. A receiver gets y = H x + n. Powers and noise are in watts, gains are ratios of powers, and
 rates are in bit/s/Hz. Everything is computed in complex128.
 """
-
 from __future__ import annotations
 
 from typing import Any, NamedTuple, Optional, Tuple

@@ -3,7 +3,6 @@
 """Guards objects of the engine against use in a forked process. Such objects belong to the process that made
 them, because their threads and their device do not survive fork().
 """
-
 from __future__ import annotations
 
 import os

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Computes scenes, paths and channels by the compiled module (docs/python.md)."""
-
 from __future__ import annotations
 
 import json

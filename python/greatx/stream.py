@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Runs a scenario in memory and gives the records of every sensor as arrays, tick by tick, without files."""
-
 from __future__ import annotations
 
 import json

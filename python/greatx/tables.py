@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Named arrays with units."""
-
 from __future__ import annotations
 
 from typing import Dict, Iterable, Iterator, List, Mapping, Tuple

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """The base class of the ticks of a data set and of a run in memory."""
-
 from __future__ import annotations
 
 from typing import Dict, Iterator, Mapping, TypeVar

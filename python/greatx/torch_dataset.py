@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Implements Dataset.torch. Only that function imports this module, because the module needs torch."""
-
 from __future__ import annotations
 
 from typing import Any, Callable, Dict, Optional

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Tests compressed data sets: the same arrays as uncompressed ones, also by h5py, and damaged files."""
-
 import pickle
 import random
 import signal

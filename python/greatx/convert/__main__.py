@@ -3,7 +3,6 @@
 """The command python3 -m greatx.convert. Its exit codes are those of greatx: 0 for success, 1 for faulty
 input or data.
 """
-
 from __future__ import annotations
 
 import argparse

@@ -8,7 +8,6 @@ independently of the channel's antennas, because DeepMIMO applies arrays and pat
 |a| (dBW for 0 dBW transmitted). phase is the angle of a in degrees at the carrier, for the time convention
 e^{+j omega t}.
 """
-
 from __future__ import annotations
 
 import json

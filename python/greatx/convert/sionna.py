@@ -4,7 +4,6 @@
 arrays; docs/converters.md). Delays are absolute: `cir` and `cfr` equal those of Sionna's methods with
 normalize_delays=False.
 """
-
 from __future__ import annotations
 
 import dataclasses
