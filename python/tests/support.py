@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Makes data sets for the tests by the program that GREATX_PROGRAM names, and one data set by hand."""
-
 import atexit
 import functools
 import json
