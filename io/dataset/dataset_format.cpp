@@ -330,15 +330,15 @@ std::string dataset_json(const DatasetInfo& info) {
   Json sensors = Json::array();
   for (const SensorSpec& sensor : info.sensors) sensors.push_back(to_json(sensor));
   Json json = {{"format", "greatx-dataset"},
-                     {"format_version", format_version},
-                     {"run_key", info.run_key},
-                     {"run", Json::parse(info.run_json)},
-                     {"scenario_sha256", sha256_hex(bytes_of(info.scenario_text))},
-                     {"sequences", info.sequences},
-                     {"ticks_per_sequence", info.ticks_per_sequence},
-                     {"tick_rate_hz", info.tick_rate},
-                     {"index_columns", index_columns},
-                     {"sensors", std::move(sensors)}};
+               {"format_version", format_version},
+               {"run_key", info.run_key},
+               {"run", Json::parse(info.run_json)},
+               {"scenario_sha256", sha256_hex(bytes_of(info.scenario_text))},
+               {"sequences", info.sequences},
+               {"ticks_per_sequence", info.ticks_per_sequence},
+               {"tick_rate_hz", info.tick_rate},
+               {"index_columns", index_columns},
+               {"sensors", std::move(sensors)}};
   if (info.compression != Compression::none) json["compression"] = name_of(info.compression);
   return json.dump(2) + "\n";
 }

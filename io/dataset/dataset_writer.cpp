@@ -483,7 +483,8 @@ void DatasetWriter::State::end_sequence() {
     std::vector<std::vector<FileEntry>> sealed(files_->file_count());
     workers_->for_each(sealed.size(), [&](size_t i) { sealed[i] = files_->seal(i); });
     std::vector<FileEntry> entries;
-    for (const std::vector<FileEntry>& files : sealed) entries.insert(entries.end(), files.begin(), files.end());
+    for (const std::vector<FileEntry>& files : sealed)
+      entries.insert(entries.end(), files.begin(), files.end());
     const std::vector<FileEntry> exports = export_sequence(folder_, info_, next_sequence_);
     entries.insert(entries.end(), exports.begin(), exports.end());
     files_->publish();

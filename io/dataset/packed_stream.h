@@ -46,7 +46,8 @@ class PackedStream {
   static int64_t whole_records(const std::filesystem::path& folder, uint32_t sequence,
                                const SensorSpec& sensor, const OutputSpec& output);
   /// Returns the paths of the two files without ".part", relative to the data set's folder.
-  static std::vector<std::string> paths(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output);
+  static std::vector<std::string> paths(uint32_t sequence, const SensorSpec& sensor,
+                                        const OutputSpec& output);
 
   /// Ends the sequence in three steps: seal() writes and hashes the HDF5 file and its table, publish() gives
   /// them their names, remove() removes the stream.

@@ -60,8 +60,7 @@ std::unique_ptr<EventArrays> events_of(const fs::path& folder, uint32_t sequence
     return std::make_unique<PackedEvents>(open_sealed(folder, sequence, sensor, times), numbers);
   }
   const auto stack = [&](size_t i) {
-    return inside(folder,
-                  stack_path(sequence, sensor, *sequence_output(sensor, output.arrays[i])) + ".part");
+    return inside(folder, stack_path(sequence, sensor, *sequence_output(sensor, output.arrays[i])) + ".part");
   };
   return std::make_unique<NpyEvents>(stack(0), stack(1), stack(2), stack(3));
 }

@@ -178,7 +178,8 @@ std::vector<std::string> SequenceFiles::stack_paths(const DatasetInfo& info, uin
       if (is_stack(output.format)) paths.push_back(stack_path(sequence, sensor, output));
       if (output.format == FileFormat::npy_ragged) paths.push_back(offsets_path(sequence, sensor, output));
       if (!is_packed(output.format)) continue;
-      for (std::string& path : PackedStream::paths(sequence, sensor, output)) paths.push_back(std::move(path));
+      for (std::string& path : PackedStream::paths(sequence, sensor, output))
+        paths.push_back(std::move(path));
     }
   }
   return paths;

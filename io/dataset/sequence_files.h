@@ -22,9 +22,9 @@ class SequenceFiles {
   SequenceFiles(const std::filesystem::path& folder, const DatasetInfo& info, uint32_t sequence,
                 std::vector<int64_t> records_per_sensor);
 
-  /// Appends the record's stacked arrays, and its packed ones, in the order of the outputs. After an exception
-  /// the files may hold part of a record. Throws UserError if another process has deleted or resized a file in
-  /// the meantime.
+  /// Appends the record's stacked arrays, and its packed ones, in the order of the outputs. After an
+  /// exception the files may hold part of a record. Throws UserError if another process has deleted or
+  /// resized a file in the meantime.
   void append(const Record& record, std::span<const PackedRecord> packed);
   int64_t records_of(uint32_t sensor) const { return records_[sensor]; }
 
@@ -37,8 +37,8 @@ class SequenceFiles {
 
   /// Closes the sequence in three steps. seal(i) must be called for i = 0 .. file_count()-1, in any order or
   /// in parallel; it writes the header, hashes the file and closes it, or makes an HDF5 file and its table.
-  /// publish() then renames all files. remove_streams() removes what the HDF5 files were made of; it is called
-  /// when the end of the sequence is in the journal.
+  /// publish() then renames all files. remove_streams() removes what the HDF5 files were made of; it is
+  /// called when the end of the sequence is in the journal.
   size_t file_count() const { return files_.size() + packed_.size(); }
   std::vector<FileEntry> seal(size_t file);
   void publish();
@@ -66,7 +66,7 @@ class SequenceFiles {
   std::vector<std::vector<Slot>> slots_;  ///< per sensor
   std::vector<PackedStream> packed_;
   std::vector<std::vector<size_t>> packed_of_;  ///< per sensor: indices into packed_
-  std::vector<int64_t> records_;          ///< per sensor
+  std::vector<int64_t> records_;                ///< per sensor
 };
 
 }  // namespace greatx::io

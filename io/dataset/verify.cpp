@@ -234,8 +234,8 @@ void Verifier::check_packed(const DatasetReader& reader, uint32_t sequence, size
         const std::string bad =
             find_bad_value(sensor, arrays[a], packed.load(static_cast<int64_t>(record), a));
         if (!bad.empty())
-          throw_user_error("{}: record {}: expected finite values, found {}",
-                           packed.data_path().string(), record, bad);
+          throw_user_error("{}: record {}: expected finite values, found {}", packed.data_path().string(),
+                           record, bad);
       }
     });
   } catch (const UserError& error) {

@@ -11,7 +11,8 @@
 
 namespace greatx::io {
 
-/// Gives the events of a sequence, in order of time, piece by piece: t i64 ns, x u16, y u16, p u8 (1: brighter).
+/// Gives the events of a sequence, in order of time, piece by piece: t i64 ns, x u16, y u16, and p u8, which
+/// is 1 for brighter.
 class EventArrays {
  public:
   struct Piece {

@@ -16,8 +16,8 @@ namespace {
 /// Writes an HDF5 dataset of one axis and known length from front to back.
 class Column {
  public:
-  Column(const Hdf5Handle& file, const std::filesystem::path& path, const char* name, hid_t stored, hid_t given,
-         uint64_t rows)
+  Column(const Hdf5Handle& file, const std::filesystem::path& path, const char* name, hid_t stored,
+         hid_t given, uint64_t rows)
       : path_(path), given_(given), properties_(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path) {
     H5Pset_obj_track_times(properties_.id(), 0);  // the bytes must not depend on the time of day
     const hsize_t extent = rows;
@@ -56,7 +56,7 @@ void write_hdf5_events(const std::filesystem::path& path, const EventArrays& eve
   std::vector<uint64_t> ms_to_idx;
   {
     const Hdf5Handle group(H5Gcreate2(file.id(), "/events", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-                       path);
+                           path);
     const auto rows = static_cast<uint64_t>(events.size());
     Column t(file, path, "/events/t", H5T_STD_U32LE, H5T_NATIVE_UINT32, rows),
         x(file, path, "/events/x", H5T_STD_U16LE, H5T_NATIVE_UINT16, rows),
@@ -86,8 +86,8 @@ void write_hdf5_events(const std::filesystem::path& path, const EventArrays& eve
         properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path);
     H5Pset_obj_track_times(properties.id(), 0);
     const Hdf5Handle offset(H5Dcreate2(file.id(), "/t_offset", H5T_STD_I64LE, scalar.id(), H5P_DEFAULT,
-                                   properties.id(), H5P_DEFAULT),
-                        H5Dclose, path);
+                                       properties.id(), H5P_DEFAULT),
+                            H5Dclose, path);
     constexpr int64_t zero = 0;
     if (H5Dwrite(offset.id(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &zero) < 0)
       throw WriteError(path, EIO);

@@ -84,8 +84,7 @@ class RecordsWriter {
   void write_first(const PackedColumn& column, const std::vector<int64_t>& values) {
     const std::string name = column.name.substr(0, column.name.rfind('_')) + "_first";
     const hsize_t extent = values.size();
-    const Hdf5Handle dataset =
-        create_dataset(file_.id(), name, column, PackedType::i64, {extent}, nullptr);
+    const Hdf5Handle dataset = create_dataset(file_.id(), name, column, PackedType::i64, {extent}, nullptr);
     if (!values.empty())
       check(H5Dwrite(dataset.id(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
   }

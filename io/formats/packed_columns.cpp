@@ -167,12 +167,18 @@ std::vector<PackedColumn> packed_columns(std::span<const ArraySpec> arrays) {
     if (is_cloud_array(array)) {
       for (int c = 0; c < 4; ++c) {
         const Coding coding = c < 3 && array.step > 0.0 ? Coding::multiples : Coding::plain;
-        columns.push_back({array.name + "/" + components[c], i, c, coding, array.dtype, {-1},
-                           coding == Coding::multiples ? array.step : 0.0, c < 3 ? array.unit : "1"});
+        columns.push_back({array.name + "/" + components[c],
+                           i,
+                           c,
+                           coding,
+                           array.dtype,
+                           {-1},
+                           coding == Coding::multiples ? array.step : 0.0,
+                           c < 3 ? array.unit : "1"});
       }
     } else if (array.dtype == DType::i64 && array.shape == std::vector<int64_t>{-1}) {
-      columns.push_back({array.name + "_steps", i, -1, Coding::steps, array.dtype, array.shape, 0.0,
-                         array.unit});
+      columns.push_back(
+          {array.name + "_steps", i, -1, Coding::steps, array.dtype, array.shape, 0.0, array.unit});
     } else {
       columns.push_back({array.name, i, -1, Coding::plain, array.dtype, array.shape, 0.0, array.unit});
     }
@@ -189,7 +195,8 @@ std::string fault_of_packed(std::span<const ArraySpec> arrays) {
     for (const int64_t extent : array.shape)
       if (extent >= 0) bytes *= static_cast<uint64_t>(extent);  // at most largest_array
     if (bytes == 0 || bytes > most_column_bytes)
-      return fmt::format("{}: expected rows of 1 to {} bytes, found {}", array.name, most_column_bytes, bytes);
+      return fmt::format("{}: expected rows of 1 to {} bytes, found {}", array.name, most_column_bytes,
+                         bytes);
   }
   std::set<std::string> names;
   for (const PackedColumn& column : packed_columns(arrays)) {

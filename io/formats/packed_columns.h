@@ -23,9 +23,9 @@ struct PackedColumn {
     steps,      ///< differences from the value before; the first value is kept apart
     multiples,  ///< values over `step`, which are integers
   };
-  std::string name;      ///< path in the HDF5 file: "range_doppler", "t_steps", "points/x"
-  size_t array = 0;      ///< index of the array among those of the output
-  int component = -1;    ///< 0 to 3: its place in the rows of an array [-1, 4]; -1: the whole array
+  std::string name;    ///< path in the HDF5 file: "range_doppler", "t_steps", "points/x"
+  size_t array = 0;    ///< index of the array among those of the output
+  int component = -1;  ///< 0 to 3: its place in the rows of an array [-1, 4]; -1: the whole array
   Coding coding = Coding::plain;
   DType dtype = DType::f32;
   std::vector<int64_t> shape;  ///< of one record; a first axis of -1 varies
@@ -66,12 +66,12 @@ std::vector<PackedColumn> packed_columns(std::span<const ArraySpec> arrays);
 /// Appends the packed column of a record's array to `out`; the offset of the place is that in `out`. `level`
 /// is libdeflate's, 1 to 12. Throws UserError if the column has 4 GiB or more, which HDF5 does not allow.
 PackedPlace pack_column(const PackedColumn& column, const Array& array, int level, Bytes& out);
-/// Throws UserError, which begins with `name`, if a column cannot have such a place in a file of `file_bytes`.
-/// Must be called before memory is allocated for the column.
+/// Throws UserError, which begins with `name`, if a column cannot have such a place in a file of
+/// `file_bytes`. Must be called before memory is allocated for the column.
 void check_place(const PackedColumn& column, const PackedPlace& place, uint64_t file_bytes,
                  const std::string& name);
-/// Unpacks a column whose place is good, to the type and shape that it declares. Throws UserError if the bytes
-/// are not what the place says.
+/// Unpacks a column whose place is good, to the type and shape that it declares. Throws UserError if the
+/// bytes are not what the place says.
 Array unpack_column(const PackedColumn& column, const PackedPlace& place, std::span<const std::byte> packed,
                     const std::string& name);
 

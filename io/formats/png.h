@@ -12,7 +12,7 @@
 namespace greatx::io {
 
 enum class PngCoding {
-  fast,   ///< for every frame of a run: filters Sub and Up, runs and Huffman codes
+  fast,  ///< for every frame of a run: filters Sub and Up, runs and Huffman codes
   /// For every frame of a run whose data set is to be small: the same filters, libdeflate. Files are 11 %
   /// smaller than those of `fast` and take six times as long.
   matched,

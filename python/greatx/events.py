@@ -33,7 +33,8 @@ class Events:
     @classmethod
     def of(cls, sensor: "Sensor", first: int, last: int) -> "Events":
         """Returns the events of the records first to last - 1 of an event camera, as views of its files if
-        these can be memory-mapped. Raises DatasetError if the sensor is no event camera or its arrays are not valid.
+        these can be memory-mapped. Raises DatasetError if the sensor is no event camera or its arrays are not
+        valid.
         """
         if sensor.kind != "event_camera" or "t" not in sensor.arrays:
             raise DatasetError(f"{sensor.name}: is no event camera with events, but {sensor.kind}")

@@ -51,8 +51,8 @@ dvec3 pixel_ray(const render::CameraDesc& camera, double column, double row) {
 namespace {
 
 /// Returns how much rounding by `error_m` can change the relative difference in depth of a point in the plane
-/// around a pixel. In the camera's frame, points p of the plane have n p = 1, and 1/z of the pixel that sees p
-/// is n p / z. A point p + e therefore differs by |n e / (1 + n e)|.
+/// around a pixel. In the camera's frame, points p of the plane have n p = 1, and 1/z of the pixel that sees
+/// p is n p / z. A point p + e therefore differs by |n e / (1 + n e)|.
 double rounding_bound(const render::CameraDesc& camera, const InverseDepthPlane& plane, double column,
                       double row, double error_m) {
   const dvec3 n(plane.at(camera.cx - column, camera.cy - row), -camera.fx * plane.per_column,

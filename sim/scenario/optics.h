@@ -94,7 +94,7 @@ struct CameraConfig : PinholeConfig {
   bool rgb = true, depth = true, ids = true;
   bool listed = false;    ///< whether the scenario lists the outputs; otherwise they are the default ones
   bool depth_exr = true;  ///< `depth` as EXR; otherwise as an array of NumPy or HDF5
-  bool hdr = false;  ///< the linear radiance as EXR
+  bool hdr = false;       ///< the linear radiance as EXR
   bool depth_png24 = true, depth_log = false;
   bool depth_ray = false;  ///< distance along the ray
   bool normals = false, flow = false, boxes = false;

@@ -242,7 +242,7 @@ struct Scenario {
   std::map<std::string, Switch> effects;  ///< by the names in sim/plan/effect_list.h
   double tolerance_db = 0.01;             ///< an effect that cannot change more stays off
   StorageConfig storage;
-  AccuracyWish accuracy;                  ///< asks `greatx generate` to choose settings (sim/tradeoff)
+  AccuracyWish accuracy;  ///< asks `greatx generate` to choose settings (sim/tradeoff)
 };
 
 /// Holds the indices of a sensor called "node/sensor".

@@ -195,10 +195,8 @@ TEST_F(CompressionCli, RoundedPointsKeepTheirBound) {
   const Outcome verified = greatx("verify '" + path("packed") + "'");
   EXPECT_EQ(verified.code, 0) << verified.out << verified.err;
   EXPECT_THAT(verified.out, HasSubstr("lidar_vs_depth: recomputed"));
-  const nlohmann::json run =
-      nlohmann::json::parse(greatx(fmt::format("generate '{}' -o '{}' --json {}", path("rig.yaml"),
-                                               path("again"), rounded))
-                                .out);
+  const nlohmann::json run = nlohmann::json::parse(
+      greatx(fmt::format("generate '{}' -o '{}' --json {}", path("rig.yaml"), path("again"), rounded)).out);
   const nlohmann::json& figure = run.at("consistency").at("lidar_vs_depth");
   EXPECT_GT(figure.at("compared"), 100);
   EXPECT_LT(figure.at("max_relative_error"), 1e-5);

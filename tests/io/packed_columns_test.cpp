@@ -49,8 +49,8 @@ PackedPlace expect_times(const std::vector<int64_t>& times) {
 
 TEST(PackedColumns, EveryTypeComesBack) {
   RandomStream random(3, 0, 0);
-  for (const DType dtype : {DType::u8, DType::u16, DType::u32, DType::u64, DType::i8, DType::i32, DType::f32,
-                            DType::f64}) {
+  for (const DType dtype :
+       {DType::u8, DType::u16, DType::u32, DType::u64, DType::i8, DType::i32, DType::f32, DType::f64}) {
     for (const std::vector<int64_t>& shape : {std::vector<int64_t>{-1}, {-1, 3}, {5, 7}, {1}, {}}) {
       std::vector<int64_t> found = shape;
       if (!shape.empty() && shape[0] < 0) found[0] = 41;
@@ -63,8 +63,9 @@ TEST(PackedColumns, EveryTypeComesBack) {
 
 TEST(PackedColumns, EmptyRecordsTakeNoBytes) {
   EXPECT_EQ(expect_times({}).bytes, 0);
-  EXPECT_EQ(expect_round_trip(only_column({"a", DType::f32, {-1, 3}, "1", ""}), Array(DType::f32, {0, 3})).bytes,
-            0);
+  EXPECT_EQ(
+      expect_round_trip(only_column({"a", DType::f32, {-1, 3}, "1", ""}), Array(DType::f32, {0, 3})).bytes,
+      0);
 }
 
 TEST(PackedColumns, StepsTakeTheSmallestType) {
@@ -163,8 +164,8 @@ TEST(PackedColumns, PlacesThatLieAreRefused) {
 TEST(PackedColumns, AFileOfRecordsIsReadByItsTable) {
   const test::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "a.h5", table = folder.path() / "a.npy";
-  const std::vector<PackedColumn> columns =
-      packed_columns(std::vector<ArraySpec>{{"t", DType::i64, {-1}, "ns", ""}, {"m", DType::f32, {3}, "W", ""}});
+  const std::vector<PackedColumn> columns = packed_columns(
+      std::vector<ArraySpec>{{"t", DType::i64, {-1}, "ns", ""}, {"m", DType::f32, {3}, "W", ""}});
   const auto write = [&](int64_t records) {
     Bytes stream;
     std::vector<PackedPlace> places;
@@ -176,8 +177,8 @@ TEST(PackedColumns, AFileOfRecordsIsReadByItsTable) {
     }
     std::filesystem::remove(file);
     write_hdf5_records(file, columns, places, [&](const PackedPlace& place) {
-      const auto part = std::span(stream).subspan(static_cast<size_t>(place.offset),
-                                                  static_cast<size_t>(place.bytes));
+      const auto part =
+          std::span(stream).subspan(static_cast<size_t>(place.offset), static_cast<size_t>(place.bytes));
       return Bytes(part.begin(), part.end());
     });
     write_file_atomically(table, places_npy(columns.size(), places));

@@ -174,7 +174,8 @@ TEST_F(Verify, NanInAStackAFrameAndACloud) {
 }
 
 TEST_F(Verify, PackedRecordsWhosePlacesLie) {
-  const std::string table = "sequence_0000/uav/packed/records.npy", data = "sequence_0000/uav/packed/records.h5";
+  const std::string table = "sequence_0000/uav/packed/records.npy",
+                    data = "sequence_0000/uav/packed/records.h5";
   const Array good = NpyFile(folder() / table).read();
   const int64_t columns = good.shape[1];
   const auto problems_with = [&](int64_t column, size_t number, int64_t value) {
@@ -186,7 +187,8 @@ TEST_F(Verify, PackedRecordsWhosePlacesLie) {
   };
   const std::string place = "records.npy: record 2: ";
   EXPECT_THAT(problems_with(0, 0, -1), HasSubstr(place + "t_steps: expected packed bytes within the"));
-  EXPECT_THAT(problems_with(0, 1, int64_t{1} << 62), HasSubstr(place + "t_steps: expected packed bytes within"));
+  EXPECT_THAT(problems_with(0, 1, int64_t{1} << 62),
+              HasSubstr(place + "t_steps: expected packed bytes within"));
   EXPECT_THAT(problems_with(1, 2, int64_t{1} << 31), HasSubstr(place + "x: expected"));
   EXPECT_THAT(problems_with(3, 3, 3), HasSubstr(place + "p: expected a type that the column may have"));
   EXPECT_THAT(problems_with(8, 2, 2), HasSubstr(place + "map: expected 1 row, found 2"));
