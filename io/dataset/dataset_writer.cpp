@@ -52,7 +52,8 @@ Bytes encode_frame(const SensorSpec& sensor, const OutputSpec& output, const std
     case FileFormat::npy_frame:
       return encode_npy(first);
     case FileFormat::png:
-      return encode_png(first, small ? PngCoding::matched : PngCoding::fast);
+      // Pictures of ids are smaller by runs alone.
+      return encode_png(first, small && first.shape.size() == 3 ? PngCoding::matched : PngCoding::fast);
     case FileFormat::png_depth24:
       return encode_png_depth24(first);
     case FileFormat::exr:

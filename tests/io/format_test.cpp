@@ -156,6 +156,10 @@ TEST(Png, SmallInexactDropsAsFewBitsAsItTakes) {
 }
 
 TEST(Png, SmallTakesRgbAlone) {
+  for (const std::vector<int64_t>& shape : {std::vector<int64_t>{40, 30, 3}, {40, 30}}) {
+    const Array picture = test_picture<uint8_t>(shape);
+    EXPECT_EQ(decode_png(encode_png(picture, PngCoding::matched), "x.png").bytes, picture.bytes);
+  }
   EXPECT_THROW(encode_png(test_picture<uint8_t>({4, 4}), PngCoding::small), ContractError);
   EXPECT_THROW(encode_png(test_picture<uint16_t>({4, 4}), PngCoding::small), ContractError);
 }
