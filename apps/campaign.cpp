@@ -78,7 +78,7 @@ void plan(const Options& options) {
                       "cells");
     for (const sim::CampaignCell& cell : open.cells) {
       const TerminalWatch watch(true);
-      costs.push_back(measure_cell(cell, device, options.measured_ticks));
+      costs.push_back(measure_cell(cell.scenario, device, options.measured_ticks));
       progress.update(static_cast<int64_t>(costs.size()));
       if (interrupted()) throw Interrupted("the plan was interrupted");
     }

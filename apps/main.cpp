@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   apps::add_view(app);
   apps::add_inspect(app);
   apps::add_verify(app);
+  apps::add_check(app);
   apps::add_campaign(app);
   apps::add_scene(app);
   apps::add_explain(app);
