@@ -42,8 +42,8 @@ class Checker {
   CheckedScenario check(const std::string& name, const sim::Scenario& scenario) {
     const bool quiet = options_.quiet || options_.json;
     const TerminalWatch watch(quiet);
-    const sim::Experiment experiment = experiment_ ? sim::make_experiment(scenario, *experiment_)
-                                                   : sim::make_experiment(scenario);
+    const sim::Experiment experiment =
+        experiment_ ? sim::make_experiment(scenario, *experiment_) : sim::make_experiment(scenario);
     CheckedScenario checked{name, sim::check_scene(experiment.scene()), {}, {}};
     const auto add = [&](std::vector<sim::Finding> more) {
       checked.findings.insert(checked.findings.end(), more.begin(), more.end());
@@ -108,10 +108,11 @@ void check_scenario(const CheckOptions& options) {
     json["start_s"] = cost->start_s, json["tick_s"] = cost->tick_s, json["tick_bytes"] = cost->tick_bytes;
     json["hours"] = seconds / 3600.0, json["gigabytes"] = gigabytes;
     if (!options.quiet)
-      text += fmt::format("  {} sequences of {} ticks: {:.3g} GB and {:.3g} hours ({:.3g} MB and {:.3g} s a "
-                          "tick, {:.2g} s to start)\n",
-                          scenario.sequences, scenario.ticks, gigabytes, seconds / 3600.0,
-                          1e-6 * cost->tick_bytes, cost->tick_s, cost->start_s);
+      text += fmt::format(
+          "  {} sequences of {} ticks: {:.3g} GB and {:.3g} hours ({:.3g} MB and {:.3g} s a "
+          "tick, {:.2g} s to start)\n",
+          scenario.sequences, scenario.ticks, gigabytes, seconds / 3600.0, 1e-6 * cost->tick_bytes,
+          cost->tick_s, cost->start_s);
   }
   checker.check_messages();
   finish(options, std::move(json), text, faults_of(checked), scenario.name);
@@ -120,10 +121,10 @@ void check_scenario(const CheckOptions& options) {
 void check_campaign(const CheckOptions& options) {
   if (options.scenario.seed || options.scenario.ticks || options.scenario.sequences ||
       !options.scenario.set.empty())
-    throw_user_error("{}: --seed, --ticks, --sequences and --set change a scenario; expected a campaign alone",
-                     options.scenario.scenario);
-  const OpenCampaign open =
-      open_campaign({options.scenario.scenario, "", options.scenario.assets, {}});
+    throw_user_error(
+        "{}: --seed, --ticks, --sequences and --set change a scenario; expected a campaign alone",
+        options.scenario.scenario);
+  const OpenCampaign open = open_campaign({options.scenario.scenario, "", options.scenario.assets, {}});
   Checker checker(options);
   nlohmann::json json{{"campaign", open.campaign.name}, {"cells", nlohmann::json::array()}};
   std::string text;

@@ -96,7 +96,8 @@ bool is_campaign(const std::string& file) {
     const std::optional<std::string> text = embedded_text(file);
     return text && says_so(*text);
   }
-  return says_so(InputFile(file, fmt::format("{}: expected a scenario or a campaign", file), budget::yaml_file).text());
+  return says_so(
+      InputFile(file, fmt::format("{}: expected a scenario or a campaign", file), budget::yaml_file).text());
 }
 
 OpenCampaign open_campaign(const CampaignOptions& options) {

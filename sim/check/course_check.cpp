@@ -199,8 +199,7 @@ std::vector<Finding> check_courses(const Experiment& experiment, CourseFigures& 
     const uint32_t count = std::min(together, scenario.sequences - first);
     std::vector<SequenceResult> results(count);
     parallel_for(count, 0, [&](size_t i) {
-      results[i] =
-          SequenceCheck(experiment, points, views, first + static_cast<uint32_t>(i)).run();
+      results[i] = SequenceCheck(experiment, points, views, first + static_cast<uint32_t>(i)).run();
     });
     for (SequenceResult& result : results) {
       if (sum)
@@ -229,8 +228,9 @@ std::vector<Finding> check_courses(const Experiment& experiment, CourseFigures& 
     node.name = scenario.nodes[n].name;
     const double plausible = plausible_speed(scenario.nodes[n]);
     if (node.most_speed > plausible)
-      findings.push_back({Severity::doubt, "speed", node.name,
-                          fmt::format("moves at {:.4g} m/s, more than {:g} m/s", node.most_speed, plausible)});
+      findings.push_back(
+          {Severity::doubt, "speed", node.name,
+           fmt::format("moves at {:.4g} m/s, more than {:g} m/s", node.most_speed, plausible)});
     if (node.most_speed > 0.0) figures.nodes.push_back(node);
   }
   for (ViewFigures& view : sum->views) {

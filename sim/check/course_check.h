@@ -27,8 +27,8 @@ struct NodeFigures {
 struct ViewFigures {
   std::string name;
   uint64_t moments = 0;
-  double sky = 0.0, ground = 0.0;                ///< means, 0 to 1
-  uint64_t only_sky = 0, only_ground = 0;        ///< moments at which there is nothing else
+  double sky = 0.0, ground = 0.0;          ///< means, 0 to 1
+  uint64_t only_sky = 0, only_ground = 0;  ///< moments at which there is nothing else
 };
 
 struct CourseFigures {

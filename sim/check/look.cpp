@@ -47,7 +47,8 @@ class Looker : public RecordSink {
       black += most < 3;
     }
     const auto pixels = static_cast<double>(values.size() / 3);
-    const double of_white = static_cast<double>(white) / pixels, of_black = static_cast<double>(black) / pixels;
+    const double of_white = static_cast<double>(white) / pixels,
+                 of_black = static_cast<double>(black) / pixels;
     ++found->moments;
     found->white += of_white, found->black += of_black;
     found->all_white += of_white > 0.95, found->all_black += of_black > 0.95;
@@ -55,8 +56,9 @@ class Looker : public RecordSink {
 
   void count(const SensorSpec& spec, const Record& record, const Array& counts) {
     const auto sight = std::ranges::find(spec.arrays, "line_of_sight", &ArraySpec::name);
-    const Array* direct =
-        sight == spec.arrays.end() ? nullptr : &record.arrays[static_cast<size_t>(sight - spec.arrays.begin())];
+    const Array* direct = sight == spec.arrays.end()
+                              ? nullptr
+                              : &record.arrays[static_cast<size_t>(sight - spec.arrays.begin())];
     size_t link = 0;
     for (LinkFigures& figures : figures_.links) {
       if (figures.channel != spec.name) continue;
@@ -92,10 +94,10 @@ Scenario without_event_cameras(Scenario scenario) {
 void find_links(const std::vector<LinkFigures>& links, std::vector<Finding>& findings) {
   for (const LinkFigures& link : links)
     if (link.without_path > 0)
-      findings.push_back(
-          {link.without_path == link.moments ? Severity::fault : Severity::doubt, "no_path", link.channel,
-           fmt::format("has no path from {} to {} at {} of {} moments", link.transmitter, link.receiver,
-                       link.without_path, link.moments)});
+      findings.push_back({link.without_path == link.moments ? Severity::fault : Severity::doubt, "no_path",
+                          link.channel,
+                          fmt::format("has no path from {} to {} at {} of {} moments", link.transmitter,
+                                      link.receiver, link.without_path, link.moments)});
 }
 
 void find_pictures(std::vector<PictureFigures>& pictures, std::vector<Finding>& findings) {
@@ -116,8 +118,7 @@ void find_pictures(std::vector<PictureFigures>& pictures, std::vector<Finding>& 
 std::vector<Finding> look(const Experiment& experiment, gpu::Device& device, uint32_t moments,
                           LookFigures& figures, const std::function<void(uint32_t)>& moment_done) {
   const Scenario& scenario = experiment.scenario;
-  const Experiment seen =
-      make_experiment(without_event_cameras(scenario), experiment.world);
+  const Experiment seen = make_experiment(without_event_cameras(scenario), experiment.world);
   std::vector<Finding> findings;
   Simulator simulator(device, seen);
   Looker looker(seen.scenario, simulator.sensors(), figures);

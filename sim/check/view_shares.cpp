@@ -18,8 +18,8 @@ std::vector<dvec3> directions_of(const PinholeConfig& picture) {
   for (uint32_t row = 0; row < rows; ++row)
     for (uint32_t column = 0; column < columns; ++column) {
       const double x = (column + 0.5) / columns * picture.width, y = (row + 0.5) / rows * picture.height;
-      directions.push_back(glm::normalize(
-          dvec3(1.0, -(x - picture.cx) / picture.fx, -(y - picture.cy) / picture.fy)));
+      directions.push_back(
+          glm::normalize(dvec3(1.0, -(x - picture.cx) / picture.fx, -(y - picture.cy) / picture.fy)));
     }
   return directions;
 }
