@@ -39,6 +39,7 @@ struct Options {
   std::vector<std::string> from;
   uint32_t threads = 0, jobs = 1;
   int64_t measured_ticks = 4;
+  uint64_t sampled = 2000;
   std::vector<uint32_t> cores{32, 320};
 };
 
@@ -78,7 +79,7 @@ void plan(const Options& options) {
                       "cells");
     for (const sim::CampaignCell& cell : open.cells) {
       const TerminalWatch watch(true);
-      costs.push_back(measure_cell(cell, device, options.measured_ticks));
+      costs.push_back(measure_cell(cell.scenario, device, options.measured_ticks));
       progress.update(static_cast<int64_t>(costs.size()));
       if (interrupted()) throw Interrupted("the plan was interrupted");
     }
@@ -113,14 +114,19 @@ CampaignRun run_jobs(const OpenCampaign& open, const Shard& shard, const Options
   const uint32_t threads = options.threads > 0
                                ? options.threads
                                : std::max(1u, std::thread::hardware_concurrency() / options.jobs);
-  in_processes(
-      options.jobs,
-      [&](uint32_t job) {
-        gpu::Device device(options.run.device_options());
-        run_units(open, units_of(pending, {job + 1, options.jobs}), device, threads, true);
-        check_validation(device);
-      },
-      [&] { progress.update(static_cast<int64_t>(complete())); });
+  try {
+    in_processes(
+        options.jobs,
+        [&](uint32_t job) {
+          gpu::Device device(options.run.device_options());
+          if (!run_units(open, units_of(pending, {job + 1, options.jobs}), device, threads, true).complete)
+            throw Interrupted("a job was interrupted");
+          check_validation(device);
+        },
+        [&] { progress.update(static_cast<int64_t>(complete())); });
+  } catch (const Interrupted&) {
+    run.complete = false;
+  }
   run.done = complete() - run.skipped;
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return run;
@@ -131,12 +137,12 @@ void run(const Options& options) {
   const OpenCampaign open = open_campaign(options.campaign);
   claim_folder(open);
   install_interrupt_handler();
+  const std::vector<CampaignUnit> all = open.units();
   CampaignRun run;
   if (options.jobs > 1) {
     run = run_jobs(open, shard, options);
   } else {
     gpu::Device device(options.run.device_options());
-    const std::vector<CampaignUnit> all = open.units();
     run = run_units(open, units_of(all, shard), device, options.threads, options.quiet || options.json);
     check_validation(device);
   }
@@ -144,9 +150,14 @@ void run(const Options& options) {
         {{"output", options.campaign.output},
          {"done", run.done},
          {"complete_before", run.skipped},
+         {"complete", run.complete},
+         {"warnings", run.warnings},
          {"seconds", run.seconds}},
         fmt::format("{}: {} sequences made in {:.1f} s, {} were complete before\n", options.campaign.output,
                     run.done, run.seconds, run.skipped));
+  if (!run.complete)
+    throw Interrupted(fmt::format("{}: {} of {} sequences are complete; the same command goes on",
+                                  open.folder.string(), run.done + run.skipped, units_of(all, shard).size()));
 }
 
 void status(const Options& options) {
@@ -203,7 +214,7 @@ void merge(const Options& options) {
 
 void stats(const Options& options) {
   const OpenCampaign open = open_campaign(options.campaign);
-  const CampaignStats stats = campaign_stats(open);
+  const CampaignStats stats = campaign_stats(open, options.sampled, options.quiet || options.json);
   const std::string table = write_stats(open, stats);
   print(options, stats.json,
         table + fmt::format("{}: wrote stats.json, stats.png, card.md and croissant.json\n",
@@ -281,7 +292,13 @@ void add_campaign(CLI::App& app) {
       add("merge", "put the data set of each cell together, and write the index and the splits", merge);
   of_merge->add_option("--from", merged->from,
                        "folders of other shards, whose sequences are moved here first");
-  add("stats", "histograms, a data card and Croissant metadata of a merged campaign", stats);
+  const auto [of_stats, told] =
+      add("stats", "histograms, a data card and Croissant metadata of a merged campaign", stats);
+  of_stats
+      ->add_option("--sample", told->sampled,
+                   "records of cameras, and of LiDARs, that are looked at for classes; 0: none")
+      ->capture_default_str()
+      ->check(integer_of(0, 1'000'000'000));
   add("verify", "check every data set as `greatx verify` does", verify);
 }
 

@@ -12,6 +12,8 @@ namespace greatx::apps {
 void add_info(CLI::App& app);
 void add_generate(CLI::App& app);
 void add_campaign(CLI::App& app);
+void add_cache(CLI::App& app);
+void add_check(CLI::App& app);
 void add_inspect(CLI::App& app);
 void add_verify(CLI::App& app);
 void add_scene(CLI::App& app);

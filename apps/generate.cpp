@@ -12,6 +12,7 @@
 #include "apps/console/command_line.h"
 #include "apps/console/json_text.h"
 #include "apps/console/progress.h"
+#include "apps/console/run_record.h"
 #include "apps/console/session.h"
 #include "apps/console/summary.h"
 #include "apps/console/watch.h"
@@ -96,6 +97,13 @@ void run_generate(const GenerateOptions& options) {
       std::cout << options.output << ": complete already, nothing to do\n";
     return;
   }
+  RunRecord record;
+  record.set_device(device);
+  record.set("assets_folder", assets_folder(options.scenario));
+  record.set("begins_at",
+             {{"sequence", writer.resume_position().sequence}, {"tick", writer.resume_position().next_tick}});
+  const std::filesystem::path record_file = std::filesystem::path(options.output) / io::run_file;
+  record.write_to(record_file);
   if (!calibration.is_null()) io::write_file_atomically(calibration_file, json_text(calibration));
   install_interrupt_handler();
   double first_packet_s = 0.0;
@@ -118,6 +126,9 @@ void run_generate(const GenerateOptions& options) {
                               consistency_csv(statistics.rows));
 
   for (const std::string& warning : statistics.warnings) spdlog::warn("{}", warning);  // even with --quiet
+  record.set("ticks", statistics.ticks);
+  record.end(complete, statistics.warnings);
+  record.write_to(record_file);
   nlohmann::json summary = summary_of(statistics, device, seconds_since(begin));
   summary["first_packet_seconds"] = first_packet_s;
   summary["output"] = options.output;

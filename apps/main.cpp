@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <greatx_commit.h>
 #include <iostream>
 #include <new>
 
@@ -13,9 +14,11 @@
 #include "apps/commands.h"
 #include "apps/console/command_line.h"
 #include "apps/console/exit_code.h"
+#include "apps/console/run_record.h"
 #include "apps/console/terminal.h"
 #include "core/activity.h"
 #include "core/error.h"
+#include "core/version.h"
 #include "gpu/vulkan.h"
 #include "io/files/file.h"
 
@@ -36,13 +39,15 @@ int main(int argc, char** argv) {
   using namespace greatx;
   io::ignore_file_size_signal();  // so that a write beyond the shell's file size limit returns an error
   set_up_logging();
+  set_commit(GREATX_COMMIT);
+  apps::set_command_line(argc, argv);
   watch_memory();
   const apps::SafeStream safe_out(std::cout), safe_err(std::cerr);
   CLI::App app{
       "greatx simulates sensing and communication in one scene on one clock: RGB, depth, ids, LiDAR and "
       "channel state "
       "information, aligned to the tick and the pixel."};
-  app.set_version_flag("--version", "greatx " GREATX_VERSION);
+  app.set_version_flag("--version", "greatx " GREATX_VERSION " (" GREATX_COMMIT ")");
   app.require_subcommand(1);
   app.footer(
       "greatx COMMAND --help tells more. Exit codes: 0 success, 1 faulty input or data, 2 device or "
@@ -52,12 +57,14 @@ int main(int argc, char** argv) {
   apps::add_view(app);
   apps::add_inspect(app);
   apps::add_verify(app);
+  apps::add_check(app);
   apps::add_campaign(app);
   apps::add_scene(app);
   apps::add_explain(app);
   apps::add_paths(app);
   apps::add_map(app);
   apps::add_rcs(app);
+  apps::add_cache(app);
   apps::add_tradeoff(app);
   apps::add_calibrate(app);
   apps::add_bench(app);

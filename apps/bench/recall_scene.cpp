@@ -74,7 +74,8 @@ sim::Scenario frozen_for_recall(sim::Scenario scenario, const RecallPaths& sough
   channel.limits.max_diffractions = std::max(1u, sought.edges);
   channel.limits.two_edge_floor_db = 1000.0;  // the reference has no floor
   channel.search = sim::ChannelConfig::Search::automatic;
-  const auto paths = sim::make_node_courses(scenario, 0);
+  const sim::World world = sim::load_world(scenario);
+  const auto paths = sim::make_courses(scenario, world, 0).nodes;
   for (size_t i = 0; i < scenario.nodes.size(); ++i) {
     sim::NodeConfig& node = scenario.nodes[i];
     node.parts.clear();

@@ -32,6 +32,24 @@ std::string table_of(const CampaignStats& stats) {
   return text;
 }
 
+/// Returns a table of the classes that a kind of sensor sees.
+std::string classes_of(const CampaignStats& stats) {
+  std::string text;
+  for (const ClassBalance& balance : stats.balances) {
+    text += fmt::format("\n## Classes of the {}\n\n| class |",
+                        balance.kind == "camera" ? "pixels" : "LiDAR's returns");
+    for (const char* split : sim::split_names) text += fmt::format(" {} |", split);
+    text += "\n|---|---|---|---|\n";
+    for (size_t c = 0; c < balance.classes.size(); ++c) {
+      text += fmt::format("| {} |", balance.classes[c]);
+      for (const auto& shares : balance.shares)
+        text += shares.empty() ? " |" : fmt::format(" {:.2f} % |", 100.0 * shares[c]);
+      text += '\n';
+    }
+  }
+  return text;
+}
+
 std::string splits_of(const nlohmann::json& json) {
   const nlohmann::json none = nlohmann::json::object();
   const nlohmann::json &counts = json.contains("sequences") ? json["sequences"] : none,
@@ -68,7 +86,7 @@ std::string data_card(const OpenCampaign& open, const CampaignStats& stats) {
   text += fmt::format(
       "\nPoses of a sensor that are in more than one split: {:.0f} (sensors at rest count, too).\n",
       stats.json["poses_in_two_splits"].get<double>());
-  text += "\n## Figures\n\n![histograms](stats.png)\n\n" + table_of(stats);
+  text += "\n## Figures\n\n![histograms](stats.png)\n\n" + table_of(stats) + classes_of(stats);
   text +=
       "\n## Files\n\n`data/CELL/` are data sets, `index.sqlite` and `index.csv` list every record, "
       "`splits.csv` "

@@ -54,9 +54,9 @@ struct Sum {
 
 }  // namespace
 
-CellCost measure_cell(const sim::CampaignCell& cell, gpu::Device& device, int64_t ticks) {
+CellCost measure_cell(const sim::Scenario& scenario, gpu::Device& device, int64_t ticks) {
   const Clock::time_point begin = Clock::now();
-  const sim::Experiment experiment = sim::make_experiment(cell.scenario);
+  const sim::Experiment experiment = sim::make_experiment(scenario);
   sim::Simulator simulator(device, experiment);
   const MeasuredFolder folder;
   CellCost cost;

@@ -22,8 +22,8 @@ struct CellCost {
   double tick_bytes = 0.0;
 };
 
-/// Runs `ticks` ticks of a cell into a folder that is removed afterwards.
-CellCost measure_cell(const sim::CampaignCell& cell, gpu::Device& device, int64_t ticks);
+/// Runs `ticks` ticks of a scenario into a folder that is removed afterwards.
+CellCost measure_cell(const sim::Scenario& scenario, gpu::Device& device, int64_t ticks);
 
 struct CampaignPlan {
   nlohmann::json json;

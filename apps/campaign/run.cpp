@@ -11,6 +11,7 @@
 #include <spdlog/spdlog.h>
 
 #include "apps/console/progress.h"
+#include "apps/console/run_record.h"
 #include "apps/console/watch.h"
 #include "apps/files/consistency_files.h"
 #include "core/watch.h"
@@ -59,10 +60,13 @@ class UnitRunner {
   void leave() {
     if (!simulator_) return;
     device_.wait_idle();
-    for (const std::string& warning : simulator_->statistics().warnings)
-      spdlog::warn("{}: {}", open_.cells[cell_].name, warning);
+    for (const std::string& warning : simulator_->statistics().warnings) {
+      warnings_.push_back(fmt::format("{}: {}", open_.cells[cell_].name, warning));
+      spdlog::warn("{}", warnings_.back());
+    }
     simulator_.reset();
   }
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   void enter(size_t cell) {
@@ -94,7 +98,27 @@ class UnitRunner {
   std::optional<sim::Simulator> simulator_;
   std::optional<io::DatasetInfo> info_;
   size_t cell_ = 0, rows_ = 0;
+  std::vector<std::string> warnings_;
 };
+
+/// Runs units until all are done, or until the user interrupts it.
+void run_pending(UnitRunner& runner, std::span<const CampaignUnit> pending, int64_t ticks, bool quiet,
+                 const std::string& name, CampaignRun& run) {
+  Progress progress(name, ticks, quiet);
+  const TerminalWatch watch(quiet);
+  int64_t ticks_done = 0;
+  try {
+    for (const CampaignUnit& unit : pending) {
+      run.complete = runner.run(unit, [&] { progress.update(++ticks_done); });
+      if (!run.complete) break;
+      ++run.done;
+    }
+  } catch (const Interrupted&) {
+    run.complete = false;
+  }
+  runner.leave();
+  run.warnings = runner.warnings();
+}
 
 }  // namespace
 
@@ -103,7 +127,7 @@ CampaignRun run_units(const OpenCampaign& open, std::span<const CampaignUnit> un
   const Clock::time_point begin = Clock::now();
   CampaignRun run;
   std::vector<CampaignUnit> pending;
-  int64_t total = 0, ticks = 0;
+  int64_t ticks = 0;
   for (const CampaignUnit& unit : units) {
     const io::PartState state = open.state(unit);
     if (state.complete) {
@@ -111,26 +135,32 @@ CampaignRun run_units(const OpenCampaign& open, std::span<const CampaignUnit> un
       continue;
     }
     pending.push_back(unit);
-    total += open.cells[unit.cell].scenario.ticks - state.next_tick;
+    ticks += open.cells[unit.cell].scenario.ticks - state.next_tick;
   }
-  Progress progress(open.campaign.name, total, quiet);
+  RunRecord record;
+  record.set_device(device);
+  record.set("sequences", {{"asked", units.size()}, {"complete_before", run.skipped}});
+  record.write_into(open.folder / "runs");
+  const auto end_record = [&] {
+    record.set("done", run.done);
+    record.end(run.complete, run.warnings);
+    record.write_into(open.folder / "runs");
+  };
   UnitRunner runner(open, device, threads);
-  const TerminalWatch watch(quiet);
-  bool complete = true;
   try {
-    for (const CampaignUnit& unit : pending) {
-      complete = runner.run(unit, [&] { progress.update(++ticks); });
-      if (!complete) break;
-      ++run.done;
+    run_pending(runner, pending, ticks, quiet, open.campaign.name, run);
+  } catch (const std::exception& error) {
+    run.complete = false;
+    record.set("error", error.what());
+    try {
+      end_record();
+    } catch (const std::exception&) {
+      // The disk may be full. The first error is the one to tell.
     }
-  } catch (const Interrupted&) {
-    complete = false;
+    throw;
   }
-  runner.leave();
+  end_record();
   run.seconds = seconds_since(begin);
-  if (!complete)
-    throw Interrupted(fmt::format("{}: {} of {} sequences are complete; the same command goes on",
-                                  open.folder.string(), run.done + run.skipped, units.size()));
   return run;
 }
 

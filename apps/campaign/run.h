@@ -16,11 +16,13 @@ namespace greatx::apps {
 struct CampaignRun {
   uint64_t done = 0, skipped = 0;  ///< units
   double seconds = 0.0;
+  bool complete = true;               ///< false: the user has interrupted it; what is done stays
+  std::vector<std::string> warnings;  ///< what was lost
 };
 
 /// Makes the units that are not complete yet, in their order. Units of one cell share its world, its passes
-/// and its searches; cells of one scene share the scene. Throws Interrupted if the user interrupts it; what
-/// is complete stays.
+/// and its searches; cells of one scene share the scene. A record of the run goes into runs/ of the
+/// campaign's folder.
 CampaignRun run_units(const OpenCampaign& open, std::span<const CampaignUnit> units, gpu::Device& device,
                       uint32_t threads, bool quiet);
 

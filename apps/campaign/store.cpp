@@ -87,6 +87,19 @@ std::vector<CampaignUnit> OpenCampaign::units() const {
   return all;
 }
 
+bool is_campaign(const std::string& file) {
+  const auto says_so = [](const std::string& text) {
+    return text.starts_with("greatx_campaign:") || text.find("\ngreatx_campaign:") != std::string::npos;
+  };
+  std::error_code unreadable;
+  if (!fs::is_regular_file(file, unreadable)) {
+    const std::optional<std::string> text = embedded_text(file);
+    return text && says_so(*text);
+  }
+  return says_so(
+      InputFile(file, fmt::format("{}: expected a scenario or a campaign", file), budget::yaml_file).text());
+}
+
 OpenCampaign open_campaign(const CampaignOptions& options) {
   OpenCampaign open;
   const fs::path file = options.file;

@@ -59,6 +59,9 @@ struct CampaignOptions {
   std::vector<std::string> cells;  ///< only these; empty: all
 };
 
+/// Tells whether a name is that of an embedded campaign, or a file that says so itself.
+bool is_campaign(const std::string& file);
+
 /// Reads a campaign and makes its cells. Throws UserError as parse_campaign() and campaign_cells() do, and if
 /// a cell of --cell does not exist.
 OpenCampaign open_campaign(const CampaignOptions& options);

@@ -6,8 +6,10 @@
 #include <spdlog/spdlog.h>
 
 #include "apps/console/command_line.h"
+#include "apps/console/run_record.h"
 #include "assets/assets.h"
 #include "core/fields/named_path.h"
+#include "io/dataset/dataset_format.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/parse/override.h"
 
@@ -86,9 +88,14 @@ sim::Scenario load_scenario(const ScenarioOptions& options, bool chooses) {
       throw_user_error("{}: no such scenario: expected a YAML file or one of {}", options.scenario,
                        fmt::join(names, ", "));
     }
-    scenario = sim::load_scenario(file, options.assets);
-    if (!options.set.empty())
-      scenario = with_values(scenario, options, file.string(), std::filesystem::absolute(file).parent_path());
+    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+    ScenarioOptions from = options;
+    // The scenario.yaml of a data set names its files as the scenario did that was run, from the folder that
+    // this one was in.
+    if (from.assets.empty() && file.filename() == io::scenario_file)
+      from.assets = last_value(folder / io::run_file, "assets_folder");
+    scenario = sim::load_scenario(file, from.assets);
+    if (!options.set.empty()) scenario = with_values(scenario, from, file.string(), folder);
   }
   sim::override_scenario(scenario, {options.seed, options.ticks, options.sequences});
   if (options.ticks && scenario.trajectory_ticks && scenario.ticks > *scenario.trajectory_ticks)
@@ -100,6 +107,14 @@ sim::Scenario load_scenario(const ScenarioOptions& options, bool chooses) {
         "'time_budget_ms_per_tick'; this command takes those that are written",
         scenario.name);
   return scenario;
+}
+
+std::string assets_folder(const ScenarioOptions& options) {
+  const std::filesystem::path folder = options.assets.empty()
+                                           ? std::filesystem::path(options.scenario).parent_path()
+                                           : std::filesystem::path(options.assets);
+  std::error_code ignored;
+  return std::filesystem::absolute(folder.empty() ? "." : folder, ignored).lexically_normal().string();
 }
 
 uint32_t find_channel(const std::string& name, const sim::Scenario& scenario) {

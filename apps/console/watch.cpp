@@ -3,23 +3,30 @@
 #include "apps/console/watch.h"
 
 #include <cstdio>
-#include <unistd.h>
 
-#include <fmt/format.h>
-
-#include "apps/console/progress.h"
+#include <spdlog/spdlog.h>
 
 namespace greatx::apps {
 
-TerminalWatch::TerminalWatch(bool quiet) : visible_(!quiet && isatty(STDERR_FILENO) == 1), scope_(*this) {}
+TerminalWatch::TerminalWatch(bool quiet)
+    : place_(progress_place(quiet)),
+      interval_(log_interval()),
+      last_(place_ == ProgressPlace::log ? std::chrono::steady_clock::now()
+                                         : std::chrono::steady_clock::time_point()),
+      scope_(*this) {}
 
 bool TerminalWatch::look(const WorkState& state) noexcept {
   if (interrupted()) return false;
   constexpr double soon_s = 1.0;
   const auto now = std::chrono::steady_clock::now();
-  if (!visible_ || state.what == nullptr || state.seconds < soon_s ||
-      (drawn_ && now - last_ < std::chrono::milliseconds(200)))
+  if (place_ == ProgressPlace::nowhere || state.what == nullptr || state.seconds < soon_s) return true;
+  if (place_ == ProgressPlace::log) {
+    if (now - last_ < interval_) return true;
+    last_ = now;
+    spdlog::info("{}", progress_message(state.what, state.share, state.seconds));
     return true;
+  }
+  if (drawn_ && now - last_ < std::chrono::milliseconds(200)) return true;
   last_ = now;
   drawn_ = true;
   std::fputs(progress_line(state.what, state.share, state.seconds).c_str(), stderr);

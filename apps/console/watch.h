@@ -4,13 +4,15 @@
 // Shows the progress of long work and lets Ctrl-C interrupt it.
 #pragma once
 
+#include "apps/console/progress.h"
 #include "core/watch.h"
 
 namespace greatx::apps {
 
 /// As long as this lives, it watches long work of its thread, such as a search for paths. If
 /// install_interrupt_handler() was called, the work ends with Interrupted after Ctrl-C or SIGTERM. Work that
-/// takes more than a second shows a line on stderr like that of Progress: a bar and the time left.
+/// takes more than a second shows a line on stderr like that of Progress: a bar and the time left. Without a
+/// terminal it says so at every log_interval().
 class TerminalWatch : public Watch {
  public:
   explicit TerminalWatch(bool quiet);
@@ -18,7 +20,9 @@ class TerminalWatch : public Watch {
   void stage_ended() noexcept override;
 
  private:
-  bool visible_, drawn_ = false;
+  ProgressPlace place_;
+  bool drawn_ = false;
+  std::chrono::duration<double> interval_;
   std::chrono::steady_clock::time_point last_;
   WatchScope scope_;
 };

@@ -41,7 +41,7 @@ void n60_coincident_points(const Lab& lab, Rows& rows) {
     trajectory.control_points = points;
     node.trajectory = trajectory;
     scenario.nodes.push_back(node);
-    return std::move(sim::make_node_courses(scenario, 0)[0]);
+    return std::move(sim::make_node_courses(scenario, 0).courses[0]);
   };
   const dvec3 p(5, 5, 5);
   const Motion start = course({p, p, p + dvec3(lab.given(1.0) - 1.0, 3, 0), p + dvec3(3, 6, 0)})->at(0.0);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "core/error.h"
@@ -38,36 +39,6 @@ double largest_coordinate(const dvec3& v) { return std::max({std::abs(v.x), std:
 double tolerance_of(const dvec3& point, const dvec3& corner) {
   return shared::visibility_tolerance(
       static_cast<float>(std::max(largest_coordinate(point), largest_coordinate(corner))));
-}
-
-/// Tells on which side of an edge a ray from the origin passes. The two triangles of an edge ask with its
-/// ends in opposite order and get opposite answers, whatever the rounding. Therefore exactly one of them
-/// meets the ray.
-bool left_of(const dvec3& direction, const dvec3& from, const dvec3& to) {
-  const bool swapped = std::tie(to.x, to.y, to.z) < std::tie(from.x, from.y, from.z);
-  const dvec3 &low = swapped ? to : from, &high = swapped ? from : to;
-  return (glm::dot(direction, glm::cross(low, high)) >= 0.0) != swapped;
-}
-
-/// Returns the nearest point of a triangle, for the surfaces that a point may lie on (C. Ericson, "Real-Time
-/// Collision Detection", 5.1.5).
-dvec3 nearest_on(const dvec3& p, const dvec3& a, const dvec3& b, const dvec3& c) {
-  const auto on_side = [&](const dvec3& from, const dvec3& to) {
-    const dvec3 along = to - from;
-    const double length2 = glm::dot(along, along);
-    return length2 > 0.0 ? from + std::clamp(glm::dot(p - from, along) / length2, 0.0, 1.0) * along : from;
-  };
-  const dvec3 normal = glm::cross(b - a, c - a);
-  const double area2 = glm::dot(normal, normal);
-  const auto inside = [&](const dvec3& from, const dvec3& to) {
-    return glm::dot(glm::cross(to - from, p - from), normal) >= 0.0;
-  };
-  if (area2 > 0.0 && inside(a, b) && inside(b, c) && inside(c, a))
-    return p - glm::dot(p - a, normal) / area2 * normal;
-  dvec3 nearest = on_side(a, b);
-  for (const dvec3& other : {on_side(b, c), on_side(c, a)})
-    if (glm::length(other - p) < glm::length(nearest - p)) nearest = other;
-  return nearest;
 }
 
 }  // namespace
@@ -114,18 +85,15 @@ std::vector<Surroundings::Hit> Surroundings::hits(const Shell& shell, const dvec
   shell.tree.near_segment(point, point + reach_m * direction, 0.0, near);
   std::vector<Hit> list;
   for (const uint32_t index : near) {
-    const dvec3* corners = shell.triangles[index].corners;
-    const dvec3 a = corners[0] - point, b = corners[1] - point, c = corners[2] - point;
-    const bool left = left_of(direction, a, b);
-    if (left_of(direction, b, c) != left || left_of(direction, c, a) != left) continue;
-    const dvec3 normal = glm::cross(b - a, c - a);
-    const double slope = glm::dot(normal, direction), height = glm::dot(normal, a);
-    if (slope == 0.0) continue;
+    const scene::FacetTriangle& triangle = shell.triangles[index];
+    const std::optional<double> distance = scene::line_meets_triangle(point, direction, triangle);
+    if (!distance || *distance <= 0.0 || *distance >= reach_m) continue;
+    const dvec3* corners = triangle.corners;
+    const dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const double height = glm::dot(normal, corners[0] - point);
     // A surface that the point lies on is on neither side of the point.
     if (std::abs(height) <= tolerance_of(point, corners[0]) * glm::length(normal)) continue;
-    const double distance = height / slope;
-    if (distance > 0.0 && distance < reach_m)
-      list.push_back({distance, shell.facets[index], slope > 0.0 ? 1 : -1});
+    list.push_back({*distance, shell.facets[index], glm::dot(normal, direction) > 0.0 ? 1 : -1});
   }
   std::sort(list.begin(), list.end());
   return list;
@@ -196,9 +164,9 @@ void Surroundings::touch(const Shell& shell, const dvec3& point, Placement& plac
   std::vector<uint32_t> near;
   shell.tree.near_segment(point, point, reach, near);
   for (const uint32_t index : near) {
-    const dvec3* corners = shell.triangles[index].corners;
-    const double distance = glm::length(nearest_on(point, corners[0], corners[1], corners[2]) - point);
-    if (distance > tolerance_of(point, corners[0])) continue;
+    const scene::FacetTriangle& triangle = shell.triangles[index];
+    const double distance = glm::length(scene::nearest_on_triangle(point, triangle) - point);
+    if (distance > tolerance_of(point, triangle.corners[0])) continue;
     if (placement.surface != Placement::none && placement.surface_m <= distance) continue;
     placement.surface = shell.facets[index];
     placement.surface_m = distance;
@@ -211,17 +179,28 @@ Placement Surroundings::of(const dvec3& point, std::span<const Pose> body_poses,
     if (shell.body != 0 && scene_->owner_of(shell.body) == own_body) continue;
     GREATX_CHECK(shell.body < body_poses.size() || shell.body == 0, "body {} of {} poses", shell.body,
                  body_poses.size());
-    const dvec3 at = shell.body == 0 ? point : body_poses[shell.body].inverse().apply(point);
-    const double room = tolerance_of(at, shell.bounds.max);
-    // A point below the static world is in the ground, if the world has one: it is tested for body 0.
-    const bool below = at.z < shell.bounds.min.z - room && shell.body != 0;
-    const bool beside = at.x < shell.bounds.min.x - room || at.y < shell.bounds.min.y - room;
-    if (below || beside || glm::any(glm::greaterThan(at, shell.bounds.max + room))) continue;
-    if ((shell.foliage ? placement.foliage : placement.solid) == Placement::none)
-      surround(shell, at, placement);
-    if (!shell.foliage) touch(shell, at, placement);
+    place(shell, shell.body == 0 ? point : body_poses[shell.body].inverse().apply(point), placement);
   }
   return placement;
+}
+
+Placement Surroundings::in_static_world(const dvec3& point) const {
+  Placement placement;
+  for (const Shell& shell : shells_)
+    if (shell.body == 0) place(shell, point, placement);
+  return placement;
+}
+
+/// Adds what a shell says of a point in the frame of its body.
+void Surroundings::place(const Shell& shell, const dvec3& point, Placement& placement) const {
+  const double room = tolerance_of(point, shell.bounds.max);
+  // A point below the static world is in the ground, if the world has one: it is tested for body 0.
+  const bool below = point.z < shell.bounds.min.z - room && shell.body != 0;
+  const bool beside = point.x < shell.bounds.min.x - room || point.y < shell.bounds.min.y - room;
+  if (below || beside || glm::any(glm::greaterThan(point, shell.bounds.max + room))) return;
+  if ((shell.foliage ? placement.foliage : placement.solid) == Placement::none)
+    surround(shell, point, placement);
+  if (!shell.foliage) touch(shell, point, placement);
 }
 
 std::string describe(const Placement& placement, const scene::Scene& scene, const FacetKinds& kinds) {

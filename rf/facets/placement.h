@@ -59,6 +59,8 @@ class Surroundings {
   /// Facets of `own_body`, which carries the point, do not count; 0: no body carries it. Each body is judged
   /// on its own, the static world first. Thread-safe.
   Placement of(const dvec3& point, std::span<const Pose> body_poses, uint32_t own_body = 0) const;
+  /// Returns the placement of `point` among the facets of the static world alone.
+  Placement in_static_world(const dvec3& point) const;
 
  private:
   /// Holds the hard facets, or the foliage facets, of one body.
@@ -71,6 +73,7 @@ class Surroundings {
     scene::TriangleTree tree;
   };
   struct Hit;
+  void place(const Shell& shell, const dvec3& point, Placement& placement) const;
   void surround(const Shell& shell, const dvec3& point, Placement& placement) const;
   uint32_t most_named(std::span<const uint32_t> facets) const;
   bool floor_below(const Shell& shell, const dvec3& point) const;

@@ -310,17 +310,16 @@ void SearchCache::store(const std::string& key, const BeamSearchResult& result) 
   spdlog::warn("candidates are not kept: cannot write {}: {}", target.string(), std::strerror(error));
 }
 
-/// Removes the least recently used results until the rest is within the limit, and drafts that nobody will
-/// finish. Other processes may do the same at the same time: errors for files that are already gone are
-/// ignored.
-void SearchCache::trim(const fs::path& newest) const {
-  struct Kept {
-    fs::file_time_type used;
-    std::string name;
-    uint64_t bytes = 0;
-  };
+struct SearchCache::Kept {
+  fs::file_time_type used;
+  std::string name;
+  uint64_t bytes = 0;
+};
+
+/// Returns the results in the folder, and removes drafts that nobody will finish. Other processes may do the
+/// same at the same time: errors for files that are already gone are ignored.
+std::vector<SearchCache::Kept> SearchCache::kept() const {
   std::vector<Kept> all;
-  uint64_t total = 0;
   std::error_code error;
   for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
     std::error_code gone;
@@ -331,18 +330,41 @@ void SearchCache::trim(const fs::path& newest) const {
     if (gone) continue;
     if (name.ends_with(draft_ending) && fs::file_time_type::clock::now() - used > draft_life)
       fs::remove(entry->path(), gone);
-    if (name.size() != key_bytes + std::strlen(ending) || !name.ends_with(ending)) continue;
-    total += bytes;
-    if (entry->path() != newest) all.push_back({used, name, bytes});
+    if (name.size() == key_bytes + std::strlen(ending) && name.ends_with(ending))
+      all.push_back({used, name, bytes});
   }
+  return all;
+}
+
+/// Removes the least recently used results until the rest is within the limit.
+void SearchCache::trim(const fs::path& newest) const {
+  std::vector<Kept> all = kept();
   std::sort(all.begin(), all.end(),
             [](const Kept& a, const Kept& b) { return std::tie(a.used, a.name) < std::tie(b.used, b.name); });
+  uint64_t total = 0;
+  for (const Kept& one : all) total += one.bytes;
   for (const Kept& oldest : all) {
     if (total <= most_bytes_) return;
+    if (folder_ / oldest.name == newest) continue;
     std::error_code gone;
     fs::remove(folder_ / oldest.name, gone);
     total -= oldest.bytes;
   }
+}
+
+SearchCache::Size SearchCache::size() const {
+  Size size;
+  for (const Kept& one : kept()) ++size.results, size.bytes += one.bytes;
+  return size;
+}
+
+SearchCache::Size SearchCache::clear() const {
+  Size removed;
+  for (const Kept& one : kept()) {
+    std::error_code error;
+    if (fs::remove(folder_ / one.name, error)) ++removed.results, removed.bytes += one.bytes;
+  }
+  return removed;
 }
 
 }  // namespace greatx::rf

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "rf/search/beam_search.h"
 
@@ -39,10 +40,19 @@ class SearchCache {
   /// Writes a result. A folder that cannot be written is reported and otherwise ignored, because the result
   /// is in memory. So is a result that alone exceeds the limit.
   void store(const std::string& key, const BeamSearchResult& result) const;
+  struct Size {
+    uint64_t results = 0, bytes = 0;
+  };
+  /// Counts the results in the folder.
+  Size size() const;
+  /// Removes every result, and drafts that nobody will finish. Returns what is gone.
+  Size clear() const;
   const std::filesystem::path& folder() const { return folder_; }
   uint64_t most_bytes() const { return most_bytes_; }
 
  private:
+  struct Kept;
+  std::vector<Kept> kept() const;
   void trim(const std::filesystem::path& newest) const;
 
   std::filesystem::path folder_;

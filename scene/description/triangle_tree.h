@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,12 +11,25 @@
 
 namespace greatx::scene {
 
+/// Returns the point of a triangle that is nearest to `p` (C. Ericson, "Real-Time Collision Detection",
+/// 5.1.5). The triangle may be a line or a point.
+dvec3 nearest_on_triangle(const dvec3& p, const FacetTriangle& triangle);
+
+/// Returns t of the point origin + t * direction where a line passes through the triangle, or nothing if it
+/// passes beside it or within its plane. The two triangles of an edge never both miss a line that passes
+/// between them.
+std::optional<double> line_meets_triangle(const dvec3& origin, const dvec3& direction,
+                                          const FacetTriangle& triangle);
+
 /// A tree of the boxes of triangles. It finds the triangles that a segment may touch.
 class TriangleTree {
  public:
   explicit TriangleTree(std::span<const FacetTriangle> triangles);
   /// Appends, ascending, the indices of the triangles whose box comes within `distance_m` of the segment.
   void near_segment(const dvec3& a, const dvec3& b, double distance_m, std::vector<uint32_t>& found) const;
+
+  /// Returns the distance from `point` to the nearest triangle, or `most_m` if none is nearer than that.
+  double distance(const dvec3& point, double most_m, std::span<const FacetTriangle> triangles) const;
 
  private:
   BoxTree boxes_;

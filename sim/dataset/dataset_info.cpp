@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/hash.h"
+#include "core/version.h"
 #include "scene/description/scene.h"
 #include "sim/dataset/packed_outputs.h"
 #include "sim/world/instance_boxes.h"
@@ -17,6 +18,7 @@ io::DatasetInfo dataset_info(const Experiment& experiment, const gpu::Device& de
   const scene::Scene& scene = experiment.scene();
   nlohmann::json run;
   run["greatx"] = GREATX_VERSION;
+  run["commit"] = commit();
   run["scenario"] = scenario.name;
   run["seed"] = scenario.seed;
   run["scene_sha256"] = scene.hash;

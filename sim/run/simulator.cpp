@@ -73,7 +73,8 @@ Simulator::Simulator(gpu::Device& device, const Experiment& experiment)
       schedule_(scenario_.tick_rate_hz),
       passes_(gpu_scene_, experiment),
       sensors_(make_sensors({gpu_scene_, passes_, experiment})),
-      comparer_(world_, experiment.plan.consistency.on) {
+      comparer_(world_, experiment.plan.consistency.on),
+      places_(scenario_, world_) {
   for (const RunSensor& run : sensors_) {
     schedule_.add(run.rate_hz);
     specs_.push_back(run.sensor->spec());
@@ -97,6 +98,9 @@ void Simulator::start_sequence(uint32_t sequence, int64_t first_tick) {
   GREATX_CHECK(pending_ == nullptr, "sequence {} started with a tick in flight", sequence);
   sequence_ = sequence;
   courses_ = make_courses(scenario_, world_, sequence);
+  for (size_t node = 0; node < courses_.draws.size(); ++node)
+    if (clearance_of(scenario_.nodes[node]) > 0.0)
+      draws_[scenario_.nodes[node].name + ".trajectory_draws"] += courses_.draws[node];
   due_ticks_ = 0;
   for (next_tick_ = schedule_.next(0, scenario_.ticks); next_tick_ < std::min(first_tick, scenario_.ticks);
        ++due_ticks_)
@@ -156,7 +160,9 @@ bool Simulator::step(RecordSink& sink) {
   in_flight->tick = tick;
   in_flight->due = schedule_.due(tick, due_ticks_++);
   in_flight->times.start_ms = std::exchange(start_ms_, 0.0);
-  record(*in_flight, slot, moment_at(tick));
+  const Moment moment = moment_at(tick);
+  for (const Due& due : in_flight->due) places_.look(specs_[due.sensor].name, moment.context);
+  record(*in_flight, slot, moment);
   next_tick_ = schedule_.next(tick + 1, scenario_.ticks);
   if (looks_ahead_ && next_tick_ < scenario_.ticks) record_ahead(*in_flight, slot);
   ring_.submit(slot);
@@ -299,6 +305,9 @@ RunStatistics Simulator::statistics() const {
   if (gpu_scene_.traces()) statistics.notes.emplace_back("tracer", tracer_note());
   statistics.consistency = comparer_.totals();
   statistics.rows = comparer_.rows();
+  statistics.counters.insert(draws_.begin(), draws_.end());
+  places_.count(statistics.counters);
+  places_.warn(statistics.warnings);
   for (const RunSensor& run : sensors_) {
     run.sensor->count(statistics.counters);
     run.sensor->warn(statistics.warnings);

@@ -18,6 +18,7 @@
 #include "sim/compare/comparisons.h"
 #include "sim/experiment/experiment.h"
 #include "sim/run/schedule.h"
+#include "sim/run/sensor_places.h"
 #include "sim/run/tick_times.h"
 #include "sim/scenario/clock.h"
 #include "sim/scenario/trajectory.h"
@@ -111,6 +112,8 @@ class Simulator {
   std::vector<RunSensor> sensors_;
   std::vector<SensorSpec> specs_;  ///< [sensor]
   Comparer comparer_;
+  SensorPlaces places_;
+  std::map<std::string, uint64_t> draws_;  ///< of trajectories that keep a clearance, by node
   Courses courses_;
   std::unique_ptr<InFlight> pending_;
   uint32_t sequence_ = 0;

@@ -98,6 +98,7 @@ struct BezierTrajectory {
   std::string reference_node;  ///< empty: no distance limit
   double min_distance_m = 0.0, max_distance_m = 1e9;
   dvec3 offset_m{0.0};
+  double clearance_m = 0.0;  ///< as of CorridorTrajectory
   /// The four control points, if they are given and not drawn.
   std::optional<std::array<dvec3, 4>> control_points;
 };
@@ -108,6 +109,8 @@ struct CorridorTrajectory {
   std::vector<dvec3> center_line_m;  ///< at least two points
   double width_m = 0.0, height_m = 0.0;
   int legs = 4;
+  /// The free space about the node's model, from the static world and other nodes; 0: none is asked for.
+  double clearance_m = 0.0;
 };
 
 using Trajectory = std::variant<StaticTrajectory, WayPointTrajectory, BezierTrajectory, CorridorTrajectory>;

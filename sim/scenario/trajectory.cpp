@@ -40,6 +40,7 @@ class StaticCourse : public Course {
   explicit StaticCourse(const Pose& pose) { motion_.pose = pose; }
   Motion at(double) const override { return motion_; }
   bool is_static() const override { return true; }
+  double most_speed() const override { return 0.0; }
 
  private:
   Motion motion_;
@@ -216,26 +217,36 @@ std::unique_ptr<Course> make_course(const CorridorTrajectory& corridor, double d
   return std::make_unique<CurveCourse>(std::move(segments), std::vector<dquat>{}, Beyond::straight);
 }
 
-/// Makes paths in the order in which they depend on each other.
+bool is_drawn(const NodeConfig& node) {
+  const auto* bezier = std::get_if<BezierTrajectory>(&node.trajectory);
+  return std::holds_alternative<CorridorTrajectory>(node.trajectory) ||
+         (bezier != nullptr && !bezier->control_points);
+}
+
+/// Makes courses in the order in which they depend on each other.
 class PathMaker {
  public:
-  PathMaker(const Scenario& scenario, uint32_t sequence)
-      : scenario_(scenario),
-        sequence_(sequence),
-        courses_(scenario.nodes.size()),
-        begun_(scenario.nodes.size()) {
+  PathMaker(const Scenario& scenario, uint32_t sequence, const FreeSpace* space)
+      : scenario_(scenario), sequence_(sequence), space_(space), begun_(scenario.nodes.size()) {
     GREATX_CHECK(scenario.curve_ticks() > 0, "{} ticks", scenario.curve_ticks());
-    duration_s_ = Clock(scenario.tick_rate_hz).seconds(scenario.curve_ticks() - 1);
+    const Clock clock(scenario.tick_rate_hz);
+    duration_s_ = clock.seconds(scenario.curve_ticks() - 1);
+    end_s_ = clock.seconds(std::max<int64_t>(scenario.ticks, 1) - 1);
+    made_.courses.resize(scenario.nodes.size());
+    made_.draws.resize(scenario.nodes.size());
   }
 
-  std::vector<std::unique_ptr<Course>> make_all() {
-    for (size_t i = 0; i < courses_.size(); ++i) make(i);
-    return std::move(courses_);
+  NodeCourses make_all() {
+    for (const bool drawn : {false, true})
+      for (size_t i = 0; i < scenario_.nodes.size(); ++i)
+        if (is_drawn(scenario_.nodes[i]) == drawn) make(i);
+    return std::move(made_);
   }
 
  private:
   const Course* make(size_t index) {
-    if (courses_[index]) return courses_[index].get();
+    std::unique_ptr<Course>& course = made_.courses[index];
+    if (course) return course.get();
     const NodeConfig& node = scenario_.nodes[index];
     GREATX_CHECK(!begun_[index], "the path of node '{}' depends on itself", node.name);
     begun_[index] = true;
@@ -243,15 +254,67 @@ class PathMaker {
     if (const auto* bezier = std::get_if<BezierTrajectory>(&node.trajectory)) {
       const Course* reference =
           bezier->reference_node.empty() ? nullptr : make(index_of(bezier->reference_node));
-      courses_[index] = make_course(EndLimits{node, *bezier, reference}, duration_s_, random);
+      course = draw(index, [&] {
+        return make_course(EndLimits{node, *bezier, reference}, duration_s_, random);
+      });
     } else if (const auto* corridor = std::get_if<CorridorTrajectory>(&node.trajectory)) {
-      courses_[index] = make_course(*corridor, duration_s_, random);
+      course = draw(index, [&] { return make_course(*corridor, duration_s_, random); });
     } else if (const auto* points = std::get_if<WayPointTrajectory>(&node.trajectory)) {
-      courses_[index] = make_course(*points);
+      course = make_course(*points);
     } else {
-      courses_[index] = make_course(std::get<StaticTrajectory>(node.trajectory));
+      course = make_course(std::get<StaticTrajectory>(node.trajectory));
     }
-    return courses_[index].get();
+    return course.get();
+  }
+
+  /// Draws a course until it keeps clear.
+  template <typename Draw>
+  std::unique_ptr<Course> draw(size_t index, const Draw& drawn) {
+    const NodeConfig& node = scenario_.nodes[index];
+    std::unique_ptr<Course> course = drawn();
+    if (!is_drawn(node)) return course;
+    uint32_t& draws = made_.draws[index] = 1;
+    const double clearance = clearance_of(node);
+    const std::vector<FreeSpace::Neighbour> neighbours = neighbours_of(index, clearance);
+    if (clearance <= 0.0 && neighbours.empty()) return course;
+    GREATX_CHECK(space_ != nullptr, "the clearance of node '{}' without a world", node.name);
+    std::vector<uint32_t> near_nodes(scenario_.nodes.size());
+    uint32_t near_world = 0;
+    for (;; ++draws) {
+      const auto near =
+          space_->too_near(static_cast<uint32_t>(index), clearance, *course, neighbours, end_s_);
+      if (!near) return course;
+      ++(near->node ? near_nodes[*near->node] : near_world);
+      if (draws == most_clear_draws) none_clear(node, clearance, near_world, near_nodes);
+      course = drawn();
+    }
+  }
+
+  /// Returns the courses that are made already and have to keep away from this one.
+  std::vector<FreeSpace::Neighbour> neighbours_of(size_t index, double clearance) const {
+    std::vector<FreeSpace::Neighbour> neighbours;
+    for (size_t i = 0; i < made_.courses.size(); ++i) {
+      const double other = clearance_of(scenario_.nodes[i]);
+      if (i != index && made_.courses[i] && (clearance > 0.0 || other > 0.0))
+        neighbours.push_back({static_cast<uint32_t>(i), other, made_.courses[i].get()});
+    }
+    return neighbours;
+  }
+
+  [[noreturn]] void none_clear(const NodeConfig& node, double clearance, uint32_t near_world,
+                               const std::vector<uint32_t>& near_nodes) const {
+    std::string found = fmt::format("{} come too near to the static world", near_world);
+    for (size_t i = 0; i < near_nodes.size(); ++i)
+      if (near_nodes[i] > 0)
+        found += fmt::format(", {} to node '{}'", near_nodes[i], scenario_.nodes[i].name);
+    std::string where = "its corridor";
+    if (const auto* t = std::get_if<BezierTrajectory>(&node.trajectory))
+      where = fmt::format("its box [{}, {}, {}] .. [{}, {}, {}] m", t->min_m.x, t->min_m.y, t->min_m.z,
+                          t->max_m.x, t->max_m.y, t->max_m.z);
+    throw_user_error_at(node.where,
+                        "node '{}': clearance_m: expected a trajectory in {} that keeps {} m in sequence {}, "
+                        "found none in {} draws: {}",
+                        node.name, where, clearance, sequence_, most_clear_draws, found);
   }
 
   size_t index_of(const std::string& name) const {
@@ -263,15 +326,22 @@ class PathMaker {
 
   const Scenario& scenario_;
   uint32_t sequence_;
-  double duration_s_ = 0.0;
-  std::vector<std::unique_ptr<Course>> courses_;
+  const FreeSpace* space_;
+  double duration_s_ = 0.0, end_s_ = 0.0;
+  NodeCourses made_;
   std::vector<bool> begun_;
 };
 
 }  // namespace
 
-std::vector<std::unique_ptr<Course>> make_node_courses(const Scenario& scenario, uint32_t sequence) {
-  return PathMaker(scenario, sequence).make_all();
+double clearance_of(const NodeConfig& node) {
+  if (const auto* bezier = std::get_if<BezierTrajectory>(&node.trajectory)) return bezier->clearance_m;
+  if (const auto* corridor = std::get_if<CorridorTrajectory>(&node.trajectory)) return corridor->clearance_m;
+  return 0.0;
+}
+
+NodeCourses make_node_courses(const Scenario& scenario, uint32_t sequence, const FreeSpace* space) {
+  return PathMaker(scenario, sequence, space).make_all();
 }
 
 }  // namespace greatx::sim

@@ -102,6 +102,14 @@ CurveCourse::CurveCourse(std::vector<CurveSegment> segments, std::vector<dquat> 
   find_held_headings();
 }
 
+double CurveCourse::most_speed() const {
+  double most = 0.0;
+  // dB/du is a convex combination of three times the edges.
+  for (const CurveSegment& segment : segments_)
+    if (segment.duration_s > 0.0) most = std::max(most, 3.0 * size_of(segment) / segment.duration_s);
+  return most;
+}
+
 CurveCourse::Heading CurveCourse::heading(size_t segment, double u) const {
   const CurveSegment& curve = segments_[segment];
   const double size = size_of(curve);

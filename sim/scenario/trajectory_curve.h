@@ -54,6 +54,7 @@ class CurveCourse : public Course {
   CurveCourse(std::vector<CurveSegment> segments, std::vector<dquat> attitudes, Beyond beyond);
   Motion at(double time_s) const override;
   bool is_static() const override { return static_; }
+  double most_speed() const override;
 
  private:
   struct Heading {

@@ -2,17 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/world/moment.h"
 
+#include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "core/hash.h"
 #include "core/random.h"
 #include "core/units.h"
+#include "sim/world/free_space.h"
 
 namespace greatx::sim {
 
 Courses make_courses(const Scenario& scenario, const World& world, uint32_t sequence) {
   Courses courses;
-  courses.nodes = make_node_courses(scenario, sequence);
+  std::optional<WorldFreeSpace> space;
+  if (std::ranges::any_of(scenario.nodes, [](const NodeConfig& node) { return clearance_of(node) > 0.0; }))
+    space.emplace(scenario, world);
+  NodeCourses made = make_node_courses(scenario, sequence, space ? &*space : nullptr);
+  courses.nodes = std::move(made.courses);
+  courses.draws = std::move(made.draws);
   for (const Part& part : world.parts) {
     const double start_turns = part.phase
                                    ? *part.phase / (2.0 * pi)

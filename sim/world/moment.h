@@ -16,6 +16,7 @@ namespace greatx::sim {
 /// Describes the motion of everything in one sequence.
 struct Courses {
   std::vector<std::unique_ptr<Course>> nodes;
+  std::vector<uint32_t> draws;      ///< [nodes] as in NodeCourses
   std::vector<Rotation> rotations;  ///< [World::parts]
 };
 

@@ -11,6 +11,7 @@
 #include "scene/build/build.h"
 #include "scene/generator/generate.h"
 #include "sim/world/parts.h"
+#include "sim/world/solids.h"
 
 namespace greatx::sim {
 
@@ -148,6 +149,14 @@ void find_bodies(World& world) {
 }
 
 }  // namespace
+
+MadeSolids::MadeSolids() = default;
+MadeSolids::~MadeSolids() = default;
+
+const Solids& MadeSolids::of(const scene::Scene& scene) const {
+  std::call_once(once_, [&] { solids_ = std::make_unique<const Solids>(scene); });
+  return *solids_;
+}
 
 bool same_world(const Scenario& a, const Scenario& b) {
   return a.name == b.name && a.scene.origin_m == b.scene.origin_m &&

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,23 @@ struct Part {
   std::optional<double> phase;  ///< rad at tick 0; none: drawn
 };
 
+class Solids;
+
+/// Makes the Solids of a scene when they are first asked for. A copy makes its own, since its scene is
+/// another object.
+class MadeSolids {
+ public:
+  MadeSolids();
+  ~MadeSolids();
+  MadeSolids(const MadeSolids&) : MadeSolids() {}
+  MadeSolids& operator=(const MadeSolids&) = delete;
+  const Solids& of(const scene::Scene& scene) const;
+
+ private:
+  mutable std::once_flag once_;
+  mutable std::unique_ptr<const Solids> solids_;
+};
+
 struct World {
   scene::Scene scene;
   /// The body that follows each node. 0: the node has no mesh of its own, or never moves (its mesh is then
@@ -31,6 +50,11 @@ struct World {
   std::vector<Part> parts;
   static constexpr uint32_t no_part = ~0u;
   std::vector<uint32_t> part_of_body;  ///< [bodies] into parts, or no_part
+
+  /// Returns the surfaces of the scene for questions on the host. They are put in trees at the first call,
+  /// since most runs ask nothing. Thread-safe.
+  const Solids& solids() const { return made_solids.of(scene); }
+  MadeSolids made_solids = {};
 };
 
 /// Loads and generates every model of the scenario. Throws UserError naming file, mesh or material. Parts

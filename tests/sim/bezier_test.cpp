@@ -85,7 +85,7 @@ TEST(BezierPath, EndsKeepToBoxAndDistanceForThousandSeeds) {
   scenario.nodes.push_back(bs);
   for (uint64_t seed = 0; seed < 1000; ++seed) {
     scenario.seed = seed;
-    const auto paths = make_node_courses(scenario, 0);
+    const auto paths = make_node_courses(scenario, 0).courses;
     const std::array<dvec3, 2> ends = {paths[0]->at(0).pose.position, paths[0]->at(10).pose.position};
     for (const dvec3& p : ends) {
       const double distance = glm::distance(p, dvec3(10, 0, 25));
@@ -116,7 +116,7 @@ TEST(BezierPath, EndsAreUniformInTheBox) {
 
 TEST(BezierPath, DependsOnSeedSequenceAndNameOnly) {
   const auto positions = [](const Scenario& scenario, uint32_t sequence, size_t node) {
-    const auto path = std::move(make_node_courses(scenario, sequence)[node]);
+    const auto path = std::move(make_node_courses(scenario, sequence).courses[node]);
     return std::array{path->at(0).pose.position, path->at(3.3).pose.position, path->at(10).pose.position};
   };
   const Scenario alone = scenario_of(drawn_bezier(), 42);
@@ -141,7 +141,7 @@ TEST(BezierPath, FollowsAMovingReferenceAtBothEnds) {
   car.name = "car";
   car.trajectory = way_points({{0, {-90, 0, 0}, {}}, {10, {90, 0, 0}, {}}});
   scenario.nodes.push_back(car);
-  const auto paths = make_node_courses(scenario, 0);
+  const auto paths = make_node_courses(scenario, 0).courses;
   for (const double t : {0.0, 10.0})
     EXPECT_LE(glm::distance(paths[0]->at(t).pose.position, paths[1]->at(t).pose.position), 40.0);
 }
@@ -186,7 +186,7 @@ TEST(BezierPath, RunOfOneTickRestsAtTheStart) {
   Scenario scenario =
       scenario_of(bezier_of({dvec3(1, 2, 3), dvec3(2, 2, 3), dvec3(3, 2, 3), dvec3(4, 2, 3)}));
   scenario.ticks = 1;
-  const auto paths = make_node_courses(scenario, 0);
+  const auto paths = make_node_courses(scenario, 0).courses;
   for (const double t : {0.0, 0.05}) {
     const Motion motion = paths[0]->at(t);
     expect_finite(motion);

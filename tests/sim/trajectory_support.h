@@ -30,7 +30,7 @@ inline Scenario scenario_of(Trajectory trajectory, uint64_t seed = 1) {
 }
 
 inline std::unique_ptr<Course> course_of(Trajectory trajectory, uint64_t seed = 1, uint32_t sequence = 0) {
-  return std::move(make_node_courses(scenario_of(std::move(trajectory), seed), sequence)[0]);
+  return std::move(make_node_courses(scenario_of(std::move(trajectory), seed), sequence).courses[0]);
 }
 
 inline WayPointTrajectory way_points(std::vector<WayPoint> points, bool smooth = true) {

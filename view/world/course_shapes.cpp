@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "sim/scenario/trajectory.h"
+#include "sim/world/moment.h"
 #include "view/overlay/shape_parts.h"
 
 namespace greatx::view {
@@ -32,7 +32,8 @@ SampledCourses sample_courses(const sim::Experiment& experiment, uint32_t sequen
   sampled.duration_s = sim::Clock(scenario.tick_rate_hz).seconds(std::max<int64_t>(scenario.ticks - 1, 0));
   for (size_t i = 0; i < points; ++i)
     sampled.times_s.push_back(sampled.duration_s * static_cast<double>(i) / static_cast<double>(points - 1));
-  const std::vector<std::unique_ptr<sim::Course>> courses = sim::make_node_courses(scenario, sequence);
+  const sim::Courses made = sim::make_courses(scenario, *experiment.world, sequence);
+  const std::vector<std::unique_ptr<sim::Course>>& courses = made.nodes;
   for (size_t node = 0; node < courses.size(); ++node) {
     if (courses[node]->is_static()) continue;
     if (sampled.nodes.size() == most_nodes) {

@@ -67,10 +67,11 @@ void parse_distance(const Field& field, size_t node, BezierTrajectory& trajector
 }
 
 BezierTrajectory parse_bezier(const Field& field, size_t node, std::vector<NodeReference>& references) {
-  const FieldMap map(field, {"type", "box", "distance", "offset_m", "control_points_m"});
+  const FieldMap map(field, {"type", "box", "distance", "offset_m", "clearance_m", "control_points_m"});
   BezierTrajectory trajectory;
   if (const auto control = map.find("control_points_m")) {
-    for (const char* drawn : {"box", "distance", "offset_m"}) map.exclude("control_points_m", drawn);
+    for (const char* drawn : {"box", "distance", "offset_m", "clearance_m"})
+      map.exclude("control_points_m", drawn);
     const std::vector<Field> points = control->list("control points");
     if (points.size() != 4) control->fail("a list of 4 control points");
     trajectory.control_points = {position_of(points[0]), position_of(points[1]), position_of(points[2]),
@@ -92,11 +93,12 @@ BezierTrajectory parse_bezier(const Field& field, size_t node, std::vector<NodeR
       f->fail("3 numbers of at least 0", fmt::format("[{}, {}, {}]", trajectory.offset_m.x,
                                                      trajectory.offset_m.y, trajectory.offset_m.z));
   }
+  if (const auto f = map.find("clearance_m")) trajectory.clearance_m = f->non_negative(most_position_m);
   return trajectory;
 }
 
 CorridorTrajectory parse_corridor(const Field& field) {
-  const FieldMap map(field, {"type", "center_line_m", "width_m", "height_m", "legs"});
+  const FieldMap map(field, {"type", "center_line_m", "width_m", "height_m", "legs", "clearance_m"});
   CorridorTrajectory trajectory;
   for (const Field& item : map.require("center_line_m", "a list of points").list("points", 2)) {
     const dvec3 point = position_of(item);
@@ -111,6 +113,7 @@ CorridorTrajectory parse_corridor(const Field& field) {
   const auto sections = static_cast<uint32_t>(trajectory.center_line_m.size() - 1);
   trajectory.legs = static_cast<int>(std::max(4u, sections));
   if (const auto f = map.find("legs")) trajectory.legs = static_cast<int>(f->integer32(sections, 1'000'000));
+  if (const auto f = map.find("clearance_m")) trajectory.clearance_m = f->non_negative(most_position_m);
   return trajectory;
 }
 
