@@ -3,17 +3,20 @@
 #include "apps/campaign/jobs.h"
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <iostream>
 #include <stdexcept>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 #include <spdlog/spdlog.h>
 
 #include "apps/console/exit_code.h"
+#include "apps/console/progress.h"
 #include "core/error.h"
 
 namespace greatx::apps {
@@ -55,6 +58,7 @@ void in_processes(uint32_t count, const std::function<void(uint32_t)>& job,
   std::vector<pid_t> children;
   for (uint32_t i = 0; i < count; ++i) children.push_back(start(job, i));
   int worst = 0;
+  bool told = false;
   while (!children.empty()) {
     for (size_t i = 0; i < children.size();) {
       int status = 0;
@@ -65,6 +69,9 @@ void in_processes(uint32_t count, const std::function<void(uint32_t)>& job,
       worst = std::max(worst, WIFEXITED(status) ? WEXITSTATUS(status) : int{exit_internal});
       children.erase(children.begin() + static_cast<ptrdiff_t>(i));
     }
+    // The signal may have been sent to this process alone. A second one would end a job at once.
+    if (interrupted() && !std::exchange(told, true))
+      for (const pid_t child : children) ::kill(child, SIGTERM);
     meanwhile();
     const timespec half_a_second{0, 500'000'000};
     if (!children.empty()) ::nanosleep(&half_a_second, nullptr);
