@@ -114,12 +114,13 @@ CampaignRun run_jobs(const OpenCampaign& open, const Shard& shard, const Options
   const uint32_t threads = options.threads > 0
                                ? options.threads
                                : std::max(1u, std::thread::hardware_concurrency() / options.jobs);
+  const WorkQueue queue(pending, options.jobs);
   try {
     in_processes(
         options.jobs,
-        [&](uint32_t job) {
+        [&](uint32_t) {
           gpu::Device device(options.run.device_options());
-          if (!run_units(open, units_of(pending, {job + 1, options.jobs}), device, threads, true).complete)
+          if (!run_units(open, queue, device, threads, true).complete)
             throw Interrupted("a job was interrupted");
           check_validation(device);
         },
@@ -143,7 +144,9 @@ void run(const Options& options) {
     run = run_jobs(open, shard, options);
   } else {
     gpu::Device device(options.run.device_options());
-    run = run_units(open, units_of(all, shard), device, options.threads, options.quiet || options.json);
+    const auto units = units_of(all, shard);
+    const WorkQueue queue({units.begin(), units.end()}, 1);
+    run = run_units(open, queue, device, options.threads, options.quiet || options.json);
     check_validation(device);
   }
   print(options,
