@@ -30,7 +30,7 @@ namespace {
 struct GenerateOptions {
   ScenarioOptions scenario;
   RunOptions run;
-  std::string output = "out/dataset";
+  std::string output = "out/dataset", compression;
   bool resume = false, json = false, quiet = false;
   uint32_t threads = 0;
 };
@@ -78,7 +78,9 @@ sim::Experiment with_settings(sim::Experiment experiment, const GenerateOptions&
 
 void run_generate(const GenerateOptions& options) {
   const Clock::time_point begin = Clock::now();
-  sim::Experiment asked = sim::make_experiment(load_scenario(options.scenario, true));
+  ScenarioOptions chosen = options.scenario;
+  if (!options.compression.empty()) chosen.set.push_back("storage.compression=" + options.compression);
+  sim::Experiment asked = sim::make_experiment(load_scenario(chosen, true));
   gpu::Device device(options.run.device_options());
   const std::filesystem::path calibration_file = std::filesystem::path(options.output) / io::calibration_file;
   nlohmann::json calibration;
@@ -158,6 +160,11 @@ void add_generate(CLI::App& app) {
   options->scenario.add_to(*command);
   options->run.add_to(*command);
   command->add_option("-o,--output", options->output, "folder of the data set")->capture_default_str();
+  command
+      ->add_option("--compression", options->compression,
+                   "how large arrays are stored: none (NumPy files), fast or small (HDF5 files; "
+                   "docs/dataset.md) [the scenario's storage.compression, else none]")
+      ->check(CLI::IsMember({"none", "fast", "small"}));
   command->add_flag("--resume", options->resume,
                     "go on with an unfinished data set; the finished one has the same bytes");
   command

@@ -106,7 +106,22 @@ struct ArraySpec {
   std::vector<int64_t> shape;  ///< shape of one record; a first axis of -1 varies between records
   std::string unit;            ///< e.g. "m", "1", "s"
   std::string description;     ///< axes and meaning, in one line
+  /// If not 0: values are multiples of it, in `unit`. Of an array [-1, 4] this holds for the first three of a
+  /// row, its coordinates. Such values can be stored as small integers.
+  double step = 0.0;
 };
+
+/// Says how a data set keeps large arrays of records (docs/dataset.md).
+enum class Compression {
+  none,   ///< as NumPy files, and pictures as fast as they can be written
+  fast,   ///< in HDF5 files, packed with little effort
+  small,  ///< in HDF5 files, packed well; pictures too
+};
+/// Returns the name in scenarios and in dataset.json.
+constexpr const char* name_of(Compression compression) {
+  constexpr const char* names[] = {"none", "fast", "small"};
+  return names[static_cast<size_t>(compression)];
+}
 
 /// Names the way in which arrays become files.
 enum class FileFormat {
@@ -126,14 +141,17 @@ enum class FileFormat {
   text_events,  ///< lines "t x y p", t in seconds; the same arrays
   pcd,          ///< PCD 0.7, binary; arrays as ply's
   kitti,        ///< KITTI's velodyne .bin: f32 [n, 4] as it is, no header
+  /// One HDF5 file per sequence with several arrays, packed by record, and NAME.npy, the places of the packed
+  /// columns (io/formats/packed_columns.h).
+  hdf5_records,
 };
 
 /// Describes one file series of a sensor.
 struct OutputSpec {
   std::string name;  ///< file or folder name below the sensor's folder, e.g. "rgb", "cfr"
   FileFormat format = FileFormat::npy_stack;
-  /// Names of the ArraySpecs that the series holds. ply, pcd and the formats of events hold several; all
-  /// others hold one.
+  /// Names of the ArraySpecs that the series holds. ply, pcd, hdf5_records and the formats of events hold
+  /// several; all others hold one.
   std::vector<std::string> arrays;
 };
 

@@ -122,6 +122,7 @@ class IndexedSet {
     for (const OutputSpec& output : spec.outputs) {
       if (io::is_frame(output.format)) return io::frame_path(sequence, spec, output, row.sample);
       if (io::is_stack(output.format)) return io::stack_path(sequence, spec, output);
+      if (io::is_packed(output.format)) return io::packed_path(sequence, spec, output);
     }
     return {};
   }

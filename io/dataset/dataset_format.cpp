@@ -15,6 +15,7 @@
 #include "io/files/inside.h"
 #include "io/files/untrusted_json.h"
 #include "io/formats/npy.h"
+#include "io/formats/packed_columns.h"
 
 namespace greatx::io {
 
@@ -38,6 +39,7 @@ constexpr FormatName format_names[] = {
     {FileFormat::text_events, "text_events", ".txt"},
     {FileFormat::pcd, "pcd", ".pcd"},
     {FileFormat::kitti, "kitti", ".bin"},
+    {FileFormat::hdf5_records, "hdf5_records", ".h5"},
 };
 const FormatName& row_of(FileFormat format) { return format_names[static_cast<size_t>(format)]; }
 
@@ -49,6 +51,8 @@ constexpr int64_t most_of_ratio = 1'000'000'000'000;
 constexpr DType all_dtypes[] = {DType::u8,  DType::u16, DType::u32, DType::i8,  DType::i32,
                                 DType::i64, DType::u64, DType::f32, DType::f64, DType::complex64};
 
+constexpr Compression all_compressions[] = {Compression::none, Compression::fast, Compression::small};
+constexpr double least_step = 1e-9, most_step = 1e9;
 constexpr size_t event_array_count = 4;  // t, x, y, p
 constexpr size_t most_sensors = 10'000, most_arrays = 256, most_axes = 16, most_arrays_in_all = 65'536;
 
@@ -71,7 +75,7 @@ std::string fault_of_array(const SensorSpec& sensor, const ArraySpec& array) {
 /// Describes the fault of an output; returns an empty string if there is none. The sensor must declare its
 /// arrays.
 std::string fault_of_output(const SensorSpec& sensor, const OutputSpec& output) {
-  const size_t most = is_cloud(output.format) ? output.arrays.size() : 1;
+  const size_t most = is_cloud(output.format) || is_packed(output.format) ? output.arrays.size() : 1;
   if (output.arrays.size() != (is_export(output.format) ? event_array_count : most))
     return fmt::format("{}/{} holds {} arrays", sensor.name, output.name, output.arrays.size());
   for (const size_t i : arrays_of(sensor, output)) {
@@ -80,9 +84,13 @@ std::string fault_of_output(const SensorSpec& sensor, const OutputSpec& output) 
     if (is_stack(output.format) && varies != (output.format == FileFormat::npy_ragged))
       return fmt::format("{}: {} as {}: a first axis that varies is ragged, a fixed one is stacked",
                          sensor.name, array.name, name_of(output.format));
-    if (is_export(output.format) && ragged_output(sensor, array.name) == nullptr)
-      return fmt::format("{}/{}: {} is not kept as npy_ragged", sensor.name, output.name, array.name);
+    if (is_export(output.format) && sequence_output(sensor, array.name) == nullptr)
+      return fmt::format("{}/{}: {} is kept neither as npy_ragged nor as hdf5_records", sensor.name,
+                         output.name, array.name);
   }
+  if (is_packed(output.format))
+    if (const std::string fault = fault_of_packed(specs_of(sensor, output)); !fault.empty())
+      return fmt::format("{}/{}: {}", sensor.name, output.name, fault);
   return {};
 }
 
@@ -146,7 +154,9 @@ std::string fault_of_paths(const std::vector<SensorSpec>& sensors) {
                            output.name);
       paths.push_back(is_stack(output.format)    ? stack_path(0, sensor, output)
                       : is_export(output.format) ? export_path(0, sensor, output)
+                      : is_packed(output.format) ? packed_path(0, sensor, output)
                                                  : frame_folder(0, sensor, output));
+      if (is_packed(output.format)) paths.push_back(places_path(0, sensor, output));
       if (output.format == FileFormat::npy_ragged) paths.push_back(offsets_path(0, sensor, output));
     }
   }
@@ -163,6 +173,7 @@ Json to_json(const SensorSpec& sensor) {
                       {"shape", a.shape},
                       {"unit", a.unit},
                       {"description", a.description}});
+    if (a.step != 0.0) arrays.back()["step"] = a.step;
   }
   for (const OutputSpec& o : sensor.outputs)
     outputs.push_back({{"name", o.name}, {"format", name_of(o.format)}, {"arrays", o.arrays}});
@@ -194,6 +205,7 @@ SensorSpec sensor_from(const JsonValue& json) {
         {a.at("name").text(), dtype, {}, a.at("unit").text(), a.at("description").text()});
     for (const JsonValue& extent : a.at("shape").list(most_axes))
       sensor.arrays.back().shape.push_back(extent.integer(-1, int64_t{1} << 40));
+    if (a.has("step")) sensor.arrays.back().step = a.at("step").number(least_step, most_step);
   }
   for (const JsonValue& o : json.at("outputs").list(most_arrays)) {
     const FormatName& format = row_named(o.at("format"), format_names, "a file format of greatx",
@@ -243,11 +255,14 @@ bool is_export(FileFormat format) {
   return format == FileFormat::hdf5_events || format == FileFormat::text_events;
 }
 bool is_cloud(FileFormat format) { return format == FileFormat::ply || format == FileFormat::pcd; }
-bool is_frame(FileFormat format) { return !is_stack(format) && !is_export(format); }
+bool is_packed(FileFormat format) { return format == FileFormat::hdf5_records; }
+bool is_frame(FileFormat format) { return !is_stack(format) && !is_export(format) && !is_packed(format); }
 
-const OutputSpec* ragged_output(const SensorSpec& sensor, const std::string& array) {
+const OutputSpec* sequence_output(const SensorSpec& sensor, const std::string& array) {
   for (const OutputSpec& output : sensor.outputs)
-    if (output.format == FileFormat::npy_ragged && output.arrays[0] == array) return &output;
+    if ((output.format == FileFormat::npy_ragged || is_packed(output.format)) &&
+        std::find(output.arrays.begin(), output.arrays.end(), array) != output.arrays.end())
+      return &output;
   return nullptr;
 }
 
@@ -261,6 +276,12 @@ std::vector<size_t> arrays_of(const SensorSpec& sensor, const OutputSpec& output
     indices.push_back(static_cast<size_t>(found - sensor.arrays.begin()));
   }
   return indices;
+}
+
+std::vector<ArraySpec> specs_of(const SensorSpec& sensor, const OutputSpec& output) {
+  std::vector<ArraySpec> specs;
+  for (const size_t i : arrays_of(sensor, output)) specs.push_back(sensor.arrays[i]);
+  return specs;
 }
 
 void check_sensors(const std::vector<SensorSpec>& sensors) {
@@ -280,6 +301,12 @@ std::string stack_path(uint32_t sequence, const SensorSpec& sensor, const Output
 }
 std::string export_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output) {
   return frame_folder(sequence, sensor, output) + std::string(row_of(output.format).extension);
+}
+std::string packed_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output) {
+  return frame_folder(sequence, sensor, output) + ".h5";
+}
+std::string places_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output) {
+  return frame_folder(sequence, sensor, output) + ".npy";
 }
 std::string offsets_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output) {
   return frame_folder(sequence, sensor, output) + "_offsets.npy";
@@ -302,16 +329,17 @@ uint64_t stack_row_bytes(const ArraySpec& array) {
 std::string dataset_json(const DatasetInfo& info) {
   Json sensors = Json::array();
   for (const SensorSpec& sensor : info.sensors) sensors.push_back(to_json(sensor));
-  const Json json = {{"format", "greatx-dataset"},
-                     {"format_version", format_version},
-                     {"run_key", info.run_key},
-                     {"run", Json::parse(info.run_json)},
-                     {"scenario_sha256", sha256_hex(bytes_of(info.scenario_text))},
-                     {"sequences", info.sequences},
-                     {"ticks_per_sequence", info.ticks_per_sequence},
-                     {"tick_rate_hz", info.tick_rate},
-                     {"index_columns", index_columns},
-                     {"sensors", std::move(sensors)}};
+  Json json = {{"format", "greatx-dataset"},
+               {"format_version", format_version},
+               {"run_key", info.run_key},
+               {"run", Json::parse(info.run_json)},
+               {"scenario_sha256", sha256_hex(bytes_of(info.scenario_text))},
+               {"sequences", info.sequences},
+               {"ticks_per_sequence", info.ticks_per_sequence},
+               {"tick_rate_hz", info.tick_rate},
+               {"index_columns", index_columns},
+               {"sensors", std::move(sensors)}};
+  if (info.compression != Compression::none) json["compression"] = name_of(info.compression);
   return json.dump(2) + "\n";
 }
 
@@ -328,6 +356,9 @@ DatasetInfo parse_dataset_json(const std::string& text, const std::string& name)
   info.tick_rate = json.at("tick_rate_hz").text();
   info.sequences = static_cast<uint32_t>(json.at("sequences").integer(1, most_sequences));
   info.ticks_per_sequence = json.at("ticks_per_sequence").integer(0, most_ticks);
+  if (json.has("compression"))
+    info.compression = row_named(json.at("compression"), all_compressions, "none, fast or small",
+                                 [](Compression row) { return std::string_view(name_of(row)); });
   size_t arrays = 0;
   const std::vector<JsonValue> sensors = json.at("sensors").list(most_sensors);
   for (const JsonValue& sensor : sensors) {

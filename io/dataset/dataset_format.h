@@ -51,6 +51,8 @@ struct DatasetInfo {
   std::vector<SensorSpec> sensors;
   uint32_t sequences = 1;
   int64_t ticks_per_sequence = 0;
+  /// Decides the effort of packing; the sensors' outputs say what is packed.
+  Compression compression = Compression::none;
 };
 
 /// Describes one record in the index, which is sorted by tick, then by sensor.
@@ -70,13 +72,15 @@ inline constexpr const char* index_columns = "tick,time_ns,sensor,sample,row";
 void check_sensors(const std::vector<SensorSpec>& sensors);
 /// Returns the arrays of an output as indices into SensorSpec::arrays.
 std::vector<size_t> arrays_of(const SensorSpec& sensor, const OutputSpec& output);
+std::vector<ArraySpec> specs_of(const SensorSpec& sensor, const OutputSpec& output);
 
-/// Returns the npy_ragged output that keeps the array, or null if there is none.
-const OutputSpec* ragged_output(const SensorSpec& sensor, const std::string& array);
+/// Returns the output npy_ragged or hdf5_records that keeps the array, or null if there is none.
+const OutputSpec* sequence_output(const SensorSpec& sensor, const std::string& array);
 
 std::string_view name_of(FileFormat format);
 bool is_stack(FileFormat format);   ///< npy_stack or npy_ragged: one file per sequence
 bool is_export(FileFormat format);  ///< one file per sequence, made from its stacks when it ends
+bool is_packed(FileFormat format);  ///< hdf5_records: two files per sequence, made when it ends
 bool is_frame(FileFormat format);   ///< one file per record
 bool is_cloud(FileFormat format);   ///< PLY or PCD: points with properties, several arrays per file
 // The next functions return paths relative to the data set's folder, with '/' between their parts.
@@ -84,6 +88,9 @@ std::string sequence_folder(uint32_t sequence);
 std::string stack_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output);
 std::string offsets_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output);
 std::string export_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output);
+/// The HDF5 file of an output hdf5_records, and the table of places in it.
+std::string packed_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output);
+std::string places_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output);
 std::string frame_folder(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output);
 std::string frame_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output, int64_t sample);
 std::string index_path(uint32_t sequence, const char* extension);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "io/dataset/packed_stream.h"
 #include "io/dataset/recovery.h"
 #include "io/files/inside.h"
 #include "io/files/untrusted_json.h"
@@ -136,6 +137,7 @@ Array DatasetReader::load_output(uint32_t sequence, const IndexRow& row, const O
   const SensorSpec& sensor = info_.sensors.at(static_cast<size_t>(row.sensor));
   const ArraySpec& spec = sensor.arrays[arrays_of(sensor, output).at(array)];
   if (is_stack(output.format)) return load_stack(sequence, row, output, spec);
+  if (is_packed(output.format)) return load_packed(sequence, row, output, array);
   const fs::path path = inside(folder_, frame_path(sequence, sensor, output, row.sample));
   const bool varies = is_cloud(output.format) || (!spec.shape.empty() && spec.shape[0] < 0);
   // A compressed picture is hardly larger than its pixels, so twice their size is a safe bound.
@@ -197,6 +199,18 @@ Array DatasetReader::load_stack(uint32_t sequence, const IndexRow& row, const Ou
       read_stack_rows(offsets_path(sequence, sensor, output), DType::i64, {}, row.row, row.row + 2);
   return read_stack_rows(path, spec.dtype, {spec.shape.begin() + 1, spec.shape.end()},
                          offsets.as<int64_t>()[0], offsets.as<int64_t>()[1]);
+}
+
+Array DatasetReader::load_packed(uint32_t sequence, const IndexRow& row, const OutputSpec& output,
+                                 size_t array) const {
+  const SensorSpec& sensor = info_.sensors[static_cast<size_t>(row.sensor)];
+  const std::string path = packed_path(sequence, sensor, output);
+  std::unique_ptr<PackedRecords>& records = open_packed_[path];
+  // An unfinished sequence grows, so its table is opened anew.
+  const bool finished = exists_inside(folder_, path);
+  if (!records || !finished)
+    records = std::make_unique<PackedRecords>(open_packed(folder_, sequence, sensor, output, finished));
+  return records->load(row.row, array);
 }
 
 Array DatasetReader::read_stack_rows(const std::string& path, DType dtype, std::vector<int64_t> row_shape,

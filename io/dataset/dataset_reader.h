@@ -18,6 +18,7 @@
 namespace greatx::io {
 
 class NpyFile;
+class PackedRecords;
 
 /// Reads a finished or unfinished data set. Of an unfinished one, it shows the complete packets. Several
 /// threads may load frames at once, but only one thread at a time may load from stacks.
@@ -56,6 +57,7 @@ class DatasetReader : public RecordSource {
                     Clouds& clouds) const;
   Array load_stack(uint32_t sequence, const IndexRow& row, const OutputSpec& output,
                    const ArraySpec& spec) const;
+  Array load_packed(uint32_t sequence, const IndexRow& row, const OutputSpec& output, size_t array) const;
   Array read_stack_rows(const std::string& path, DType dtype, std::vector<int64_t> row_shape, int64_t first,
                         int64_t last) const;
 
@@ -64,6 +66,7 @@ class DatasetReader : public RecordSource {
   bool finished_ = false;
   std::vector<std::vector<IndexRow>> rows_;
   mutable std::map<std::string, std::unique_ptr<NpyFile>> open_stacks_;
+  mutable std::map<std::string, std::unique_ptr<PackedRecords>> open_packed_;
 };
 
 }  // namespace greatx::io

@@ -40,18 +40,24 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Bytes encode_frame(const SensorSpec& sensor, const OutputSpec& output, const std::vector<Array>& arrays) {
+/// Level of libdeflate for EXR in small data sets.
+constexpr int small_exr_level = 6;
+
+Bytes encode_frame(const SensorSpec& sensor, const OutputSpec& output, const std::vector<Array>& arrays,
+                   Compression compression) {
+  const bool small = compression == Compression::small;
   const std::vector<size_t> indices = arrays_of(sensor, output);
   const Array& first = arrays[indices[0]];
   switch (output.format) {
     case FileFormat::npy_frame:
       return encode_npy(first);
     case FileFormat::png:
-      return encode_png(first);
+      // Pictures of ids are smaller by runs alone.
+      return encode_png(first, small && first.shape.size() == 3 ? PngCoding::matched : PngCoding::fast);
     case FileFormat::png_depth24:
       return encode_png_depth24(first);
     case FileFormat::exr:
-      return encode_exr(first);
+      return encode_exr(first, small ? small_exr_level : 0);
     case FileFormat::kitti:
       return encode_kitti(first);
     case FileFormat::pcd:
@@ -89,6 +95,11 @@ struct QueuedPacket {
     std::string sha256;
   };
   std::vector<Frame> frames;  ///< per record and per output of one file per frame
+  struct Packing {
+    size_t record, output;
+  };
+  std::vector<Packing> packings;  ///< per record and per output hdf5_records
+  std::vector<PackedRecord> packed;
   // DatasetWriter::State::mutex_ guards the next two members.
   size_t jobs_left = 0;
   std::exception_ptr error;  ///< first exception of a job of this packet
@@ -128,6 +139,7 @@ class DatasetWriter::State {
   void run_job(const std::shared_ptr<QueuedPacket>& pending, const std::function<void()>& job);
   void check_values(const QueuedPacket& pending) const;
   void write_frame(const QueuedPacket& pending, QueuedPacket::Frame& frame) const;
+  void pack(QueuedPacket& pending, size_t packing) const;
   void commit_ready(std::unique_lock<std::mutex>& lock);
   void commit(const QueuedPacket& pending);
   void append_journal(const std::string& line);
@@ -296,9 +308,12 @@ void DatasetWriter::State::write(Packet packet) {
   const std::vector<Record>& records = pending->packet.records;
   for (size_t r = 0; r < records.size(); ++r) {
     const std::vector<OutputSpec>& outputs = info_.sensors[records[r].sensor].outputs;
-    for (size_t o = 0; o < outputs.size(); ++o)
+    for (size_t o = 0; o < outputs.size(); ++o) {
       if (is_frame(outputs[o].format)) pending->frames.push_back({r, o, 0, {}});
+      if (is_packed(outputs[o].format)) pending->packings.push_back({r, o});
+    }
   }
+  pending->packed.resize(pending->packings.size());
   enqueue(pending);
 }
 
@@ -311,10 +326,12 @@ void DatasetWriter::State::enqueue(const std::shared_ptr<QueuedPacket>& pending)
     lock.unlock();
     rethrow_error();
   }
-  pending->jobs_left = pending->frames.size() + 1;
+  pending->jobs_left = pending->frames.size() + pending->packings.size() + 1;
   queue_.push_back(pending);
   lock.unlock();
   workers_->submit([this, pending] { run_job(pending, [&] { check_values(*pending); }); });
+  for (size_t i = 0; i < pending->packings.size(); ++i)
+    workers_->submit([this, pending, i] { run_job(pending, [&] { pack(*pending, i); }); });
   for (QueuedPacket::Frame& frame : pending->frames)
     workers_->submit([this, pending, &frame] { run_job(pending, [&] { write_frame(*pending, frame); }); });
 }
@@ -353,13 +370,25 @@ void DatasetWriter::State::write_frame(const QueuedPacket& pending, QueuedPacket
   const fs::path path = inside(folder_, frame_path(next_sequence_, sensor, output, record.sample));
   Bytes bytes;
   try {
-    bytes = encode_frame(sensor, output, record.arrays);
+    bytes = encode_frame(sensor, output, record.arrays, info_.compression);
   } catch (const UserError& error) {
     throw_user_error("{}: {}", path.string(), error.what());
   }
   frame.size = bytes.size();
   frame.sha256 = sha256_hex(bytes);
   write_file_atomically(path, bytes);
+}
+
+void DatasetWriter::State::pack(QueuedPacket& pending, size_t packing) const {
+  const QueuedPacket::Packing& place = pending.packings[packing];
+  const Record& record = pending.packet.records[place.record];
+  const SensorSpec& sensor = info_.sensors[record.sensor];
+  try {
+    pending.packed[packing] =
+        pack_record(sensor, sensor.outputs[place.output], record.arrays, info_.compression);
+  } catch (const UserError& error) {
+    throw_user_error("{}, tick {}: {}", sensor.name, record.tick, error.what());
+  }
 }
 
 /// Commits the complete packets at the head of the queue. Any worker may call this, but only one at a time
@@ -398,10 +427,14 @@ void DatasetWriter::State::commit_ready(std::unique_lock<std::mutex>& lock) {
 void DatasetWriter::State::commit(const QueuedPacket& pending) {
   const Packet& packet = pending.packet;
   JournalPacket line{next_sequence_, packet.tick, packet.time_ns, {}, {}};
-  for (const Record& record : packet.records) {
+  size_t packing = 0;
+  for (size_t r = 0; r < packet.records.size(); ++r) {
+    const Record& record = packet.records[r];
     rows_.push_back(
         {packet.tick, packet.time_ns, record.sensor, record.sample, files_->records_of(record.sensor)});
-    files_->append(record);
+    const size_t first = packing;
+    while (packing < pending.packings.size() && pending.packings[packing].record == r) ++packing;
+    files_->append(record, std::span(pending.packed).subspan(first, packing - first));
     ++manifest_.records_per_sensor[record.sensor];
     line.records.push_back({record.sensor, record.sample});
   }
@@ -448,8 +481,11 @@ void DatasetWriter::State::end_sequence() {
   GREATX_CHECK(files_, "no sequence was begun");
   flush();
   try {
-    std::vector<FileEntry> entries(files_->file_count());
-    workers_->for_each(entries.size(), [&](size_t i) { entries[i] = files_->seal(i); });
+    std::vector<std::vector<FileEntry>> sealed(files_->file_count());
+    workers_->for_each(sealed.size(), [&](size_t i) { sealed[i] = files_->seal(i); });
+    std::vector<FileEntry> entries;
+    for (const std::vector<FileEntry>& files : sealed)
+      entries.insert(entries.end(), files.begin(), files.end());
     const std::vector<FileEntry> exports = export_sequence(folder_, info_, next_sequence_);
     entries.insert(entries.end(), exports.begin(), exports.end());
     files_->publish();
@@ -465,6 +501,7 @@ void DatasetWriter::State::end_sequence() {
     while (first > 0 && manifest_.frames[first - 1].sequence == next_sequence_) --first;
     check_frames(first);
     append_journal(journal_line(JournalEnd{next_sequence_, entries}));
+    files_->remove_streams();
     manifest_.files.insert(manifest_.files.end(), entries.begin(), entries.end());
   } catch (const WriteError& error) {
     explain(error);

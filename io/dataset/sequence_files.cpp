@@ -62,13 +62,21 @@ int64_t whole_ragged(const std::filesystem::path& folder, const std::string& dat
 
 SequenceFiles::SequenceFiles(const std::filesystem::path& folder, const DatasetInfo& info, uint32_t sequence,
                              std::vector<int64_t> records_per_sensor)
-    : folder_(folder), slots_(info.sensors.size()), records_(std::move(records_per_sensor)) {
+    : folder_(folder),
+      slots_(info.sensors.size()),
+      packed_of_(info.sensors.size()),
+      records_(std::move(records_per_sensor)) {
   GREATX_CHECK(records_.size() == info.sensors.size(), "{} counts", records_.size());
   for (size_t s = 0; s < info.sensors.size(); ++s) {
     const SensorSpec& sensor = info.sensors[s];
     create_folders_inside(folder, sequence_folder(sequence) + "/" + sensor.name);
     for (const OutputSpec& output : sensor.outputs) {
       if (is_export(output.format)) continue;
+      if (is_packed(output.format)) {
+        packed_of_[s].push_back(packed_.size());
+        packed_.emplace_back(folder, sequence, sensor, output, records_[s]);
+        continue;
+      }
       if (!is_stack(output.format)) {
         create_folders_inside(folder, frame_folder(sequence, sensor, output));
         continue;
@@ -126,7 +134,11 @@ void SequenceFiles::StackFile::append(std::span<const std::byte> bytes, int64_t 
   shape[0] += rows;
 }
 
-void SequenceFiles::append(const Record& record) {
+void SequenceFiles::append(const Record& record, std::span<const PackedRecord> packed) {
+  const std::vector<size_t>& streams = packed_of_[record.sensor];
+  GREATX_CHECK(packed.size() == streams.size(), "{} packed records for {} outputs", packed.size(),
+               streams.size());
+  for (size_t i = 0; i < streams.size(); ++i) packed_[streams[i]].append(packed[i]);
   for (const Slot& slot : slots_[record.sensor]) {
     const Array& array = record.arrays[slot.array];
     StackFile& data = files_[slot.file];
@@ -142,6 +154,8 @@ std::vector<int64_t> SequenceFiles::whole_records(const std::filesystem::path& f
   for (const SensorSpec& sensor : info.sensors) {
     int64_t count = std::numeric_limits<int64_t>::max();
     for (const OutputSpec& output : sensor.outputs) {
+      if (is_packed(output.format))
+        count = std::min(count, PackedStream::whole_records(folder, sequence, sensor, output));
       if (!is_stack(output.format)) continue;
       const std::string data = current_name(folder, stack_path(sequence, sensor, output));
       const uint64_t row_bytes = stack_row_bytes(sensor.arrays[arrays_of(sensor, output)[0]]);
@@ -163,22 +177,31 @@ std::vector<std::string> SequenceFiles::stack_paths(const DatasetInfo& info, uin
     for (const OutputSpec& output : sensor.outputs) {
       if (is_stack(output.format)) paths.push_back(stack_path(sequence, sensor, output));
       if (output.format == FileFormat::npy_ragged) paths.push_back(offsets_path(sequence, sensor, output));
+      if (!is_packed(output.format)) continue;
+      for (std::string& path : PackedStream::paths(sequence, sensor, output))
+        paths.push_back(std::move(path));
     }
   }
   return paths;
 }
 
-FileEntry SequenceFiles::seal(size_t index) {
+std::vector<FileEntry> SequenceFiles::seal(size_t index) {
+  if (index >= files_.size()) return packed_[index - files_.size()].seal();
   StackFile& stack = files_[index];
   stack.file.check_untouched(stack.bytes_so_far());
   stack.file.write_at(0, npy_header(stack.dtype, stack.shape));
   FileEntry entry{stack.path, stack.bytes_so_far(), sha256_of(stack.file)};
   stack.file.close();
-  return entry;
+  return {entry};
 }
 
 void SequenceFiles::publish() {
   for (const StackFile& stack : files_) rename_file(part_name(folder_ / stack.path), folder_ / stack.path);
+  for (const PackedStream& stream : packed_) stream.publish();
+}
+
+void SequenceFiles::remove_streams() {
+  for (PackedStream& stream : packed_) stream.remove();
 }
 
 }  // namespace greatx::io

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "io/dataset/dataset_reader.h"
 #include "io/dataset/manifest.h"
+#include "io/dataset/packed_stream.h"
 #include "io/dataset/worker_pool.h"
 #include "io/files/inside.h"
 #include "io/formats/npy.h"
@@ -31,6 +32,8 @@ class Verifier {
   void check_row(const DatasetReader& reader, uint32_t sequence, const IndexRow& row,
                  int64_t expected_sample);
   void check_stacks(const DatasetReader& reader, uint32_t sequence, const std::vector<int64_t>& counts);
+  void check_packed(const DatasetReader& reader, uint32_t sequence, size_t sensor, const OutputSpec& output,
+                    int64_t records);
   int64_t check_offsets(const std::string& path, int64_t records);
   void check_stack_values(const SensorSpec& sensor, const ArraySpec& spec, const std::string& path,
                           const std::vector<int64_t>& expected_shape);
@@ -184,6 +187,7 @@ void Verifier::check_stacks(const DatasetReader& reader, uint32_t sequence,
         used_.insert(path);
         if (!listed_.contains(path)) report(path, "is not in the manifest");
       }
+      if (is_packed(output.format)) check_packed(reader, sequence, s, output, counts[s]);
       if (!is_stack(output.format)) continue;
       const ArraySpec& spec = sensor.arrays[arrays_of(sensor, output)[0]];
       std::vector<int64_t> shape = spec.shape;
@@ -198,6 +202,44 @@ void Verifier::check_stacks(const DatasetReader& reader, uint32_t sequence,
       if (!listed_.contains(path)) report(path, "is not in the manifest");
       if (sound(path) && rows >= 0) check_stack_values(sensor, spec, path, shape);
     }
+  }
+}
+
+/// Checks the table of a packed output, and the values of its floating-point arrays. Integers have no invalid
+/// values, and the hashes cover their bytes.
+void Verifier::check_packed(const DatasetReader& reader, uint32_t sequence, size_t number,
+                            const OutputSpec& output, int64_t records) {
+  const SensorSpec& sensor = reader.sensors()[number];
+  const std::string data = packed_path(sequence, sensor, output),
+                    table = places_path(sequence, sensor, output);
+  bool good = true;
+  for (const std::string& path : {data, table}) {
+    used_.insert(path);
+    if (!listed_.contains(path)) report(path, "is not in the manifest");
+    good = good && sound(path);
+  }
+  if (!good) return;
+  try {
+    const PackedRecords packed = open_packed(folder_, sequence, sensor, output, true);
+    if (packed.records() != records) {
+      report(table, "number of records", std::to_string(records), std::to_string(packed.records()));
+      return;
+    }
+    const std::vector<ArraySpec> arrays = specs_of(sensor, output);
+    workers_.for_each(static_cast<size_t>(records), [&](size_t record) {
+      for (size_t column = 0; column < packed.columns().size(); ++column)
+        (void)packed.place(static_cast<int64_t>(record), column);
+      for (size_t a = 0; a < arrays.size(); ++a) {
+        if (arrays[a].dtype != DType::f32 && arrays[a].dtype != DType::f64) continue;
+        const std::string bad =
+            find_bad_value(sensor, arrays[a], packed.load(static_cast<int64_t>(record), a));
+        if (!bad.empty())
+          throw_user_error("{}: record {}: expected finite values, found {}", packed.data_path().string(),
+                           record, bad);
+      }
+    });
+  } catch (const UserError& error) {
+    report(data, error.what());
   }
 }
 

@@ -4,39 +4,44 @@
 // Writes the events of one sensor and sequence in formats of other tools: DSEC's HDF5 and v2e's text.
 #pragma once
 
-#include <algorithm>
 #include <filesystem>
-#include <utility>
+#include <functional>
 
 #include "io/formats/npy.h"
 
 namespace greatx::io {
 
-/// Reads the events of a sequence, in order of time, piece by piece from .npy files: t i64 ns, x u16, y u16,
-/// p u8 (1: brighter).
+/// Gives the events of a sequence, in order of time, piece by piece: t i64 ns, x u16, y u16, and p u8, which
+/// is 1 for brighter.
 class EventArrays {
  public:
-  /// Throws UserError if a file does not hold an array of its type, or if the lengths differ.
-  EventArrays(const std::filesystem::path& t, const std::filesystem::path& x, const std::filesystem::path& y,
-              const std::filesystem::path& p);
-  int64_t size() const { return t_.rows(); }
-
   struct Piece {
     int64_t first = 0;  ///< index of the first event of the piece
     Array t, x, y, p;
     int64_t size() const { return t.shape[0]; }
   };
+  virtual ~EventArrays() = default;
+  virtual int64_t size() const = 0;
   /// Calls visit(piece) for each piece in order.
-  template <typename Visit>
-  void for_each_piece(Visit&& visit) const {
-    constexpr int64_t piece = 1 << 20;
-    for (int64_t first = 0; first < size(); first += piece) {
-      const int64_t last = std::min(first + piece, size());
-      visit(Piece{first, t_.read_rows(first, last), x_.read_rows(first, last), y_.read_rows(first, last),
-                  p_.read_rows(first, last)});
-    }
-  }
-  const std::filesystem::path& file() const { return file_; }
+  virtual void for_each_piece(const std::function<void(const Piece&)>& visit) const = 0;
+  /// Returns the file with the times, for messages.
+  virtual const std::filesystem::path& file() const = 0;
+
+ protected:
+  EventArrays() = default;
+  EventArrays(const EventArrays&) = default;
+  EventArrays& operator=(const EventArrays&) = default;
+};
+
+/// Reads the events from .npy files.
+class NpyEvents : public EventArrays {
+ public:
+  /// Throws UserError if a file does not hold an array of its type, or if the lengths differ.
+  NpyEvents(const std::filesystem::path& t, const std::filesystem::path& x, const std::filesystem::path& y,
+            const std::filesystem::path& p);
+  int64_t size() const override { return t_.rows(); }
+  void for_each_piece(const std::function<void(const Piece&)>& visit) const override;
+  const std::filesystem::path& file() const override { return file_; }
 
  private:
   std::filesystem::path file_;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <iterator>
 
 #include "core/error.h"
@@ -8,8 +9,8 @@
 
 namespace greatx::io {
 
-EventArrays::EventArrays(const std::filesystem::path& t, const std::filesystem::path& x,
-                         const std::filesystem::path& y, const std::filesystem::path& p)
+NpyEvents::NpyEvents(const std::filesystem::path& t, const std::filesystem::path& x,
+                     const std::filesystem::path& y, const std::filesystem::path& p)
     : file_(t), t_(t), x_(x), y_(y), p_(p) {
   const auto check = [&](const NpyFile& file, const std::filesystem::path& path, DType dtype) {
     if (file.dtype() != dtype || file.shape().size() != 1 || file.rows() != t_.rows())
@@ -20,6 +21,15 @@ EventArrays::EventArrays(const std::filesystem::path& t, const std::filesystem::
   check(x_, x, DType::u16);
   check(y_, y, DType::u16);
   check(p_, p, DType::u8);
+}
+
+void NpyEvents::for_each_piece(const std::function<void(const Piece&)>& visit) const {
+  constexpr int64_t piece = 1 << 20;
+  for (int64_t first = 0; first < size(); first += piece) {
+    const int64_t last = std::min(first + piece, size());
+    visit(Piece{first, t_.read_rows(first, last), x_.read_rows(first, last), y_.read_rows(first, last),
+                p_.read_rows(first, last)});
+  }
 }
 
 void write_text_events(const std::filesystem::path& path, const EventArrays& events) {

@@ -15,6 +15,7 @@
 #include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/openexr.h>
 
+#include "io/formats/deflate.h"
 #include "io/formats/picture_shape.h"
 #include "io/formats/run_deflate.h"
 
@@ -103,7 +104,8 @@ class Writer {
 /// not shrink stays as it is.
 class BlockEncoder {
  public:
-  BlockEncoder(int width, int channels) : width_(size_t(width)), channels_(size_t(channels)) {}
+  BlockEncoder(int width, int channels, int level)
+      : width_(size_t(width)), channels_(size_t(channels)), level_(level) {}
 
   /// Encodes lines of interleaved pixels. The result is valid until the next call.
   std::span<const std::byte> encode(const float* pixels, int lines) {
@@ -118,7 +120,10 @@ class BlockEncoder {
     }
     mix();
     packed_.clear();
-    append_run_deflated(mixed_, mixed_period, packed_);
+    if (level_ > 0)
+      append_deflated(mixed_, level_, packed_);
+    else
+      append_run_deflated(mixed_, mixed_period, packed_);
     return packed_.size() < plain_.size() ? std::span<const std::byte>(packed_) : plain_;
   }
 
@@ -145,12 +150,13 @@ class BlockEncoder {
   }
 
   size_t width_, channels_;
+  int level_;  ///< of libdeflate; 0: by runs
   Bytes plain_, split_, mixed_, packed_;
 };
 
 }  // namespace
 
-Bytes encode_exr(const Array& image) {
+Bytes encode_exr(const Array& image, int level) {
   const bool rgb = image.shape.size() == 3;
   GREATX_CHECK(image.dtype == DType::f32 && (rgb || image.shape.size() == 2) && image.shape[0] > 0 &&
                    image.shape[1] > 0 && image.shape[0] < (1 << 24) && image.shape[1] < (1 << 24) &&
@@ -162,7 +168,7 @@ Bytes encode_exr(const Array& image) {
   Writer writer(file);
   // The header has only the attributes that the format requires. A time or an owner would change the bytes.
   writer.begin(width, height, channel_names(rgb));
-  BlockEncoder blocks(width, rgb ? 3 : 1);
+  BlockEncoder blocks(width, rgb ? 3 : 1, level);
   for (int y = 0; y < height; y += lines_of_a_block) {
     const int lines = std::min(lines_of_a_block, height - y);
     writer.block(y, blocks.encode(image.as<float>().data() + size_t(y) * width * (rgb ? 3 : 1), lines));

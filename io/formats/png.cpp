@@ -14,6 +14,7 @@
 
 #include <libdeflate.h>
 
+#include "io/formats/deflate.h"
 #include "io/formats/picture_shape.h"
 #include "io/formats/png_filter.h"
 #include "io/formats/run_deflate.h"
@@ -25,6 +26,7 @@ namespace {
 /// Level of libdeflate for depth in 24 bits, whose lines repeat at many distances: runs alone would make
 /// files 44 % larger.
 constexpr int depth_level = 1;
+constexpr int matched_level = 6;
 constexpr double depth24_per_m = depth24_full_scale / depth24_range_m;
 constexpr uint32_t largest_side = (1 << 24) - 1;
 
@@ -110,26 +112,9 @@ void append_chunk(Bytes& out, const char (&type)[5], Fill&& fill) {
   append_word(out, libdeflate_crc32(0, out.data() + length_at + 4, length + 4));
 }
 
-/// Selects how the filtered lines are packed.
-enum class Packing {
-  runs,     ///< io/formats/run_deflate.h
-  matches,  ///< libdeflate
-};
-
-void append_matched(std::span<const std::byte> lines, Bytes& out) {
-  thread_local const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
-      libdeflate_alloc_compressor(depth_level), libdeflate_free_compressor);
-  GREATX_CHECK(compressor != nullptr, "libdeflate: no memory");
-  thread_local Bytes packed;
-  packed.resize(std::max(packed.size(), libdeflate_zlib_compress_bound(compressor.get(), lines.size())));
-  const size_t size =
-      libdeflate_zlib_compress(compressor.get(), lines.data(), lines.size(), packed.data(), packed.size());
-  GREATX_CHECK(size > 0, "libdeflate: {} bytes", lines.size());
-  append(out, std::span(packed).first(size));
-}
-
-/// Encodes a PNG file. `pixels` holds the lines in order, 16-bit values in the machine's byte order.
-Bytes encode(const Layout& layout, PngFilters filters, Packing packing, std::span<const std::byte> pixels) {
+/// Encodes a PNG file. `pixels` holds the lines in order, 16-bit values in the machine's byte order. The
+/// filtered lines are packed by libdeflate at `level`, or by runs (io/formats/run_deflate.h) if it is 0.
+Bytes encode(const Layout& layout, PngFilters filters, int level, std::span<const std::byte> pixels) {
   GREATX_CHECK(pixels.size() == layout.height * layout.row_bytes(), "{} bytes for {}x{} pixels",
                pixels.size(), layout.width, layout.height);
   const size_t pixel_bytes = layout.row_bytes() / layout.width;
@@ -149,8 +134,8 @@ Bytes encode(const Layout& layout, PngFilters filters, Packing packing, std::spa
       out.push_back(static_cast<std::byte>(byte));
   });
   append_chunk(out, "IDAT", [&] {
-    if (packing == Packing::matches)
-      append_matched(lines, out);
+    if (level > 0)
+      append_deflated(lines, level, out);
     else
       append_run_deflated(lines, pixel_bytes, out);
     GREATX_CHECK(out.size() < (1u << 31), "{} bytes of {}", out.size(), lines.size());
@@ -161,9 +146,9 @@ Bytes encode(const Layout& layout, PngFilters filters, Packing packing, std::spa
 
 /// Encodes a picture of any kind but depth. A choice of filters makes files of colours 4 % smaller than Up
 /// alone; those of ids are smaller with Up.
-Bytes encode(const Layout& layout, std::span<const std::byte> pixels) {
+Bytes encode(const Layout& layout, int level, std::span<const std::byte> pixels) {
   const bool color = layout.color_type == PNG_COLOR_TYPE_RGB;
-  return encode(layout, color ? PngFilters::sub_or_up : PngFilters::up, Packing::runs, pixels);
+  return encode(layout, color ? PngFilters::sub_or_up : PngFilters::up, level, pixels);
 }
 
 Layout layout_of(const Array& image, int bit_depth, int color_type) {
@@ -262,21 +247,22 @@ void depth24_codes(const float* metres, size_t count, uint32_t* codes) {
 
 Bytes encode_png(const Array& image, PngCoding coding) {
   const bool rgb = image.shape.size() == 3;
-  if (coding != PngCoding::fast) {
+  if (coding == PngCoding::small || coding == PngCoding::small_inexact) {
     GREATX_CHECK(rgb && image.dtype == DType::u8, "{} of {} axes", numpy_name(image.dtype),
                  image.shape.size());
     constexpr int most_dropped_bits = 3;
     return encode_small(layout_of(image, 8, PNG_COLOR_TYPE_RGB), image.as<uint8_t>(),
                         coding == PngCoding::small_inexact ? most_dropped_bits : 0);
   }
+  const int level = coding == PngCoding::matched ? matched_level : 0;
   switch (image.dtype) {
     case DType::u8:
-      return encode(layout_of(image, 8, rgb ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY), image.bytes);
+      return encode(layout_of(image, 8, rgb ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY), level, image.bytes);
     case DType::u16:
       GREATX_CHECK(!rgb, "image of {} axes", image.shape.size());
-      return encode(layout_of(image, 16, PNG_COLOR_TYPE_GRAY), image.bytes);
+      return encode(layout_of(image, 16, PNG_COLOR_TYPE_GRAY), level, image.bytes);
     case DType::u32:
-      return encode_png(narrowed(image));
+      return encode_png(narrowed(image), coding);
     default:
       GREATX_CHECK(false, "no PNG holds {}", numpy_name(image.dtype));
   }
@@ -337,7 +323,7 @@ Bytes encode_png_depth24(const Array& depth) {
       to[2] = static_cast<uint8_t>(codes[i] >> 16);
     }
   }
-  return encode(layout_of(depth, 8, PNG_COLOR_TYPE_RGB), PngFilters::up, Packing::matches, pixels);
+  return encode(layout_of(depth, 8, PNG_COLOR_TYPE_RGB), PngFilters::up, depth_level, pixels);
 }
 
 Array decode_png_depth24(std::span<const std::byte> file, const std::string& name,

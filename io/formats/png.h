@@ -12,7 +12,10 @@
 namespace greatx::io {
 
 enum class PngCoding {
-  fast,   ///< for every frame of a run: filters Sub and Up, runs and Huffman codes
+  fast,  ///< for every frame of a run: filters Sub and Up, runs and Huffman codes
+  /// For every frame of a run whose data set is to be small: the same filters, libdeflate. Files are 11 %
+  /// smaller than those of `fast` and take six times as long.
+  matched,
   small,  ///< for files that are written once: libpng and zlib, with a palette where 256 colours suffice
   /// As `small`, but drops up to 3 of the lowest bits of each channel if the picture has more than 256
   /// colours. It drops as few bits as possible. If 3 bits are not enough, the picture stays exact.
@@ -20,7 +23,8 @@ enum class PngCoding {
 };
 
 /// Encodes u8 [h, w, 3] as 8-bit RGB, u8 [h, w] as 8-bit grey, and u16 [h, w] or u32 [h, w] as 16-bit grey.
-/// Throws UserError if a u32 value does not fit into 16 bits. The codings for size accept RGB only.
+/// Throws UserError if a u32 value does not fit into 16 bits. `small` and
+/// `small_inexact` accept RGB only.
 Bytes encode_png(const Array& image, PngCoding coding = PngCoding::fast);
 /// Decodes 8-bit RGB, 8-bit grey and 16-bit grey without interlacing. `name` is the file's name in messages.
 /// Throws UserError for every other file, for everything that libpng reports as an error or a warning, and

@@ -16,6 +16,7 @@ from .campaign import Campaign, campaign
 from .dataset import Dataset, Record, Sensor, Sequence, Tick, load
 from .errors import DatasetError, Error
 from .events import Events
+from .packed import PackedRagged, PackedStack, PackedTable
 from .paths import Paths
 from .radio_map import RadioMap
 from .samples import Samples
@@ -32,6 +33,9 @@ __all__ = [
     "Error",
     "Events",
     "Frames",
+    "PackedRagged",
+    "PackedStack",
+    "PackedTable",
     "Paths",
     "RadioMap",
     "Ragged",

@@ -67,6 +67,10 @@ class Ragged:
         """Returns int64 [records], the number of rows of each record."""
         return np.diff(self.offsets)
 
+    def rows(self, first: int, last: int) -> np.ndarray:
+        """Returns the rows of the records first to last - 1, a view [rows, ...]."""
+        return self.values[self.offsets[first] : self.offsets[last]]
+
     def __len__(self) -> int:
         return len(self.offsets) - 1
 

@@ -27,7 +27,8 @@ from .arrays import Frames, Ragged, open_stack
 from .errors import DatasetError
 from .files import MOST_SEQUENCES, MOST_TICKS, Field, inside
 from .frames import load_npy
-from .layout import EXPORT_SUFFIX, ArrayInfo, SensorInfo, parse_sensors, read_info
+from .layout import EXPORT_SUFFIX, PACKED, ArrayInfo, OutputInfo, SensorInfo, parse_sensors, read_info
+from .packed import PackedFile, PackedRagged, PackedStack, PackedTable
 from .ticks import TickRecords
 
 if TYPE_CHECKING:
@@ -298,6 +299,7 @@ class Sensor:
     The type of sensor["NAME"] or sensor.NAME depends on the format of the output that holds the array:
       npy_stack   a read-only memory map [records, ...];
       npy_ragged  a Ragged, whose item [i] is a view [rows of record i, ...];
+      hdf5_records  a PackedStack or a PackedRagged, whose item [i] reads and unpacks record i;
       one file per record  Frames, whose item [i] reads and decodes the file of record i;
       hdf5_events, text_events  the path of the sequence's file, for h5py and other readers.
     NAME is an array ("delay") or an output ("paths/delay"; "cloud", whose records are dicts of arrays). An
@@ -372,12 +374,24 @@ class Sensor:
                 opened: Any = open_stack(base.with_name(base.name + ".npy"), array, len(self))
             elif output.format == "npy_ragged":
                 opened = Ragged.open(base, array, len(self))
+            elif output.format == PACKED:
+                opened = self._packed(base, output, array)
             elif output.format in EXPORT_SUFFIX:
                 opened = base.with_name(base.name + EXPORT_SUFFIX[output.format])
             else:
                 opened = Frames(base, output, array, self.index[:, 3])
             self._opened[key] = opened
         return self._opened[key]
+
+    def _packed(self, base: pathlib.Path, output: OutputInfo, array: Optional[ArrayInfo]) -> Any:
+        """Returns a packed array, or all arrays of the output if `array` is None."""
+        if array is None:
+            return PackedTable({a.name: self._packed(base, output, a) for a in output.arrays}, len(self))
+        key = (output.name, "")
+        if key not in self._opened:
+            self._opened[key] = PackedFile(base, output, len(self))
+        kind = PackedRagged if array.shape[:1] == (-1,) else PackedStack
+        return kind(self._opened[key], array)
 
     def __getattr__(self, name: str) -> Any:
         if not name.startswith("_") and "info" in self.__dict__:  # `info` is missing during unpickling

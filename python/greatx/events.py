@@ -32,12 +32,12 @@ class Events:
 
     @classmethod
     def of(cls, sensor: "Sensor", first: int, last: int) -> "Events":
-        """Returns the events of the records first to last - 1 of an event camera, as views of its files.
-        Raises DatasetError if the sensor is no event camera or its arrays are not valid.
+        """Returns the events of the records first to last - 1 of an event camera, as views of its files if
+        these can be memory-mapped. Raises DatasetError if the sensor is no event camera or its arrays are not
+        valid.
         """
         if sensor.kind != "event_camera" or "t" not in sensor.arrays:
             raise DatasetError(f"{sensor.name}: is no event camera with events, but {sensor.kind}")
-        begin, end = (int(sensor["t"].offsets[i]) for i in (first, last))
         for name, kind in (("x", np.uint16), ("y", np.uint16), ("p", np.uint8), ("t", np.int64)):
             if (
                 name not in sensor.arrays
@@ -54,19 +54,19 @@ class Events:
                     "record"
                 )
         columns = {
-            name: sensor[name].values[begin:end]
+            name: sensor[name].rows(first, last)
             for name in ("t", "x", "y", "p", "instance")
             if name in sensor.arrays
         }
         size = Field(sensor.metadata.where, sensor.metadata)
         width, height = (size[side].integer(1, 65536) for side in ("width", "height"))
         for name, side in (("x", width), ("y", height)):
-            if end > begin and columns[name].max() >= side:
+            if len(columns["t"]) and columns[name].max() >= side:
                 raise DatasetError(
                     f"{sensor.sequence.path / sensor.name}: expected {name} below {side}, found "
                     f"{columns[name].max()}"
                 )
-        if end > begin and columns["p"].max() > 1:
+        if len(columns["t"]) and columns["p"].max() > 1:
             raise DatasetError(
                 f"{sensor.sequence.path / sensor.name}: expected p of 0 and 1, found {columns['p'].max()}"
             )

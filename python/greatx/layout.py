@@ -32,6 +32,7 @@ FORMATS = (
     "npy_stack",
     "npy_ragged",
     "npy_frame",
+    "hdf5_records",
     "exr",
     "png",
     "ply",
@@ -45,6 +46,8 @@ FORMATS = (
 DTYPES = ("|u1", "<u2", "<u4", "<u8", "|i1", "<i4", "<i8", "<f4", "<f8", "<c8")
 #: The formats of point clouds, whose files may hold several arrays.
 CLOUDS = ("ply", "pcd")
+#: The format of packed arrays, several of which are in one HDF5 file.
+PACKED = "hdf5_records"
 #: Suffixes of files for other tools, which hold a whole sequence and are made from its arrays.
 EXPORT_SUFFIX = {"hdf5_events": ".h5", "text_events": ".txt"}
 SUFFIX = {
@@ -67,6 +70,7 @@ class ArrayInfo:
     shape: Tuple[int, ...]  #: shape of one record; an extent of -1 varies from record to record
     unit: str
     description: str  #: axes and meaning
+    step: float = 0.0  #: if not 0: values, or the coordinates of points, are multiples of it
 
 
 @dataclasses.dataclass(frozen=True)
@@ -168,7 +172,8 @@ def _array(entry: Field) -> ArrayInfo:
     shape = tuple(extent.integer(-1 if i == 0 else 0, 1 << 40) for i, extent in enumerate(extents))
     if bytes_of_shape(shape, np.dtype(dtype).itemsize) > LARGEST:
         raise entry["shape"].fail(f"a record of at most {LARGEST} bytes")
-    return ArrayInfo(name, np.dtype(dtype), shape, entry["unit"].text(), entry["description"].text())
+    step = entry["step"].number(1e-9, 1e9) if "step" in entry else 0.0
+    return ArrayInfo(name, np.dtype(dtype), shape, entry["unit"].text(), entry["description"].text(), step)
 
 
 def _sensor(entry: Field) -> SensorInfo:
@@ -186,8 +191,9 @@ def _sensor(entry: Field) -> SensorInfo:
         for array in holds:
             if array.text() not in arrays:
                 raise array.fail("one of the sensor's arrays")
-        if not holds or (len(holds) > 1 and kind not in CLOUDS and kind not in EXPORT_SUFFIX):
-            raise o["arrays"].fail("one array" if kind not in CLOUDS else "an array or more")
+        several = kind in CLOUDS or kind in EXPORT_SUFFIX or kind == PACKED
+        if not holds or (len(holds) > 1 and not several):
+            raise o["arrays"].fail("an array or more" if several else "one array")
         info = OutputInfo(_name(o["name"]), kind, tuple(arrays[array.text()] for array in holds))
         varies = info.arrays[0].shape[:1] == (-1,)
         if kind in ("npy_stack", "npy_ragged") and varies != (kind == "npy_ragged"):

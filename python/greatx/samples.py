@@ -9,6 +9,7 @@ import numpy as np
 
 from .arrays import Frames, Ragged
 from .errors import DatasetError
+from .packed import PackedRagged
 
 if TYPE_CHECKING:
     from .dataset import Dataset, Sensor
@@ -97,7 +98,7 @@ class Samples:
         longest = None
         for number in self.sequences:
             opened = self.dataset.sequences[number][sensor][array]
-            if isinstance(opened, Ragged):
+            if isinstance(opened, (Ragged, PackedRagged)):
                 longest = max(longest or 0, int(opened.counts.max(initial=0)))
             elif isinstance(opened, Frames) and -1 in self.dataset.sensors[sensor].locate(array)[1].shape:
                 raise ValueError(

@@ -127,7 +127,8 @@ def scenario_file(name: str, text: str) -> pathlib.Path:
 
 
 @functools.lru_cache(maxsize=None)
-def _made(name: str, text: str, *arguments: str) -> pathlib.Path:
+def made(name: str, text: str, *arguments: str) -> pathlib.Path:
+    """Returns the folder of a data set of a scenario, which tests must not change."""
     scenario, out = scenario_file(name, text), _folder() / name
     subprocess.run(
         [os.environ["GREATX_PROGRAM"], "generate", scenario, "-o", out, "-q", *arguments], check=True
@@ -137,22 +138,22 @@ def _made(name: str, text: str, *arguments: str) -> pathlib.Path:
 
 def street() -> pathlib.Path:
     """Returns the folder of a data set of STREET, which tests must not change."""
-    return _made("street", STREET)
+    return made("street", STREET)
 
 
 def truth() -> pathlib.Path:
     """Returns the folder of a data set of TRUTH, which tests must not change."""
-    return _made("truth", TRUTH)
+    return made("truth", TRUTH)
 
 
 def events() -> pathlib.Path:
     """Returns the folder of a data set of EVENTS, which tests must not change."""
-    return _made("events", EVENTS)
+    return made("events", EVENTS)
 
 
 def space() -> pathlib.Path:
     """Returns the folder of a data set of SPACE with two sequences, which tests must not change."""
-    return _made("space", SPACE, "--sequences", "2")
+    return made("space", SPACE, "--sequences", "2")
 
 
 def copy_of(folder: pathlib.Path) -> pathlib.Path:

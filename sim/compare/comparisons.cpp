@@ -33,7 +33,7 @@ void keep_lidar(const TickEvidence& tick, const KeepErrors& keep) {
       if (!depth || depth->node != returns->node) continue;
       keep(lidar, &camera,
            lidar_against_depth(*depth->camera, *depth->images, depth->mount.inverse() * returns->mount,
-                               returns->xyzi, returns->instances, returns->materials));
+                               returns->xyzi, returns->instances, returns->materials, returns->error_m));
     }
   }
 }

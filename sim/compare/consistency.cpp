@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace greatx::sim {
 
@@ -47,6 +48,27 @@ dvec3 pixel_ray(const render::CameraDesc& camera, double column, double row) {
   return {1.0, -(column - camera.cx) / camera.fx, -(row - camera.cy) / camera.fy};
 }
 
+namespace {
+
+/// Returns how much rounding by `error_m` can change the relative difference in depth of a point in the plane
+/// around a pixel. In the camera's frame, points p of the plane have n p = 1, and 1/z of the pixel that sees
+/// p is n p / z. A point p + e therefore differs by |n e / (1 + n e)|.
+double rounding_bound(const render::CameraDesc& camera, const InverseDepthPlane& plane, double column,
+                      double row, double error_m) {
+  const dvec3 n(plane.at(camera.cx - column, camera.cy - row), -camera.fx * plane.per_column,
+                -camera.fy * plane.per_row);
+  const double most = glm::length(n) * error_m;
+  return most < 1.0 ? most / (1.0 - most) : std::numeric_limits<double>::infinity();
+}
+
+/// Returns whether rounding may move the projection of a point by more than a pixel.
+bool may_leave_pixel(const render::CameraDesc& camera, const dvec3& point, double error_m) {
+  const double per_m = std::max(camera.fx, camera.fy) * glm::length(point) / (point.x * (point.x - error_m));
+  return point.x <= error_m || error_m * per_m > 1.0;
+}
+
+}  // namespace
+
 std::optional<double> lidar_against_depth(const render::CameraDesc& camera,
                                           const render::CameraImages& images, const ReturnedPoint& point) {
   const double z = point.in_camera.x;
@@ -62,18 +84,21 @@ std::optional<double> lidar_against_depth(const render::CameraDesc& camera,
   const std::optional<InverseDepthPlane> plane = interior_plane(images, i, j);
   if (!plane) return std::nullopt;
   const double depth = 1.0 / plane->at(column - (i + 0.5), row - (j + 0.5));
-  return std::abs(depth - z) / z;
+  const double difference = std::abs(depth - z) / z;
+  if (point.error_m == 0.0) return difference;
+  if (may_leave_pixel(camera, point.in_camera, point.error_m)) return std::nullopt;
+  return std::max(0.0, difference - rounding_bound(camera, *plane, i + 0.5, j + 0.5, point.error_m));
 }
 
 ErrorStatistics lidar_against_depth(const render::CameraDesc& camera, const render::CameraImages& images,
                                     const Pose& camera_from_lidar, std::span<const float> xyzi,
-                                    std::span<const uint32_t> instances,
-                                    std::span<const uint32_t> materials) {
+                                    std::span<const uint32_t> instances, std::span<const uint32_t> materials,
+                                    double error_m) {
   ErrorStatistics errors;
   const size_t stride = std::max<size_t>(1, instances.size() / lidar_comparisons);
   for (size_t i = 0; i < instances.size(); i += stride) {
     const dvec3 point = camera_from_lidar.apply(dvec3(xyzi[4 * i], xyzi[4 * i + 1], xyzi[4 * i + 2]));
-    if (const auto error = lidar_against_depth(camera, images, {point, instances[i], materials[i]}))
+    if (const auto error = lidar_against_depth(camera, images, {point, instances[i], materials[i], error_m}))
       errors.add(*error);
   }
   return errors;

@@ -31,6 +31,7 @@ struct ReturnEvidence {
   Pose mount;                                      ///< body_from_sensor
   std::span<const float> xyzi;                     ///< [4 n] in the LiDAR's frame
   std::span<const uint32_t> instances, materials;  ///< [n]
+  double error_m = 0.0;  ///< largest distance between a point and its rounded coordinates
 };
 
 /// Holds everything by which the record collected last can be compared with those of other sensors. A sensor

@@ -175,14 +175,15 @@ ErrorStatistics compare_lidar(const RecordView& lidar, const RecordView& camera)
   const Json about = metadata_of(camera);
   const render::CameraDesc desc = camera_of(about);
   const render::CameraImages images = images_of(camera, desc);
+  const Json about_lidar = metadata_of(lidar);
   const Pose camera_from_lidar =
-      pose_of(about.at("body_from_sensor")).inverse() * pose_of(metadata_of(lidar).at("body_from_sensor"));
+      pose_of(about.at("body_from_sensor")).inverse() * pose_of(about_lidar.at("body_from_sensor"));
   const Array instance = lidar.array("instance");
   const auto returns = static_cast<size_t>(instance.element_count());
   const Array points = expect_array(lidar, "points", DType::f32, 4 * returns),
               material = expect_array(lidar, "material", DType::u32, returns);
   return lidar_against_depth(desc, images, camera_from_lidar, points.as<float>(), instance.as<uint32_t>(),
-                             material.as<uint32_t>());
+                             material.as<uint32_t>(), about_lidar.value("point_error_m", 0.0));
 }
 
 ErrorStatistics compare_sights(const RecordView& channel, const RecordView& poses) {

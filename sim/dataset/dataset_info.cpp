@@ -7,6 +7,7 @@
 #include "core/hash.h"
 #include "core/version.h"
 #include "scene/description/scene.h"
+#include "sim/dataset/packed_outputs.h"
 #include "sim/world/instance_boxes.h"
 
 namespace greatx::sim {
@@ -50,6 +51,9 @@ io::DatasetInfo dataset_info(const Experiment& experiment, const gpu::Device& de
   info.run_key = Sha256().update(info.run_json).hex();
   info.tick_rate = scenario.tick_rate_hz.str();
   info.sensors = sensors;
+  info.compression = scenario.storage.compression;
+  if (info.compression != Compression::none)
+    for (SensorSpec& sensor : info.sensors) pack_outputs(sensor);
   info.sequences = scenario.sequences;
   info.ticks_per_sequence = scenario.ticks;
   return info;

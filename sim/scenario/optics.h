@@ -92,7 +92,9 @@ struct CameraConfig : PinholeConfig {
   std::optional<SensorNoise> noise;
   // The members below select the arrays to deliver.
   bool rgb = true, depth = true, ids = true;
-  bool hdr = false;  ///< the linear radiance as EXR
+  bool listed = false;    ///< whether the scenario lists the outputs; otherwise they are the default ones
+  bool depth_exr = true;  ///< `depth` as EXR; otherwise as an array of NumPy or HDF5
+  bool hdr = false;       ///< the linear radiance as EXR
   bool depth_png24 = true, depth_log = false;
   bool depth_ray = false;  ///< distance along the ray
   bool normals = false, flow = false, boxes = false;

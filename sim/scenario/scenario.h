@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/record.h"
 #include "core/units.h"
 #include "core/vec.h"
 #include "renderer/lidar/scan/returns.h"
@@ -131,9 +132,13 @@ struct LidarConfig {
   uint32_t rings = 0;       ///< rings of sub-rays; 0: one ray per shot
   render::ReturnChoice returns;
   render::Receiver receiver;  ///< without the air
+  /// Coordinates of points are rounded to multiples of it, m; 0: they stay as they are.
+  double point_step_m = 0.0;
   struct Outputs {
+    bool listed = false;  ///< whether the scenario lists the outputs; otherwise they are the default ones
     bool points = true, ply = true, pcd = false, kitti = false;
-    bool clouds() const { return ply || pcd; }  ///< files that hold every array, not only bare points
+    bool arrays = false;  ///< every array once, without a file for viewers of clouds
+    bool clouds() const { return ply || pcd || arrays; }  ///< files that hold every array, not bare points
   } outputs;
 };
 
@@ -216,6 +221,11 @@ struct ChannelConfig {
 
 enum class Switch { automatic, on, off };
 
+/// Says how the data set of a run is stored. It changes no measurement.
+struct StorageConfig {
+  Compression compression = Compression::none;
+};
+
 struct Scenario {
   std::string name;
   std::filesystem::path file;  ///< empty: embedded
@@ -234,7 +244,8 @@ struct Scenario {
   std::vector<ChannelConfig> channels;
   std::map<std::string, Switch> effects;  ///< by the names in sim/plan/effect_list.h
   double tolerance_db = 0.01;             ///< an effect that cannot change more stays off
-  AccuracyWish accuracy;                  ///< asks `greatx generate` to choose settings (sim/tradeoff)
+  StorageConfig storage;
+  AccuracyWish accuracy;  ///< asks `greatx generate` to choose settings (sim/tradeoff)
 };
 
 /// Holds the indices of a sensor called "node/sensor".

@@ -153,6 +153,20 @@ TEST_F(CampaignCli, ItMayBeKilledAtAnyMoment) {
   expect_single_runs("out", true);
 }
 
+TEST_F(CampaignCli, CompressedPartsGiveTheBytesOfSingleRuns) {
+  std::ofstream(folder_ / "c.yaml", std::ios::app)
+      << "set:\n  storage: {compression: small}\n  nodes[uav].sensors[cam].outputs: [rgb, flow]\n";
+  for (const int shard : {2, 1}) {
+    const Outcome run = campaign("run", "out", fmt::format("--shard {}/2 -q", shard));
+    ASSERT_EQ(run.code, 0) << run.err;
+  }
+  const Outcome merged = campaign("merge", "out");
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  EXPECT_THAT(campaign("verify", "out").out, HasSubstr("2 cells are complete and sound"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/data/low/sequence_0001/uav/cam/records.h5"));
+  expect_single_runs("out");
+}
+
 TEST_F(CampaignCli, JobsShareAShard) {
   const Outcome run = campaign("run", "out", "--jobs 3");
   ASSERT_EQ(run.code, 0) << run.err;

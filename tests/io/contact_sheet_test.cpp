@@ -391,7 +391,7 @@ TEST(Summary, CountsWhatIsThere) {
   const Summary summary = summarize(DatasetReader(folder.path()));
   EXPECT_EQ(summary.title, "sample");
   EXPECT_TRUE(summary.finished);
-  EXPECT_EQ(summary.records, 2 * 82);
+  EXPECT_EQ(summary.records, 2 * 86);
   EXPECT_DOUBLE_EQ(summary.duration_s, 0.07);
   EXPECT_EQ(summary.sensors[0].records, 6);
   uint64_t bytes = 0;

@@ -156,6 +156,10 @@ TEST(Png, SmallInexactDropsAsFewBitsAsItTakes) {
 }
 
 TEST(Png, SmallTakesRgbAlone) {
+  for (const std::vector<int64_t>& shape : {std::vector<int64_t>{40, 30, 3}, {40, 30}}) {
+    const Array picture = test_picture<uint8_t>(shape);
+    EXPECT_EQ(decode_png(encode_png(picture, PngCoding::matched), "x.png").bytes, picture.bytes);
+  }
   EXPECT_THROW(encode_png(test_picture<uint8_t>({4, 4}), PngCoding::small), ContractError);
   EXPECT_THROW(encode_png(test_picture<uint16_t>({4, 4}), PngCoding::small), ContractError);
 }
@@ -229,6 +233,8 @@ TEST(Exr, RgbIsExact) {
     Array image(DType::f32, {5, width, 3});
     RandomStream random(4, 0);
     for (float& value : image.as<float>()) value = static_cast<float>(random.below(4)) / 3.0f;
+    write_file_atomically(folder.path() / "small.exr", encode_exr(image, 6));
+    EXPECT_EQ(read_exr(folder.path() / "small.exr").bytes, image.bytes);
     write_file_atomically(folder.path() / "c.exr", encode_exr(image));
     const Array back = read_exr(folder.path() / "c.exr");
     EXPECT_EQ(back.shape, image.shape);

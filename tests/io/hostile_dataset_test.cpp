@@ -206,7 +206,7 @@ TEST_F(HostileDataset, JournalsThatLie) {
       {R"({"packet":[999999,40,40000000],"records":[],"files":[]})", "expected sequence 0, found 999999"},
       {R"({"packet":[0,3,3000000],"records":[],"files":[]})", "expected a tick from here on: 40, found 3"},
       {R"({"packet":[0,70,70000000],"records":[],"files":[]})", "expected a tick below 70, found 70"},
-      {R"({"packet":[0,40,40000000],"records":[[4,1]],"files":[]})", "expected a sensor below 4, found 4"},
+      {R"({"packet":[0,40,40000000],"records":[[5,1]],"files":[]})", "expected a sensor below 5, found 5"},
       {R"({"packet":[0,40,40000000],"records":[[0,1]],"files":[]})", "as its records have: 5, found 0"},
       {R"({"packet":[0,40],"records":[],"files":[]})", "packet: expected a list of 3"},
       {R"({"packet":7})", "packet: expected a list of 3"},
@@ -231,7 +231,7 @@ TEST_F(HostileDataset, RowsOfTheIndexAreBounded) {
   const std::pair<IndexRow, const char*> lies[] = {
       {{INT64_MAX, 0, 0, 0, 0}, "row 3: expected a tick from 0 to 69"},
       {{0, INT64_MIN, 0, 0, 0}, "row 3: expected a time in ns"},
-      {{0, 0, 4, 0, 0}, "row 3: expected a sensor from 0 to 3, found 4"},
+      {{0, 0, 5, 0, 0}, "row 3: expected a sensor from 0 to 4, found 5"},
       {{0, 0, -1, 0, 0}, "row 3: expected a sensor"},
       {{0, 0, 0, INT64_MAX, 0}, "row 3: expected a sample"},
       {{0, 0, 0, 0, -1}, "row 3: expected a row"},

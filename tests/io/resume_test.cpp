@@ -138,7 +138,9 @@ TEST_F(Resume, APacketWhoseFilesAreTornIsDropped) {
   const std::pair<const char*, int64_t> tears[] = {{"sequence_0000/uav/cam/rgb/000001.png", 33},
                                                    {"sequence_0000/poses/position.npy.part", 49},
                                                    {"sequence_0000/bs/csi/cfr.npy.part", 40},
-                                                   {"sequence_0000/bs/csi/delay_offsets.npy.part", 40}};
+                                                   {"sequence_0000/bs/csi/delay_offsets.npy.part", 40},
+                                                   {"sequence_0000/uav/packed/records.chunks.part", 40},
+                                                   {"sequence_0000/uav/packed/records.chunks.npy.part", 40}};
   for (const auto& [file, tick] : tears) {
     SCOPED_TRACE(file);
     kill_after(50, true);
@@ -158,6 +160,21 @@ TEST_F(Resume, CutShortWhileASequenceIsClosed) {
                              std::filesystem::copy_options::overwrite_existing);
   write_file_atomically(cut() / "sequence_0000/index.npy", std::string_view("half"));
   EXPECT_EQ(resume_and_compare().next_tick, 70);
+}
+
+TEST_F(Resume, CutShortWhilePackedRecordsAreClosed) {
+  kill_after(70, true);
+  // The state is as if publish() had named the HDF5 file, but not yet its table.
+  const std::string base = "sequence_0000/uav/packed/records";
+  std::filesystem::copy_file(whole() / (base + ".h5"), cut() / (base + ".h5"));
+  std::filesystem::copy_file(whole() / (base + ".npy"), cut() / (base + ".npy.part"));
+  EXPECT_EQ(resume_and_compare().next_tick, 70);
+  std::filesystem::remove_all(cut());
+  // The end of the sequence is in the journal, and what the HDF5 file was made of still lies there.
+  kill_after(100, true);
+  for (const char* rest : {".chunks.part", ".chunks.npy.part"})
+    write_file_atomically(cut() / (base + rest), std::string_view("left over"));
+  EXPECT_EQ(resume_and_compare().sequence, 1u);
 }
 
 TEST_F(Resume, CutShortBeforeTheManifestAndAfterIt) {

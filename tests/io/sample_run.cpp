@@ -12,6 +12,7 @@ namespace greatx::io {
 namespace {
 
 constexpr int64_t width = 24, height = 16, nodes = 2;
+constexpr double sample_step_m = 0.005;
 const std::vector<int64_t> cfr_shape{1, 2, 1, 4, 1, 8};
 
 SensorSpec camera() {
@@ -70,6 +71,22 @@ SensorSpec poses() {
           R"({"nodes": ["bs", "uav"]})"};
 }
 
+SensorSpec packed() {
+  return {"uav/packed",
+          "packed",
+          "50",
+          {{"t", DType::i64, {-1}, "ns", "[event]"},
+           {"x", DType::u16, {-1}, "1", "[event]"},
+           {"y", DType::u16, {-1}, "1", "[event]"},
+           {"p", DType::u8, {-1}, "1", "[event]"},
+           {"points", DType::f32, {-1, 4}, "m", "[return, x y z intensity]", sample_step_m},
+           {"map", DType::f32, {6, 5}, "W", "[range, velocity]"}},
+          {{"records", FileFormat::hdf5_records, {"t", "x", "y", "p", "points", "map"}},
+           {"events", FileFormat::hdf5_events, {"t", "x", "y", "p"}},
+           {"events_text", FileFormat::text_events, {"t", "x", "y", "p"}}},
+          "{}"};
+}
+
 std::vector<Array> camera_arrays(RandomStream random) {
   Array rgb(DType::u8, {height, width, 3}), depth(DType::f32, {height, width}),
       ids(DType::u32, {height, width}), radiance(DType::f32, {height, width, 3});
@@ -109,6 +126,23 @@ std::vector<Array> pose_arrays(RandomStream random) {
   return {position, orientation};
 }
 
+std::vector<Array> packed_arrays(RandomStream random) {
+  const int64_t events = random.below(3) == 0 ? 0 : random.below(900), returns = random.below(30);
+  Array t(DType::i64, {events}), x(DType::u16, {events}), y(DType::u16, {events}), p(DType::u8, {events}),
+      points(DType::f32, {returns, 4}), map(DType::f32, {6, 5});
+  int64_t time_ns = random.below(1000);
+  for (int64_t& value : t.as<int64_t>()) value = time_ns += random.below(5000);
+  for (uint16_t& value : x.as<uint16_t>()) value = static_cast<uint16_t>(random.below(640));
+  for (uint16_t& value : y.as<uint16_t>()) value = static_cast<uint16_t>(random.below(480));
+  for (uint8_t& value : p.as<uint8_t>()) value = static_cast<uint8_t>(random.below(2));
+  for (float& value : points.as<float>()) {
+    const auto steps = static_cast<int32_t>(random.below(60000)) - 30000;
+    value = static_cast<float>(sample_step_m * steps);
+  }
+  for (float& value : map.as<float>()) value = static_cast<float>(random.uniform());
+  return {t, x, y, p, points, map};
+}
+
 }  // namespace
 
 DatasetInfo sample_info() {
@@ -117,7 +151,7 @@ DatasetInfo sample_info() {
   info.scenario_text = "name: sample\n";
   info.run_key = "key";
   info.tick_rate = "1000";
-  info.sensors = {camera(), lidar(), csi(), poses()};
+  info.sensors = {camera(), lidar(), csi(), poses(), packed()};
   info.sequences = 2;
   info.ticks_per_sequence = 70;
   return info;
@@ -137,7 +171,8 @@ Packet sample_packet(const DatasetInfo& info, uint32_t sequence, int64_t tick) {
     std::vector<Array> arrays = s == 0   ? camera_arrays(random)
                                 : s == 1 ? lidar_arrays(random)
                                 : s == 2 ? csi_arrays(random, sequence, sample)
-                                         : pose_arrays(random);
+                                : s == 3 ? pose_arrays(random)
+                                         : packed_arrays(random);
     packet.records.push_back({s, tick, packet.time_ns, sample, std::move(arrays)});
   }
   return packet;

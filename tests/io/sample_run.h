@@ -13,8 +13,8 @@
 
 namespace greatx::io {
 
-/// Describes a camera at 30 Hz, a LiDAR at 20 Hz, CSI at 100 Hz and poses at every tick of 1 kHz, in 2
-/// sequences of 70 ticks.
+/// Describes a camera at 30 Hz, a LiDAR at 20 Hz, CSI at 100 Hz, poses at every tick of 1 kHz and a sensor
+/// with packed arrays at 50 Hz, in 2 sequences of 70 ticks.
 DatasetInfo sample_info();
 Packet sample_packet(const DatasetInfo& info, uint32_t sequence, int64_t tick);
 /// Returns element i of the CSI record `sample`: (sequence + sample, -i).

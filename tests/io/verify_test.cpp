@@ -5,6 +5,7 @@
 // correct the manifest, so that the check behind the hashes is tested.
 #include "io/dataset/verify.h"
 
+#include <cstring>
 #include <functional>
 #include <limits>
 
@@ -14,6 +15,7 @@
 #include "core/hash.h"
 #include "io/formats/exr.h"
 #include "io/formats/npy.h"
+#include "io/formats/packed_columns.h"
 #include "io/formats/ply.h"
 #include "tests/io/sample_run.h"
 #include "tests/support/temporary_folder.h"
@@ -169,6 +171,58 @@ TEST_F(Verify, NanInAStackAFrameAndACloud) {
   EXPECT_THAT(text, HasSubstr("cfr.npy: from row 0 on: expected finite values, found nan at element 100"));
   EXPECT_THAT(text, HasSubstr("depth/000000.exr: values: expected finite values, found nan at element 50"));
   EXPECT_THAT(text, HasSubstr("cloud/000000.ply: values: expected finite values, found nan at element 1"));
+}
+
+TEST_F(Verify, PackedRecordsWhosePlacesLie) {
+  const std::string table = "sequence_0000/uav/packed/records.npy",
+                    data = "sequence_0000/uav/packed/records.h5";
+  const Array good = NpyFile(folder() / table).read();
+  const int64_t columns = good.shape[1];
+  const auto problems_with = [&](int64_t column, size_t number, int64_t value) {
+    Array bad = good;
+    // Record 2 has no empty column, so that every number of a place matters.
+    bad.as<int64_t>()[static_cast<size_t>((2 * columns + column) * 5) + number] = value;
+    forge(table, encode_npy(bad));
+    return problems();
+  };
+  const std::string place = "records.npy: record 2: ";
+  EXPECT_THAT(problems_with(0, 0, -1), HasSubstr(place + "t_steps: expected packed bytes within the"));
+  EXPECT_THAT(problems_with(0, 1, int64_t{1} << 62),
+              HasSubstr(place + "t_steps: expected packed bytes within"));
+  EXPECT_THAT(problems_with(1, 2, int64_t{1} << 31), HasSubstr(place + "x: expected"));
+  EXPECT_THAT(problems_with(3, 3, 3), HasSubstr(place + "p: expected a type that the column may have"));
+  EXPECT_THAT(problems_with(8, 2, 2), HasSubstr(place + "map: expected 1 row, found 2"));
+  EXPECT_THAT(problems_with(4, 0, 0), HasSubstr("records.h5: record 2: points/x: expected"));
+  EXPECT_THAT(problems_with(5, 2, 1), HasSubstr("record 2: "));
+  forge(table, encode_npy(good));
+  EXPECT_EQ(problems(), "");
+  forge(table, encode_npy(Array(DType::i64, {good.shape[0] + 1, columns, 5})));
+  EXPECT_THAT(problems(), HasSubstr("records.npy: number of records: expected 4, found 5"));
+  forge(table, encode_npy(Array(DType::i64, {good.shape[0], 5, columns})));
+  EXPECT_THAT(problems(), HasSubstr("records.npy: expected <i8 [records, 9, 5] as greatx writes it"));
+  forge(table, encode_npy(good));
+  Bytes cut = read_file(folder() / data);
+  cut.resize(cut.size() / 2);
+  forge(data, cut);
+  EXPECT_THAT(problems(), HasSubstr("packed bytes within the"));
+}
+
+TEST_F(Verify, NanInPackedRecords) {
+  const SensorSpec& sensor = info_.sensors[4];
+  const OutputSpec& output = sensor.outputs[0];
+  std::vector<PackedColumn> columns = packed_columns(specs_of(sensor, output));
+  const std::filesystem::path file = folder() / "sequence_0000/uav/packed/records.h5";
+  // The map of one record gets the packed bytes of another one with a NaN.
+  Array map(DType::f32, {6, 5});
+  map.as<float>()[7] = std::numeric_limits<float>::quiet_NaN();
+  Bytes bytes = read_file(file);
+  PackedPlace place = pack_column(columns[8], map, 1, bytes);
+  Array table = NpyFile(folder() / "sequence_0000/uav/packed/records.npy").read();
+  std::memcpy(table.bytes.data() + (1 * columns.size() + 8) * sizeof place, &place, sizeof place);
+  forge("sequence_0000/uav/packed/records.h5", bytes);
+  forge("sequence_0000/uav/packed/records.npy", encode_npy(table));
+  EXPECT_THAT(problems(),
+              HasSubstr("records.h5: record 1: expected finite values, found nan at element 7 of map"));
 }
 
 TEST_F(Verify, AFrameOfAnotherSize) {

@@ -77,6 +77,7 @@ RecordedTicks::RecordedTicks(std::filesystem::path folder) : folder_(std::move(f
   for (const SensorSpec& sensor : info_->sensors)
     for (const OutputSpec& output : sensor.outputs)
       stacks_per_sequence_ += output.format == FileFormat::npy_ragged ? 2
+                              : io::is_packed(output.format)          ? 2
                               : io::is_stack(output.format)           ? 1
                                                                       : 0;
 }

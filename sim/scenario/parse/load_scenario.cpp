@@ -64,6 +64,27 @@ AccuracyWish parse_accuracy(const FieldMap& map) {
   return wish;
 }
 
+StorageConfig parse_storage(const Field& field) {
+  const FieldMap map(field, {"compression"});
+  StorageConfig storage;
+  if (const auto f = map.find("compression"))
+    storage.compression = static_cast<Compression>(f->choice({"none", "fast", "small"}));
+  return storage;
+}
+
+/// Gives sensors whose outputs are not listed those that keep each array once, if the data set is compressed.
+void store_once(Scenario& scenario) {
+  if (scenario.storage.compression == Compression::none) return;
+  for (NodeConfig& node : scenario.nodes) {
+    for (SensorConfig& sensor : node.sensors) {
+      if (auto* const camera = std::get_if<CameraConfig>(&sensor.config); camera && !camera->listed)
+        camera->depth_exr = camera->depth_png24 = false;
+      if (auto* const lidar = std::get_if<LidarConfig>(&sensor.config); lidar && !lidar->outputs.listed)
+        lidar->outputs = {.points = false, .ply = false, .arrays = true};
+    }
+  }
+}
+
 /// Refuses names that would share a folder or a body.
 void check_names(const Field& root, const Scenario& scenario) {
   for (const auto& [key, field] : root.entries()) {
@@ -88,7 +109,7 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   const Field root = Field::parse_yaml(text, {name, folder, assets});
   const FieldMap map(root, {"greatx", "name", "seed", "sequences", "duration_s", "ticks", "trajectory_ticks",
                             "tick_rate_hz", "scene", "environment", "nodes", "channels", "effects",
-                            "tolerance_db", "accuracy", "time_budget_ms_per_tick"});
+                            "tolerance_db", "accuracy", "time_budget_ms_per_tick", "storage"});
   map.require("greatx", "1 (the format's version)").choice({"1"});
 
   Scenario scenario;
@@ -108,6 +129,8 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   if (const auto f = map.find("effects")) scenario.effects = parse_effects(*f);
   if (const auto f = map.find("tolerance_db")) scenario.tolerance_db = f->non_negative();
   scenario.accuracy = parse_accuracy(map);
+  if (const auto f = map.find("storage")) scenario.storage = parse_storage(*f);
+  store_once(scenario);
   check_names(root, scenario);
   return scenario;
 }

@@ -121,6 +121,7 @@ void parse_outputs(const Field& field, CameraConfig& camera) {
                             {"flow", &camera.flow},
                             {"boxes", &camera.boxes}};
   for (const Output& output : outputs) *output.wanted = false;
+  camera.listed = true;
   for (const Field& item : field.list("outputs", 1)) {
     bool& wanted = *outputs[item.choice({"rgb", "depth", "ids", "hdr", "depth_png24", "depth_log",
                                          "depth_ray", "normals", "flow", "boxes"})]

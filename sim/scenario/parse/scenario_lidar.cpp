@@ -13,6 +13,7 @@ namespace greatx::sim {
 namespace {
 
 constexpr uint32_t most_table_channels = 4096;
+constexpr int most_point_steps = 32767;
 
 /// Parses the elevations of a spinning scanner: a table, or evenly spaced ones.
 std::vector<double> parse_elevations(const FieldMap& map) {
@@ -237,11 +238,21 @@ void parse_noise(const Field& field, render::Receiver& receiver) {
 void parse_outputs(const Field& field, LidarConfig::Outputs& outputs) {
   bool* const wanted[] = {&outputs.points, &outputs.ply, &outputs.pcd, &outputs.kitti};
   for (bool* output : wanted) *output = false;
+  outputs.listed = true;
   for (const Field& item : field.list("outputs", 1)) {
     bool& output = *wanted[item.choice({"points", "ply", "pcd", "kitti"})];
     if (output) item.fail("every output once", fmt::format("a second '{}'", item.text()));
     output = true;
   }
+}
+
+/// Parses the step of coordinates. Its multiples up to the range must fit 16 bits.
+double parse_point_step(const Field& field, double max_range_m) {
+  const double step_m = field.positive(1e-6, 1e3), least_m = max_range_m / most_point_steps;
+  if (step_m < least_m)
+    field.fail(fmt::format("a step of at least max_range_m / {} = {:.6g}, so that coordinates fit 16 bits",
+                           most_point_steps, least_m));
+  return step_m;
 }
 
 }  // namespace
@@ -258,6 +269,7 @@ LidarConfig parse_lidar(const FieldMap& map, const Rational& rate_hz) {
   if (const auto f = map.find("receiver")) parse_receiver(*f, lidar.receiver);
   if (const auto f = map.find("detection")) parse_detection(*f, lidar.receiver);
   if (const auto f = map.find("noise")) parse_noise(*f, lidar.receiver);
+  if (const auto f = map.find("point_step_m")) lidar.point_step_m = parse_point_step(*f, lidar.max_range_m);
   if (const auto f = map.find("outputs")) parse_outputs(*f, lidar.outputs);
   return lidar;
 }

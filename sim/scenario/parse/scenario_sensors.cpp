@@ -72,6 +72,7 @@ SensorParsers sensor_parsers() {
                    "receiver",
                    "detection",
                    "noise",
+                   "point_step_m",
                    "outputs"},
       [](const FieldMap& map, const SensorContext& context) -> SensorSettings {
         return parse_lidar(map, context.rate_hz);

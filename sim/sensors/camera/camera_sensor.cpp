@@ -73,7 +73,7 @@ void CameraSensor::describe(const CameraConfig& config, size_t instances) {
   }
   if (config.depth || config.depth_png24) {
     array("depth", DType::f32, {h, w}, "m", "[row, column] planar depth at the pixel's centre; sky: +inf");
-    if (config.depth) output("depth", FileFormat::exr, "depth");
+    if (config.depth) output("depth", config.depth_exr ? FileFormat::exr : FileFormat::npy_frame, "depth");
     if (config.depth_png24) output("depth24", FileFormat::png_depth24, "depth");
   }
   if (config.depth_log) {

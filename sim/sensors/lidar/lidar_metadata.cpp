@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/sensors/lidar/lidar_metadata.h"
 
+#include <cmath>
+
 #include "core/units.h"
 
 namespace greatx::sim {
@@ -64,13 +66,31 @@ Array column(const std::vector<T>& values) {
 
 }  // namespace
 
-std::vector<ArraySpec> lidar_arrays(const LidarConfig::Outputs& outputs) {
+double point_error_m(const LidarConfig& config) {
+  if (config.point_step_m == 0.0) return 0.0;
+  return std::sqrt(3.0) * (0.5 * config.point_step_m + std::ldexp(config.max_range_m, -23));
+}
+
+void round_points(render::LidarScan& scan, double step_m) {
+  // Adding 0 makes -0 a 0, which is the only multiple of its kind.
+  const auto rounded = [&](float value) {
+    return static_cast<float>(step_m * std::nearbyint(value / step_m)) + 0.0f;
+  };
+  for (auto& point : scan.points) {
+    point.x = rounded(point.x);
+    point.y = rounded(point.y);
+    point.z = rounded(point.z);
+  }
+}
+
+std::vector<ArraySpec> lidar_arrays(const LidarConfig& config) {
   const ArraySpec points{"points",
                          DType::f32,
                          {-1, 4},
                          "m",
-                         "[return, x y z intensity] in the sensor frame at the shot's own time"};
-  if (!outputs.clouds()) return {points};
+                         "[return, x y z intensity] in the sensor frame at the shot's own time",
+                         config.point_step_m};
+  if (!config.outputs.clouds()) return {points};
   return {
       points,
       {"ring", DType::u16, {-1}, "1", "[return] channel"},
@@ -116,6 +136,10 @@ Json lidar_metadata(const LidarConfig& config, const render::LidarDesc& desc) {
   metadata["range_resolution_m"] = desc.returns.resolution_m;
   metadata["receiver"] = json_of_receiver(desc.receiver);
   metadata["extinction_per_m"] = desc.receiver.extinction_per_m;
+  if (config.point_step_m > 0.0) {
+    metadata["point_step_m"] = config.point_step_m;
+    metadata["point_error_m"] = point_error_m(config);
+  }
   metadata["frame"] = "x forward, y left, z up";
   return metadata;
 }

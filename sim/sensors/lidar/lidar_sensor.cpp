@@ -62,7 +62,7 @@ void LidarSensor::describe(const SensorConfig& sensor) {
   spec_.name = pass_.name();
   spec_.kind = "lidar";
   spec_.rate = sensor.rate_hz.str();
-  spec_.arrays = lidar_arrays(config_.outputs);
+  spec_.arrays = lidar_arrays(config_);
   std::vector<std::string> all;
   for (const ArraySpec& array : spec_.arrays) all.push_back(array.name);
   const LidarConfig::Outputs& outputs = config_.outputs;
@@ -70,6 +70,8 @@ void LidarSensor::describe(const SensorConfig& sensor) {
   if (outputs.ply) spec_.outputs.push_back({"cloud", FileFormat::ply, all});
   if (outputs.pcd) spec_.outputs.push_back({"pcd", FileFormat::pcd, all});
   if (outputs.kitti) spec_.outputs.push_back({"velodyne", FileFormat::kitti, {"points"}});
+  if (outputs.arrays)
+    for (const std::string& name : all) spec_.outputs.push_back({name, FileFormat::npy_frame, {name}});
   nlohmann::json metadata = lidar_metadata(config_, pass_.desc());
   metadata["body_from_sensor"] = json_of(mount_);
   spec_.metadata_json = metadata.dump();
@@ -84,7 +86,7 @@ Evidence LidarSensor::evidence() const {
   Evidence evidence;
   if (!exact()) return evidence;
   const std::span<const float> xyzi(scan_.size() > 0 ? &scan_.points[0].x : nullptr, 4 * scan_.size());
-  evidence.returns = {node_, mount_, xyzi, scan_.instance, scan_.material};
+  evidence.returns = {node_, mount_, xyzi, scan_.instance, scan_.material, point_error_m(config_)};
   return evidence;
 }
 
@@ -117,6 +119,7 @@ void LidarSensor::record(gpu::TickSlot& slot, const TickContext& context) {
 std::vector<Array> LidarSensor::collect(const gpu::TickSlot& slot) {
   const Sweep& sweep = sweeps_[slot.index];
   scan_ = pass_.collect(sweep.pending, sweep.noise);
+  if (config_.point_step_m > 0.0) round_points(scan_, config_.point_step_m);
   return arrays_of(scan_, config_.outputs);
 }
 
