@@ -71,6 +71,8 @@ std::string progress_line(const std::string& what, double share, double seconds)
                      std::string(width - filled, ' '), 100.0 * share, left);
 }
 
+void interrupt() noexcept { stop_requested = 1; }
+
 bool interrupted() { return stop_requested != 0; }
 
 void install_interrupt_handler() {
