@@ -85,10 +85,10 @@ requeue() { # requeue REASON
 }
 
 task() {
-  local code=0
+  local code=0 restart=${SLURM_RESTART_COUNT:-0}
   trap on_limit USR1
   trap on_cancel TERM
-  say "task $SLURM_ARRAY_TASK_ID of $tasks, restart ${SLURM_RESTART_COUNT:-0}, on ${SLURMD_NODENAME:-this node}"
+  say "task $SLURM_ARRAY_TASK_ID of $tasks, restart $restart, on ${SLURMD_NODENAME:-this node}"
   setup
   "$greatx" campaign run "$campaign" "${common[@]}" --shard "$SLURM_ARRAY_TASK_ID/$tasks" "${run[@]}" &
   child=$!
