@@ -310,7 +310,25 @@ TEST_F(SlurmCli, FaultsOfTheOptions) {
   EXPECT_THAT(slurm("--time 90").err, HasSubstr("was begun with another scenario"));
 }
 
-/// Returns the processes whose parent is this one.
+TEST_F(SlurmCli, ShardsMayClaimAFolderInTheSameMoment) {
+  for (int round = 0; round < 20; ++round) {
+    std::vector<pid_t> children;
+    for (int i = 0; i < 8; ++i) {
+      children.push_back(fork());
+      if (children.back() != 0) continue;
+      if (freopen(in("err").c_str(), "a", stderr) == nullptr) _exit(126);
+      execl(GREATX_PROGRAM, "greatx", "campaign", "slurm", in("c.yaml").c_str(), "-o",
+            in(fmt::format("claim_{}", round)).c_str(), "--time", "90", "-q", "--script",
+            in(fmt::format("job_{}.sh", i)).c_str(), nullptr);
+      _exit(127);
+    }
+    for (const pid_t child : children) EXPECT_EQ(code_of(child), 0) << read_file(folder_ / "err");
+    // Nothing but the two files is left.
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / fmt::format("claim_{}", round)), {}), 2);
+  }
+}
+
+/// Returns how many processes this one has started that have not ended.
 size_t children_of(pid_t parent) {
   return std::ranges::count(read_file(fmt::format("/proc/{0}/task/{0}/children", parent)), ' ');
 }

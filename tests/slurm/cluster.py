@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """A Slurm of the test's own: munged, slurmctld and two slurmd, all on this machine and in one folder."""
+
 from __future__ import annotations
 
 import os

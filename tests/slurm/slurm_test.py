@@ -12,6 +12,7 @@ is touched, and ends them. Each case below has its own output folder, and names 
 Exit code 0: all cases hold; 1: a fault, which is printed. --only CASE runs some of them, --keep keeps the
 folder.
 """
+
 from __future__ import annotations
 
 import argparse
