@@ -205,11 +205,17 @@ Array DatasetReader::load_packed(uint32_t sequence, const IndexRow& row, const O
                                  size_t array) const {
   const SensorSpec& sensor = info_.sensors[static_cast<size_t>(row.sensor)];
   const std::string path = packed_path(sequence, sensor, output);
-  std::unique_ptr<PackedRecords>& records = open_packed_[path];
-  // An unfinished sequence grows, so its table is opened anew.
-  const bool finished = exists_inside(folder_, path);
-  if (!records || !finished)
-    records = std::make_unique<PackedRecords>(open_packed(folder_, sequence, sensor, output, finished));
+  std::shared_ptr<const PackedRecords> records;
+  {
+    const std::lock_guard lock(*packed_mutex_);
+    std::shared_ptr<const PackedRecords>& opened = open_packed_[path];
+    // An unfinished sequence grows, so its table is opened anew.
+    const bool finished = exists_inside(folder_, path);
+    if (!opened || !finished)
+      opened =
+          std::make_shared<const PackedRecords>(open_packed(folder_, sequence, sensor, output, finished));
+    records = opened;
+  }
   return records->load(row.row, array);
 }
 

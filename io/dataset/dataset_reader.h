@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,7 +22,7 @@ class NpyFile;
 class PackedRecords;
 
 /// Reads a finished or unfinished data set. Of an unfinished one, it shows the complete packets. Several
-/// threads may load frames at once, but only one thread at a time may load from stacks.
+/// threads may load frames and packed records at once, but only one thread at a time may load from stacks.
 class DatasetReader : public RecordSource {
  public:
   /// Throws UserError if the folder holds no data set or an unreadable one.
@@ -66,7 +67,9 @@ class DatasetReader : public RecordSource {
   bool finished_ = false;
   std::vector<std::vector<IndexRow>> rows_;
   mutable std::map<std::string, std::unique_ptr<NpyFile>> open_stacks_;
-  mutable std::map<std::string, std::unique_ptr<PackedRecords>> open_packed_;
+  /// Guards the files of packed records, so that several threads may load from them.
+  mutable std::unique_ptr<std::mutex> packed_mutex_ = std::make_unique<std::mutex>();
+  mutable std::map<std::string, std::shared_ptr<const PackedRecords>> open_packed_;
 };
 
 }  // namespace greatx::io

@@ -697,17 +697,19 @@ def dataset(program: str, folder: pathlib.Path, env: dict) -> list[Case]:
         },
     ).lay_out(folder, folder)
     arguments = {"cwd": folder, "env": env, "capture_output": True, "text": True, "check": False}
-    run = subprocess.run([program, "generate", "data.yaml", "-o", "data", "-q"], **arguments)
-    if run.returncode != 0:
-        raise RuntimeError(
-            f"the seed of kind dataset: greatx generate ends with {run.returncode}: {run.stderr}"
-        )
+    for name, compression in (("data", "none"), ("packed", "small")):
+        command = [program, "generate", "data.yaml", "-o", name, "--compression", compression, "-q"]
+        run = subprocess.run(command, **arguments)
+        if run.returncode != 0:
+            raise RuntimeError(
+                f"the seed of kind dataset: greatx generate ends with {run.returncode}: {run.stderr}"
+            )
 
     interrupt(program, folder, env)
     scene = {
         name: Entry(data=(folder / name).read_bytes()) for name in ("scene.gltf", "scene.bin", "color.png")
     }
-    whole = read_folder(folder / "data", "data")
+    whole, packed = read_folder(folder / "data", "data"), read_folder(folder / "packed", "data")
     cut = {
         **read_folder(folder / "cut", "data"),
         "long.yaml": Entry(data=(folder / "long.yaml").read_bytes()),
@@ -719,6 +721,8 @@ def dataset(program: str, folder: pathlib.Path, env: dict) -> list[Case]:
     resume = ["generate", "long.yaml", "-o", "data", "--resume", "-q"]
     return (
         [Case("dataset", ["verify", "data"], whole)] * 5
+        + [Case("dataset", ["verify", "data"], packed)] * 4
+        + [Case("dataset", ["inspect", "data", *sheet], packed)] * 2
         + [
             Case("dataset", ["verify", "data", "--json"], whole),
             Case("dataset", ["inspect", "data", "--json", *sheet], whole),
@@ -741,6 +745,7 @@ def seeds_of(kind: str, program: str, folder: pathlib.Path, env: dict) -> list[C
         made = dataset(program, folder, env)
         return [
             Case("python", ["data"], made[0].files),
+            Case("python", ["data"], made[5].files),
             Case("python", ["data", "incomplete"], made[-1].files),
         ]
     if kind == "ply":

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
 #include <functional>
 #include <limits>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -213,6 +215,31 @@ TEST(Dataset, ANanFailsTheRunByName) {
   }
   EXPECT_THROW(writer.write(sample_packet(info, 0, 11)), ContractError) << "the error stays";
   EXPECT_EQ(DatasetReader(folder.path()).records(0).size(), 5u) << "only the packet before it";
+}
+
+TEST(Dataset, ManyThreadsLoadPackedRecords) {
+  const test::TemporaryFolder folder;
+  const DatasetInfo info = sample_info();
+  DatasetWriter writer(folder.path(), info);
+  ASSERT_TRUE(write_sample_run(writer, info));
+  const DatasetReader reader(folder.path());
+  const SensorSpec& sensor = info.sensors[4];
+  std::atomic<int> wrong = 0;
+  std::vector<std::thread> threads;
+  for (int thread = 0; thread < 8; ++thread) {
+    threads.emplace_back([&] {
+      for (uint32_t sequence = 0; sequence < 2; ++sequence) {
+        for (const IndexRow& row : reader.records_of(sequence, 4)) {
+          const Packet packet = sample_packet(info, sequence, row.tick);
+          for (size_t a = 0; a < sensor.arrays.size(); ++a)
+            wrong += reader.load(sequence, row, sensor.arrays[a].name).bytes !=
+                     packet.records.back().arrays[a].bytes;
+        }
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(wrong, 0);
 }
 
 TEST(Dataset, OnlyACamerasDepthMayBeInfinite) {

@@ -208,7 +208,7 @@ TEST_F(Resume, AClosedSequenceThatLostAFileIsNotResumed) {
 /// Limits the size of a file instead of the disk. The code takes the same path, and no disk needs to be
 /// filled.
 TEST_F(Resume, AFullDiskIsAUserErrorAndResumable) {
-  for (const rlim_t limit : {400, 1000, 2500, 5000, 9000, 12000}) {
+  for (const rlim_t limit : {400, 1000, 2500, 5000, 9000, 12000, 16000, 20000}) {
     SCOPED_TRACE(limit);
     const std::filesystem::path log = folder_.path() / "message";
     ASSERT_EQ(in_child([&] {

@@ -6,7 +6,9 @@
 python3 tests/fuzz/targets/make_corpus.py tests/fuzz/targets/corpus
 """
 import pathlib
+import struct
 import sys
+import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import seeds  # pylint: disable=wrong-import-position
@@ -58,6 +60,33 @@ def main():
     header = b"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }"
     header += b" " * (118 - len(header) - 1) + b"\n"
     keep("npy", b"\x93NUMPY\x01\x00" + len(header).to_bytes(2, "little") + header + bytes(24), ".npy")
+    keep("packed", packed(), ".bin")
+
+
+def packed():
+    """Returns a table of places and the packed bytes behind it: two records of t, points, map and p."""
+    places, data = [], b""
+
+    def add(rows, values, kind=0, first=0):
+        nonlocal data
+        size = len(values) // max(rows, 1)
+        planes = b"".join(values[i::size] for i in range(size)) if rows else b""
+        chunk = zlib.compress(planes) if rows else b""
+        places.append((len(data), len(chunk), rows, kind, first))
+        data += chunk
+
+    for rows in (3, 0):
+        add(rows, struct.pack(f"<{rows}I", *range(rows)), 1, 70)
+        for _ in range(3):
+            add(rows, struct.pack(f"<{rows}h", *range(rows)), 3)
+        add(rows, struct.pack(f"<{rows}f", *range(rows)))
+        add(6, struct.pack("<6f", *range(6)))
+        places[-1] = (*places[-1][:2], 1, 0, 0)
+        add(rows, bytes(rows))
+    text = b"{'descr': '<i8', 'fortran_order': False, 'shape': (2, 7, 5), }"
+    table = b"\x93NUMPY\x01\x00" + struct.pack("<H", 246) + text.ljust(245) + b"\n"
+    table += b"".join(struct.pack("<5q", *place) for place in places)
+    return struct.pack("<H", len(table)) + table + data
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "io/dataset/dataset_reader.h"
 #include "io/dataset/journal.h"
+#include "io/formats/hdf5_records.h"
 #include "io/formats/npy.h"
 #include "scene/files/picture.h"
 #include "scene/gltf/model.h"
@@ -114,6 +115,20 @@ void read_dataset(const uint8_t* data, size_t size) {
   const fs::path folder = written("dataset/dataset.json", data, size).parent_path();
   (void)io::DatasetReader(folder);
 }
+/// Reads a table of places and the packed bytes behind it. The first two bytes are the table's length.
+void read_packed(const uint8_t* data, size_t size) {
+  if (size < 2) return;
+  const size_t table = std::min<size_t>(data[0] + 256u * data[1], size - 2);
+  const ArraySpec arrays[] = {{"t", DType::i64, {-1}, "ns", ""},
+                              {"points", DType::f32, {-1, 4}, "m", "", 0.01},
+                              {"map", DType::f32, {3, 2}, "W", ""},
+                              {"p", DType::u8, {-1}, "1", ""}};
+  const fs::path places = written("packed.npy", data + 2, table),
+                 packed = written("packed.h5", data + 2 + table, size - 2 - table);
+  const io::PackedRecords records(packed, places, io::packed_columns(arrays));
+  for (int64_t record = 0; record < std::min<int64_t>(records.records(), 100); ++record)
+    for (size_t array = 0; array < std::size(arrays); ++array) (void)records.load(record, array);
+}
 
 constexpr Target list[] = {
     {"gltf", read_gltf},
@@ -129,6 +144,7 @@ constexpr Target list[] = {
     {"npy", read_npy},
     {"journal", read_journal},
     {"dataset", read_dataset},
+    {"packed", read_packed},
     {"antenna_msi", read_antenna_msi},
     {"antenna_ffd", read_antenna_ffd},
 };
