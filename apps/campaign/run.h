@@ -22,9 +22,9 @@ struct CampaignRun {
   std::vector<std::string> warnings;  ///< what was lost
 };
 
-/// Makes the units of a queue that are not complete yet, as long as there are some to take. Units of one cell share its world, its passes
-/// and its searches; cells of one scene share the scene. A record of the run goes into runs/ of the
-/// campaign's folder.
+/// Makes the units of a queue that are not complete yet, as long as there are some to take. Units of one cell
+/// share its world, its passes and its searches; cells of one scene share the scene. A record of the run goes
+/// into runs/ of the campaign's folder.
 CampaignRun run_units(const OpenCampaign& open, const WorkQueue& queue, gpu::Device& device, uint32_t threads,
                       bool quiet);
 
