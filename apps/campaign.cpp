@@ -15,6 +15,7 @@
 #include "apps/campaign/merge.h"
 #include "apps/campaign/plan.h"
 #include "apps/campaign/run.h"
+#include "apps/campaign/slurm.h"
 #include "apps/campaign/stats.h"
 #include "apps/campaign/store.h"
 #include "apps/commands.h"
@@ -27,6 +28,7 @@
 #include "apps/files/consistency_files.h"
 #include "assets/assets.h"
 #include "io/dataset/verify.h"
+#include "io/files/file.h"
 
 namespace greatx::apps {
 namespace {
@@ -34,6 +36,7 @@ namespace {
 struct Options {
   CampaignOptions campaign;
   RunOptions run;
+  SlurmOptions slurm;
   bool json = false, quiet = false;
   std::string shard = "1/1";
   std::vector<std::string> from;
@@ -69,21 +72,28 @@ void print(const Options& options, const nlohmann::json& json, const std::string
     std::cout << text;
 }
 
+/// Returns what a few ticks of each cell cost.
+std::vector<CellCost> measured_costs(const OpenCampaign& open, gpu::Device& device, const Options& options) {
+  std::vector<CellCost> costs;
+  install_interrupt_handler();
+  Progress progress("measuring", static_cast<int64_t>(open.cells.size()), options.quiet || options.json,
+                    "cells");
+  for (const sim::CampaignCell& cell : open.cells) {
+    const TerminalWatch watch(true);
+    costs.push_back(measure_cell(cell.scenario, device, options.measured_ticks));
+    progress.update(static_cast<int64_t>(costs.size()));
+    if (interrupted()) throw Interrupted("the measure was interrupted");
+  }
+  check_validation(device);
+  return costs;
+}
+
 void plan(const Options& options) {
   const OpenCampaign open = open_campaign(options.campaign);
   std::vector<CellCost> costs;
   if (options.measured_ticks > 0) {
     gpu::Device device(options.run.device_options());
-    install_interrupt_handler();
-    Progress progress("measuring", static_cast<int64_t>(open.cells.size()), options.quiet || options.json,
-                      "cells");
-    for (const sim::CampaignCell& cell : open.cells) {
-      const TerminalWatch watch(true);
-      costs.push_back(measure_cell(cell.scenario, device, options.measured_ticks));
-      progress.update(static_cast<int64_t>(costs.size()));
-      if (interrupted()) throw Interrupted("the plan was interrupted");
-    }
-    check_validation(device);
+    costs = measured_costs(open, device, options);
   }
   CampaignPlan plan = plan_of(open, costs, std::max(1u, std::thread::hardware_concurrency()), options.cores);
   print(options, plan.json, plan.text);
@@ -114,12 +124,13 @@ CampaignRun run_jobs(const OpenCampaign& open, const Shard& shard, const Options
   const uint32_t threads = options.threads > 0
                                ? options.threads
                                : std::max(1u, std::thread::hardware_concurrency() / options.jobs);
+  const WorkQueue queue(pending, options.jobs);
   try {
     in_processes(
         options.jobs,
-        [&](uint32_t job) {
+        [&](uint32_t) {
           gpu::Device device(options.run.device_options());
-          if (!run_units(open, units_of(pending, {job + 1, options.jobs}), device, threads, true).complete)
+          if (!run_units(open, queue, device, threads, true).complete)
             throw Interrupted("a job was interrupted");
           check_validation(device);
         },
@@ -143,7 +154,9 @@ void run(const Options& options) {
     run = run_jobs(open, shard, options);
   } else {
     gpu::Device device(options.run.device_options());
-    run = run_units(open, units_of(all, shard), device, options.threads, options.quiet || options.json);
+    const auto units = units_of(all, shard);
+    const WorkQueue queue({units.begin(), units.end()}, 1);
+    run = run_units(open, queue, device, options.threads, options.quiet || options.json);
     check_validation(device);
   }
   print(options,
@@ -158,6 +171,48 @@ void run(const Options& options) {
   if (!run.complete)
     throw Interrupted(fmt::format("{}: {} of {} sequences are complete; the same command goes on",
                                   open.folder.string(), run.done + run.skipped, units_of(all, shard).size()));
+}
+
+/// Returns the time limits of the jobs: those that the user gives, or measured ones.
+SlurmTimes slurm_times(const OpenCampaign& open, uint32_t tasks, const Options& options) {
+  SlurmTimes times;
+  if (!options.slurm.time.empty()) {
+    times.task_s = times.merge_s = parse_slurm_time(options.slurm.time, "--time");
+  } else {
+    gpu::Device device(options.run.device_options());
+    const std::vector<CellCost> costs = measured_costs(open, device, options);
+    // A tick on processors takes longer on fewer of them.
+    const double cores = std::max(1u, std::thread::hardware_concurrency());
+    const double slower = device.info().type == "cpu" ? std::max(1.0, cores / options.slurm.cpus) : 1.0;
+    times = measured_times(open, costs, tasks, slower);
+  }
+  if (!options.slurm.merge_time.empty())
+    times.merge_s = parse_slurm_time(options.slurm.merge_time, "--merge-time");
+  return times;
+}
+
+void slurm(const Options& options) {
+  const OpenCampaign open = open_campaign(options.campaign);
+  const uint32_t tasks = task_count(open, options.slurm);
+  // Faults of the options come before the measure.
+  (void)slurm_script(open, options.campaign, options.run, options.slurm, {});
+  const SlurmTimes times = slurm_times(open, tasks, options);
+  const std::string script = slurm_script(open, options.campaign, options.run, options.slurm, times);
+  claim_folder(open);
+  const std::filesystem::path file = options.slurm.script.empty()
+                                         ? std::filesystem::path(options.campaign.output) / "job.sh"
+                                         : std::filesystem::path(options.slurm.script);
+  io::create_folder_of(file);
+  io::write_file_atomically(file, script);
+  print(options,
+        {{"script", file.string()},
+         {"tasks", tasks},
+         {"sequences", open.units().size()},
+         {"task_s", times.task_s},
+         {"merge_s", times.merge_s}},
+        fmt::format("{}: {} tasks for {} sequences, {} each; the merge has {}\nsubmit them by: bash {}\n",
+                    file.string(), tasks, open.units().size(), slurm_time(times.task_s),
+                    slurm_time(times.merge_s), shell_word(file.string())));
 }
 
 void status(const Options& options) {
@@ -287,6 +342,15 @@ void add_campaign(CLI::App& app) {
       ->add_option("--jobs", ran->jobs, "processes that share the shard; two keep two cores busier than one")
       ->capture_default_str()
       ->check(integer_of(1, 1024));
+  const auto [of_slurm, submitted] =
+      add("slurm", "write a script of Slurm jobs: an array that runs the campaign, and its merge", slurm);
+  submitted->run.add_to(*of_slurm);
+  submitted->slurm.add_to(*of_slurm);
+  of_slurm
+      ->add_option("--measure", submitted->measured_ticks,
+                   "ticks of each cell that are run to find the time limits, unless --time gives them")
+      ->capture_default_str()
+      ->check(integer_of(1, 1000));
   add("status", "say which sequences are complete", status);
   const auto [of_merge, merged] =
       add("merge", "put the data set of each cell together, and write the index and the splits", merge);

@@ -101,18 +101,27 @@ class UnitRunner {
   std::vector<std::string> warnings_;
 };
 
-/// Runs units until all are done, or until the user interrupts it.
-void run_pending(UnitRunner& runner, std::span<const CampaignUnit> pending, int64_t ticks, bool quiet,
-                 const std::string& name, CampaignRun& run) {
-  Progress progress(name, ticks, quiet);
+/// Runs the units of a queue until nothing is left, or until the user interrupts it.
+void run_queue(UnitRunner& runner, const OpenCampaign& open, const WorkQueue& queue, bool quiet,
+               CampaignRun& run) {
+  int64_t ticks = 0, ticks_done = 0;
+  for (const CampaignUnit& unit : queue.units()) ticks += open.cells[unit.cell].scenario.ticks;
+  Progress progress(open.campaign.name, ticks, quiet);
   const TerminalWatch watch(quiet);
-  int64_t ticks_done = 0;
   try {
-    for (const CampaignUnit& unit : pending) {
-      run.complete = runner.run(unit, [&] { progress.update(++ticks_done); });
-      if (!run.complete) break;
-      ++run.done;
-    }
+    for (auto range = queue.take(); run.complete && !range.empty(); range = queue.take())
+      for (const CampaignUnit& unit : range) {
+        const io::PartState state = open.state(unit);
+        if (state.complete) {
+          ++run.skipped;
+          ticks_done += open.cells[unit.cell].scenario.ticks;
+          continue;
+        }
+        ticks_done += state.next_tick;
+        run.complete = runner.run(unit, [&] { progress.update(++ticks_done); });
+        if (!run.complete) break;
+        ++run.done;
+      }
   } catch (const Interrupted&) {
     run.complete = false;
   }
@@ -122,24 +131,13 @@ void run_pending(UnitRunner& runner, std::span<const CampaignUnit> pending, int6
 
 }  // namespace
 
-CampaignRun run_units(const OpenCampaign& open, std::span<const CampaignUnit> units, gpu::Device& device,
-                      uint32_t threads, bool quiet) {
+CampaignRun run_units(const OpenCampaign& open, const WorkQueue& queue, gpu::Device& device, uint32_t threads,
+                      bool quiet) {
   const Clock::time_point begin = Clock::now();
   CampaignRun run;
-  std::vector<CampaignUnit> pending;
-  int64_t ticks = 0;
-  for (const CampaignUnit& unit : units) {
-    const io::PartState state = open.state(unit);
-    if (state.complete) {
-      ++run.skipped;
-      continue;
-    }
-    pending.push_back(unit);
-    ticks += open.cells[unit.cell].scenario.ticks - state.next_tick;
-  }
   RunRecord record;
   record.set_device(device);
-  record.set("sequences", {{"asked", units.size()}, {"complete_before", run.skipped}});
+  record.set("sequences", queue.units().size());
   record.write_into(open.folder / "runs");
   const auto end_record = [&] {
     record.set("done", run.done);
@@ -148,7 +146,7 @@ CampaignRun run_units(const OpenCampaign& open, std::span<const CampaignUnit> un
   };
   UnitRunner runner(open, device, threads);
   try {
-    run_pending(runner, pending, ticks, quiet, open.campaign.name, run);
+    run_queue(runner, open, queue, quiet, run);
   } catch (const std::exception& error) {
     run.complete = false;
     record.set("error", error.what());

@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <functional>
-#include <span>
+#include <string>
+#include <vector>
 
+#include "apps/campaign/queue.h"
 #include "apps/campaign/store.h"
 #include "gpu/device.h"
 #include "sim/experiment/experiment.h"
@@ -20,10 +22,10 @@ struct CampaignRun {
   std::vector<std::string> warnings;  ///< what was lost
 };
 
-/// Makes the units that are not complete yet, in their order. Units of one cell share its world, its passes
-/// and its searches; cells of one scene share the scene. A record of the run goes into runs/ of the
-/// campaign's folder.
-CampaignRun run_units(const OpenCampaign& open, std::span<const CampaignUnit> units, gpu::Device& device,
-                      uint32_t threads, bool quiet);
+/// Makes the units of a queue that are not complete yet, as long as there are some to take. Units of one cell
+/// share its world, its passes and its searches; cells of one scene share the scene. A record of the run goes
+/// into runs/ of the campaign's folder.
+CampaignRun run_units(const OpenCampaign& open, const WorkQueue& queue, gpu::Device& device, uint32_t threads,
+                      bool quiet);
 
 }  // namespace greatx::apps

@@ -4,7 +4,7 @@
 // Says what a campaign holds, from its index and a sample of its records:
 //
 //   index.sqlite                  ─► Quantities by split ─┐
-//   some pictures and point clouds ─► ClassBalance ────────┴► stats.json, stats.png ─► card.md, croissant.json
+//   some pictures, point clouds   ─► ClassBalance ────────┴► stats.json, stats.png ─► card.md, croissant
 #pragma once
 
 #include <string>

@@ -3,8 +3,10 @@
 #include "apps/campaign/store.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <optional>
+#include <unistd.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -32,6 +34,17 @@ bool is_there(const fs::path& path) {
 
 std::string identity_of(const sim::CampaignCell& cell) {
   return Sha256().update(sim::with_sequences(cell.scenario, 1).text).hex();
+}
+
+/// Writes a file that other shards, on other machines too, may write in the same moment.
+void write_among_shards(const fs::path& file, const std::string& text) {
+  if (is_there(file) && io::read_text_file(file) == text) return;
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  fs::path own = file;
+  own += fmt::format(".{}.{}", host.data(), ::getpid());
+  io::write_file_atomically(own, text);
+  io::rename_file(own, file);
 }
 
 /// Returns the text of an embedded file of assets/campaigns, with or without its extension.
@@ -155,8 +168,8 @@ void claim_folder(const OpenCampaign& open) {
     changed = changed || known == cells.end();
     cells[cell.name] = identity;
   }
-  if (changed) io::write_file_atomically(file, json_text(cells));
-  io::write_file_atomically(open.folder / "campaign.yaml", open.campaign.text);
+  if (changed) write_among_shards(file, json_text(cells));
+  write_among_shards(open.folder / "campaign.yaml", open.campaign.text);
 }
 
 Shard parse_shard(const std::string& text) {

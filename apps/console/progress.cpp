@@ -111,6 +111,8 @@ std::string progress_message(const std::string& what, double share, double secon
                      share < 0.0 ? fmt::format("for {}", duration(seconds)) : share_words(share, seconds));
 }
 
+void interrupt() noexcept { stop_requested = 1; }
+
 bool interrupted() { return stop_requested != 0; }
 
 void install_interrupt_handler() {

@@ -47,6 +47,8 @@ std::string progress_message(const std::string& what, double share, double secon
 /// Returns true after Ctrl-C or SIGTERM, if the handler is installed. Long work then stops after the current
 /// tick.
 bool interrupted();
+/// Makes interrupted() true as a signal does; a handler of another signal may call it.
+void interrupt() noexcept;
 /// Installs the handler of the first Ctrl-C or SIGTERM; a second one ends the program at once.
 void install_interrupt_handler();
 

@@ -41,7 +41,8 @@ struct RunOptions {
 /// does not choose settings (`chooses`), it warns. Throws UserError if there is no such scenario.
 sim::Scenario load_scenario(const ScenarioOptions& options, bool chooses = false);
 
-/// Returns the folder in which a scenario's relative paths are looked for last: that of --assets, else its own.
+/// Returns the folder in which a scenario's relative paths are looked for last: that of --assets, else its
+/// own.
 std::string assets_folder(const ScenarioOptions& options);
 
 /// Returns the index of the channel `name` (--channel), or of the first one if `name` is empty. Throws

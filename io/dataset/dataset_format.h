@@ -28,7 +28,8 @@ inline constexpr const char* consistency_file = "consistency.csv";
 /// Holds what a calibration has chosen for the run, if its scenario gave errors instead of settings. It has
 /// times, which do not decide the bytes of the data, so it is not part of the manifest.
 inline constexpr const char* calibration_file = "calibration.json";
-/// Holds a record of each run of the program that wrote to the data set: command line, machine, times, losses.
+/// Holds a record of each run of the program that wrote to the data set: command line, machine, times,
+/// losses.
 inline constexpr const char* run_file = "run.json";
 /// Lists the files that `greatx generate` and `greatx inspect` may leave beside the data. They are not part
 /// of the manifest.

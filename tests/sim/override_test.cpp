@@ -82,7 +82,9 @@ TEST(Override, CurvesKeepTheirCourse) {
   Scenario twice = shorter;
   override_scenario(twice, {{}, 5, {}});
   EXPECT_EQ(twice.trajectory_ticks, 11);
-  const auto at = [](const Scenario& s, double time_s) { return make_node_courses(s, 0).courses[0]->at(time_s); };
+  const auto at = [](const Scenario& s, double time_s) {
+    return make_node_courses(s, 0).courses[0]->at(time_s);
+  };
   for (const double time_s : {0.0, 0.1, 0.2, 0.7, 1.0}) {
     EXPECT_EQ(at(shorter, time_s).pose.position, at(whole, time_s).pose.position);
     EXPECT_EQ(at(longer, time_s).velocity, at(whole, time_s).velocity);
