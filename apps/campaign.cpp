@@ -26,7 +26,6 @@
 #include "apps/console/session.h"
 #include "apps/console/watch.h"
 #include "apps/files/consistency_files.h"
-#include "assets/assets.h"
 #include "io/dataset/verify.h"
 #include "io/files/file.h"
 
@@ -46,16 +45,11 @@ struct Options {
   std::vector<uint32_t> cores{32, 320};
 };
 
-std::string campaign_help() {
-  std::string names;
-  for (const EmbeddedScenario& embedded : embedded_campaigns())
-    if (embedded.text.find("\ngreatx_campaign:") != std::string_view::npos)
-      names += (names.empty() ? "" : ", ") + std::string(embedded.name);
-  return "campaign file (.yaml), or an embedded one: " + names;
-}
-
 void add_common(CLI::App& command, const std::shared_ptr<Options>& options) {
-  command.add_option("CAMPAIGN", options->campaign.file, campaign_help())->required();
+  command
+      .add_option("CAMPAIGN", options->campaign.file,
+                  "campaign file (.yaml), or an embedded one: " + embedded_campaign_names())
+      ->required();
   command.add_option("-o,--output", options->campaign.output, "folder of the campaign")
       ->capture_default_str();
   command.add_option("--assets", options->campaign.assets,

@@ -161,6 +161,8 @@ void add_check(CLI::App& app) {
       "check", "look for faults of a scenario or a campaign before hours are spent on it (docs/check.md)");
   auto options = std::make_shared<CheckOptions>();
   options->scenario.add_to(*command);
+  CLI::Option* scenario = command->get_option("SCENARIO");
+  scenario->description(scenario->get_description() + "; or a campaign: " + embedded_campaign_names());
   options->run.add_to(*command);
   command->add_option("--moments", options->moments, "moments that are simulated, for links and pictures")
       ->capture_default_str()

@@ -9,8 +9,11 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "apps/campaign/sqlite.h"
@@ -154,8 +157,13 @@ class IndexedSet {
 };
 
 constexpr const char* record_columns[] = {
-    "record", "cell", "sequence", "split", "tick", "time_ns", "sensor", "kind", "sample", "row",
-    "data",   "file", "x",        "y",     "z",    "qw",      "qx",     "qy",   "qz"};
+    // of the record
+    "record", "cell", "sequence", "split", "tick", "time_ns", "sensor", "kind", "sample", "row", "data",
+    "file",
+    // its pose
+    "x", "y", "z", "qw", "qx", "qy", "qz",
+    // of the first link of its tick
+    "rx", "tx", "path_count", "line_of_sight", "path_gain_db", "delay_spread_s", "k_factor_db"};
 constexpr const char* link_columns[] = {
     "record", "rx", "tx", "path_count", "line_of_sight", "path_gain_db", "delay_spread_s", "k_factor_db"};
 
@@ -164,7 +172,8 @@ std::string record_table(const sim::Campaign& campaign) {
       "CREATE TABLE records (record INTEGER PRIMARY KEY, cell TEXT, sequence INTEGER, split TEXT, tick "
       "INTEGER, "
       "time_ns INTEGER, sensor TEXT, kind TEXT, sample INTEGER, row INTEGER, data TEXT, file TEXT, x REAL, y "
-      "REAL, z REAL, qw REAL, qx REAL, qy REAL, qz REAL";
+      "REAL, z REAL, qw REAL, qx REAL, qy REAL, qz REAL, rx INTEGER, tx INTEGER, path_count INTEGER, "
+      "line_of_sight INTEGER, path_gain_db REAL, delay_spread_s REAL, k_factor_db REAL";
   for (const sim::CampaignAxis& axis : campaign.axes) sql += fmt::format(", \"axis_{}\" TEXT", axis.name);
   sql += ')';
   return sql;
@@ -186,19 +195,45 @@ class IndexWriter {
         "path_gain_db REAL, delay_spread_s REAL, k_factor_db REAL)");
     records_.emplace(file_, "records", std::size(record_columns) + open.campaign.axes.size());
     links_.emplace(file_, "links", std::size(link_columns));
-    for (const char* column : record_columns) csv_ << column << ',';
-    for (const sim::CampaignAxis& axis : open.campaign.axes) csv_ << "axis_" << axis.name << ',';
-    csv_ << "rx,tx,path_count,line_of_sight,path_gain_db,delay_spread_s,k_factor_db\n";
+    std::vector<std::string> columns(std::begin(record_columns), std::end(record_columns));
+    for (const sim::CampaignAxis& axis : open.campaign.axes) columns.push_back("axis_" + axis.name);
+    csv_ << fmt::format("{}\n", fmt::join(columns, ","));
   }
 
-  void add(size_t cell, uint32_t sequence, const io::IndexRow& row, IndexedSet& set) {
+  /// Adds the records of one tick of a sequence.
+  void add_tick(size_t cell, uint32_t sequence, std::span<const io::IndexRow> rows, IndexedSet& set) {
+    std::vector<std::vector<LinkFigures>> links;
+    std::optional<LinkFigures> first;
+    for (const io::IndexRow& row : rows) {
+      links.push_back(set.links(sequence, row));
+      if (!first && !links.back().empty()) first = links.back().front();
+    }
+    for (size_t i = 0; i < rows.size(); ++i) add(cell, sequence, rows[i], links[i], first, set);
+  }
+
+  uint64_t finish() {
+    records_.reset(), links_.reset();
+    // The planner of queries needs the numbers of ANALYZE to tell the indices apart.
+    file_.run(
+        "CREATE INDEX records_cell ON records (cell, sequence, tick); CREATE INDEX records_kind ON records "
+        "(cell, kind); CREATE INDEX records_sensor ON records (kind, split, line_of_sight); CREATE INDEX "
+        "records_gain ON records (kind, path_gain_db); CREATE INDEX links_record ON links (record); CREATE "
+        "INDEX links_gain ON links (path_gain_db); PRAGMA analysis_limit=1000; ANALYZE; COMMIT");
+    csv_.flush();
+    if (!csv_) throw_user_error("{}: cannot be written", csv_path_.string());
+    return static_cast<uint64_t>(count_);
+  }
+
+ private:
+  /// `links`: of the record itself; `first`: the first link of the tick.
+  void add(size_t cell, uint32_t sequence, const io::IndexRow& row, const std::vector<LinkFigures>& links,
+           const std::optional<LinkFigures>& first, IndexedSet& set) {
     const sim::CampaignCell& of = open_.cells[cell];
     const SensorSpec& spec = set.reader().sensors()[static_cast<size_t>(row.sensor)];
     const char* split =
         sim::split_names[static_cast<size_t>(sim::split_of(open_.campaign, of.values, sequence))];
     const std::string data = fmt::format("data/{}", of.name), file = set.file_of(sequence, row);
     const auto pose = set.pose(sequence, row);
-    const std::vector<LinkFigures> links = set.links(sequence, row);
     const int64_t record = count_++;
     records_->add(record).add(of.name).add(int64_t{sequence}).add(split).add(row.tick).add(row.time_ns);
     records_->add(spec.name).add(spec.kind).add(row.sample).add(row.row).add(data).add(file);
@@ -207,37 +242,34 @@ class IndexWriter {
         fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", record, of.name, sequence, split, row.tick,
                     row.time_ns, spec.name, spec.kind, row.sample, row.row, data, file);
     for (const auto& value : pose) line += fmt::format(",{}", csv_number(value));
+    add_first(first, line);
     for (size_t a = 0; a < of.values.size(); ++a) {
       const std::string& value = open_.campaign.axes[a].values[of.values[a]].name;
       records_->add(value);
       line += fmt::format(",{}", value);
     }
     records_->end_row();
+    csv_ << line << '\n';
     for (const LinkFigures& link : links) {
       links_->add(record).add(link.rx).add(link.tx).add(link.paths).add(link.line_of_sight);
       links_->add(link.gain_db).add(link.delay_spread_s).add(link.k_db).end_row();
     }
-    if (links.empty())
-      line += ",,,,,,,";
-    else
-      line += fmt::format(",{},{},{},{},{},{},{}", links[0].rx, links[0].tx, links[0].paths,
-                          links[0].line_of_sight, csv_number(links[0].gain_db),
-                          csv_number(links[0].delay_spread_s), csv_number(links[0].k_db));
-    csv_ << line << '\n';
   }
 
-  uint64_t finish() {
-    records_.reset(), links_.reset();
-    file_.run(
-        "CREATE INDEX records_cell ON records (cell, sequence, tick); CREATE INDEX records_sensor ON records "
-        "(kind, split); CREATE INDEX links_record ON links (record); CREATE INDEX links_gain ON links "
-        "(path_gain_db); COMMIT");
-    csv_.flush();
-    if (!csv_) throw_user_error("{}: cannot be written", csv_path_.string());
-    return static_cast<uint64_t>(count_);
+  /// Adds the figures of a link to a row of records and to its line; empty ones if there is none.
+  void add_first(const std::optional<LinkFigures>& link, std::string& line) {
+    constexpr size_t figures = 7;
+    if (!link) {
+      for (size_t i = 0; i < figures; ++i) records_->add(std::optional<double>());
+      line += std::string(figures, ',');
+      return;
+    }
+    records_->add(link->rx).add(link->tx).add(link->paths).add(link->line_of_sight);
+    records_->add(link->gain_db).add(link->delay_spread_s).add(link->k_db);
+    line += fmt::format(",{},{},{},{},{},{},{}", link->rx, link->tx, link->paths, link->line_of_sight,
+                        csv_number(link->gain_db), csv_number(link->delay_spread_s), csv_number(link->k_db));
   }
 
- private:
   const OpenCampaign& open_;
   SqliteFile file_;
   std::optional<SqliteInsert> records_, links_;
@@ -245,6 +277,15 @@ class IndexWriter {
   std::ofstream csv_;
   int64_t count_ = 0;
 };
+
+/// Adds the records of a sequence, tick by tick.
+void add_sequence(size_t cell, uint32_t sequence, IndexedSet& set, IndexWriter& writer) {
+  const std::vector<io::IndexRow>& rows = set.reader().records(sequence);
+  for (size_t begin = 0, end = 0; begin < rows.size(); begin = end) {
+    for (end = begin + 1; end < rows.size() && rows[end].tick == rows[begin].tick;) ++end;
+    writer.add_tick(cell, sequence, std::span(rows).subspan(begin, end - begin), set);
+  }
+}
 
 }  // namespace
 
@@ -259,8 +300,7 @@ uint64_t write_index(const OpenCampaign& open, bool quiet) {
     for (size_t cell = 0; cell < open.cells.size(); ++cell) {
       if (!open.merged(cell)) continue;
       IndexedSet set(open.data(cell));
-      for (uint32_t s = 0; s < set.reader().sequences(); ++s)
-        for (const io::IndexRow& row : set.reader().records(s)) writer.add(cell, s, row, set);
+      for (uint32_t s = 0; s < set.reader().sequences(); ++s) add_sequence(cell, s, set, writer);
       progress.update(static_cast<int64_t>(cell) + 1);
     }
     records = writer.finish();

@@ -100,6 +100,14 @@ std::vector<CampaignUnit> OpenCampaign::units() const {
   return all;
 }
 
+std::string embedded_campaign_names() {
+  std::string names;
+  for (const EmbeddedScenario& embedded : embedded_campaigns())
+    if (embedded.text.find("\ngreatx_campaign:") != std::string_view::npos)
+      names += (names.empty() ? "" : ", ") + std::string(embedded.name);
+  return names;
+}
+
 bool is_campaign(const std::string& file) {
   const auto says_so = [](const std::string& text) {
     return text.starts_with("greatx_campaign:") || text.find("\ngreatx_campaign:") != std::string::npos;

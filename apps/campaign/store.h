@@ -59,6 +59,9 @@ struct CampaignOptions {
   std::vector<std::string> cells;  ///< only these; empty: all
 };
 
+/// Returns the names of the embedded campaigns, with commas between them.
+std::string embedded_campaign_names();
+
 /// Tells whether a name is that of an embedded campaign, or a file that says so itself.
 bool is_campaign(const std::string& file);
 

@@ -276,6 +276,15 @@ TEST_F(CampaignCli, TheIndexHasEveryRecord) {
   EXPECT_EQ(std::ranges::count(csv, '\n'), 109);
   EXPECT_THAT(csv, HasSubstr("sequence_0002/uav/cam/rgb/000005.png"));
   EXPECT_EQ(read_file(folder_ / "out/index.sqlite").substr(0, 15), "SQLite format 3");
+  // Every record has the link of its tick: here each line ends with line_of_sight 1, its figures, the axis.
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_THAT(line,
+              ::testing::EndsWith(
+                  "rx,tx,path_count,line_of_sight,path_gain_db,delay_spread_s,k_factor_db,axis_carrier"));
+  while (std::getline(lines, line))
+    EXPECT_THAT(line, ::testing::ContainsRegex(",0,0,[1-9],1,-[0-9.]*,[0-9.e-]*,[0-9.e-]*,(low|high)$"));
 }
 
 }  // namespace

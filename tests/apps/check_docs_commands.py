@@ -74,10 +74,8 @@ class Program:
         return re.findall(r"^  (\w+) ", part, re.MULTILINE)
 
     @functools.cache
-    def scenarios(self) -> list[str]:
-        return re.findall(
-            r"\w+", self.help("explain").partition("or an embedded one:")[2].partition("\n\n")[0]
-        )
+    def scenarios(self, command: str = "explain") -> list[str]:
+        return re.findall(r"\w+", self.help(command).partition("or an embedded one:")[2].partition("\n\n")[0])
 
     def every_option(self) -> set[str]:
         found = self.options()
@@ -111,7 +109,7 @@ class Program:
                 and re.fullmatch(r"[a-z]\w*", word)
                 and "SCENARIO" in self.help(*chain)
             ):
-                if word not in self.scenarios():
+                if word not in self.scenarios(*chain):
                     raise Failure(f"there is no embedded scenario {word}")
 
 

@@ -131,7 +131,7 @@ TEST_F(RecordsCli, TheCacheIsCountedAndCleared) {
 
 TEST_F(RecordsCli, AnInterruptedCampaignAnswersInJson) {
   std::ofstream(folder_ / "c.yaml")
-      << "greatx_campaign: 1\nname: c\nbase: s.yaml\nsequences: 2\naxes:\n  n:\n    "
+      << "greatx_campaign: 1\nname: c\nbase: s.yaml\nsequences: 16\naxes:\n  n:\n    "
          "one: {}\n";
   for (const char* jobs : {"1", "2"}) {
     const std::string out = in(std::string("out") + jobs);
