@@ -66,14 +66,17 @@ Surroundings::Surroundings(const scene::Scene& scene, const FacetKinds& kinds) :
                                     Shell{facet.body, foliage, {}, {}, {}, scene::TriangleTree({})})
                        .first->second;
     for (uint32_t t = 0; t < facet.triangle_count; ++t) {
-      const scene::FacetTriangle& triangle = scene.facet_triangles[facet.first_triangle + t];
-      shell.triangles.push_back(triangle);
+      shell.triangles.push_back(facet.first_triangle + t);
       shell.facets.push_back(index);
-      for (const dvec3& corner : triangle.corners) shell.bounds.add(corner);
     }
   }
   for (auto& [key, shell] : shells) {
-    shell.tree = scene::TriangleTree(shell.triangles);
+    std::vector<scene::Bounds> boxes(shell.triangles.size());
+    for (uint32_t t = 0; t < boxes.size(); ++t) {
+      for (const dvec3& corner : triangle_of(shell, t).corners) boxes[t].add(corner);
+      shell.bounds.add(boxes[t]);
+    }
+    shell.tree = scene::TriangleTree::of_boxes(boxes);
     shells_.push_back(std::move(shell));
   }
 }
@@ -85,7 +88,7 @@ std::vector<Surroundings::Hit> Surroundings::hits(const Shell& shell, const dvec
   shell.tree.near_segment(point, point + reach_m * direction, 0.0, near);
   std::vector<Hit> list;
   for (const uint32_t index : near) {
-    const scene::FacetTriangle& triangle = shell.triangles[index];
+    const scene::FacetTriangle& triangle = triangle_of(shell, index);
     const std::optional<double> distance = scene::line_meets_triangle(point, direction, triangle);
     if (!distance || *distance <= 0.0 || *distance >= reach_m) continue;
     const dvec3* corners = triangle.corners;
@@ -164,7 +167,7 @@ void Surroundings::touch(const Shell& shell, const dvec3& point, Placement& plac
   std::vector<uint32_t> near;
   shell.tree.near_segment(point, point, reach, near);
   for (const uint32_t index : near) {
-    const scene::FacetTriangle& triangle = shell.triangles[index];
+    const scene::FacetTriangle& triangle = triangle_of(shell, index);
     const double distance = glm::length(scene::nearest_on_triangle(point, triangle) - point);
     if (distance > tolerance_of(point, triangle.corners[0])) continue;
     if (placement.surface != Placement::none && placement.surface_m <= distance) continue;
@@ -201,6 +204,65 @@ void Surroundings::place(const Shell& shell, const dvec3& point, Placement& plac
   if ((shell.foliage ? placement.foliage : placement.solid) == Placement::none)
     surround(shell, point, placement);
   if (!shell.foliage) touch(shell, point, placement);
+}
+
+double Surroundings::distance(const dvec3& point, double most_m) const {
+  double nearest = most_m;
+  for (const Shell& shell : shells_)
+    if (shell.body == 0)
+      nearest = shell.tree.distance(
+          point, nearest, [&](uint32_t index) -> const auto& { return triangle_of(shell, index); });
+  return nearest;
+}
+
+/// Describes where a line meets a facet: at `from` + t `along`.
+struct Surroundings::Met {
+  double t = 0.0;
+  uint32_t facet = 0;
+};
+
+std::optional<Surroundings::Met> Surroundings::first_met(const Shell& shell, const dvec3& from,
+                                                         const dvec3& along, double least_t,
+                                                         double most_t) const {
+  std::vector<uint32_t> near;
+  shell.tree.near_segment(from, from + most_t * along, 0.0, near);
+  std::optional<Met> first;
+  for (const uint32_t index : near) {
+    const std::optional<double> t = scene::line_meets_triangle(from, along, triangle_of(shell, index));
+    if (t && *t > least_t && *t < most_t && (!first || *t < first->t)) first = Met{*t, shell.facets[index]};
+  }
+  return first;
+}
+
+std::optional<uint32_t> Surroundings::first_passed(const dvec3& from, const dvec3& to) const {
+  constexpr double touches_m = 1e-3;  // a wheel that rests on a road does not pass through it
+  const double length = glm::distance(from, to);
+  if (length <= 2.0 * touches_m) return std::nullopt;
+  const double end = touches_m / length;
+  for (const Shell& shell : shells_) {
+    if (shell.body != 0 || shell.foliage) continue;
+    if (const std::optional<Met> met = first_met(shell, from, to - from, end, 1.0 - end)) return met->facet;
+  }
+  return std::nullopt;
+}
+
+std::optional<uint32_t> Surroundings::first_seen(const dvec3& origin, const dvec3& direction,
+                                                 std::span<const Pose> body_poses, uint32_t own_body) const {
+  constexpr double begins_m = 1e-6;
+  std::optional<Met> first;
+  double reach = 1e7;
+  for (const Shell& shell : shells_) {
+    if (shell.body != 0 && scene_->owner_of(shell.body) == own_body) continue;
+    GREATX_CHECK(shell.body == 0 || shell.body < body_poses.size(), "body {} of {} poses", shell.body,
+                 body_poses.size());
+    const Pose to_body = shell.body == 0 ? Pose{} : body_poses[shell.body].inverse();
+    const std::optional<Met> met =
+        first_met(shell, to_body.apply(origin), to_body.rotate(direction), begins_m, reach);
+    if (!met) continue;
+    first = met;
+    reach = met->t;
+  }
+  return first ? std::optional(first->facet) : std::nullopt;
 }
 
 std::string describe(const Placement& placement, const scene::Scene& scene, const FacetKinds& kinds) {

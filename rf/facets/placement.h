@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -62,17 +63,31 @@ class Surroundings {
   /// Returns the placement of `point` among the facets of the static world alone.
   Placement in_static_world(const dvec3& point) const;
 
+  /// Returns the distance from `point` (local coordinates) to the static world, m, or `most_m` if that is
+  /// less.
+  double distance(const dvec3& point, double most_m) const;
+  /// Returns the facet of the static world that a segment passes through first, foliage left out. A segment
+  /// that begins or ends on a surface does not pass through it.
+  std::optional<uint32_t> first_passed(const dvec3& from, const dvec3& to) const;
+  /// Returns the facet that a ray meets first, on any body but those of `own_body`; nothing: the sky.
+  std::optional<uint32_t> first_seen(const dvec3& origin, const dvec3& direction,
+                                     std::span<const Pose> body_poses, uint32_t own_body) const;
+
  private:
   /// Holds the hard facets, or the foliage facets, of one body.
   struct Shell {
     uint32_t body = 0;
     bool foliage = false;
-    std::vector<scene::FacetTriangle> triangles;
-    std::vector<uint32_t> facets;  ///< [triangles]
-    scene::Bounds bounds;          ///< in the body's frame
+    std::vector<uint32_t> triangles;  ///< into Scene::facet_triangles
+    std::vector<uint32_t> facets;     ///< [triangles]
+    scene::Bounds bounds;             ///< in the body's frame
     scene::TriangleTree tree;
   };
   struct Hit;
+  struct Met;
+  const scene::FacetTriangle& triangle_of(const Shell& shell, uint32_t index) const {
+    return scene_->facet_triangles[shell.triangles[index]];
+  }
   void place(const Shell& shell, const dvec3& point, Placement& placement) const;
   void surround(const Shell& shell, const dvec3& point, Placement& placement) const;
   uint32_t most_named(std::span<const uint32_t> facets) const;
@@ -80,6 +95,8 @@ class Surroundings {
   std::vector<Hit> hits(const Shell& shell, const dvec3& point, const dvec3& direction, double reach_m) const;
   uint32_t comes_out_of(const Shell& shell, const dvec3& point, const dvec3& direction) const;
   void touch(const Shell& shell, const dvec3& point, Placement& placement) const;
+  std::optional<Met> first_met(const Shell& shell, const dvec3& from, const dvec3& along, double least_t,
+                               double most_t) const;
 
   const scene::Scene* scene_;
   std::vector<Shell> shells_;  ///< by body; within a body the hard facets come first

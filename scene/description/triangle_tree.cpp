@@ -25,10 +25,6 @@ bool meets(const Bounds& box, const dvec3& a, const dvec3& along, double distanc
   return enter <= leave;
 }
 
-double distance_to(const Bounds& box, const dvec3& point) {
-  return glm::length(glm::max(glm::max(box.min - point, point - box.max), dvec3(0.0)));
-}
-
 /// Tells on which side of an edge a line through the origin passes. The two triangles of an edge ask with its
 /// ends in opposite order and get opposite answers, whatever the rounding.
 bool left_of(const dvec3& direction, const dvec3& from, const dvec3& to) {
@@ -82,18 +78,6 @@ void TriangleTree::near_segment(const dvec3& a, const dvec3& b, double distance_
                                 std::vector<uint32_t>& found) const {
   const dvec3 along = b - a;
   boxes_.gather([&](const Bounds& box) { return !meets(box, a, along, distance_m); }, found);
-}
-
-double TriangleTree::distance(const dvec3& point, double most_m,
-                              std::span<const FacetTriangle> triangles) const {
-  double nearest = most_m;
-  boxes_.visit_until([&](const Bounds& box) { return distance_to(box, point) >= nearest; },
-                     [&](uint32_t index) {
-                       const dvec3 found = nearest_on_triangle(point, triangles[index]);
-                       nearest = std::min(nearest, glm::length(found - point));
-                       return false;
-                     });
-  return nearest;
 }
 
 }  // namespace greatx::scene

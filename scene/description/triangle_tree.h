@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -25,11 +26,30 @@ std::optional<double> line_meets_triangle(const dvec3& origin, const dvec3& dire
 class TriangleTree {
  public:
   explicit TriangleTree(std::span<const FacetTriangle> triangles);
+  /// Makes the tree of triangles that are elsewhere, from their boxes.
+  static TriangleTree of_boxes(std::span<const Bounds> boxes) {
+    TriangleTree tree({});
+    tree.boxes_ = BoxTree(boxes);
+    return tree;
+  }
   /// Appends, ascending, the indices of the triangles whose box comes within `distance_m` of the segment.
   void near_segment(const dvec3& a, const dvec3& b, double distance_m, std::vector<uint32_t>& found) const;
 
   /// Returns the distance from `point` to the nearest triangle, or `most_m` if none is nearer than that.
-  double distance(const dvec3& point, double most_m, std::span<const FacetTriangle> triangles) const;
+  /// `triangle_at` returns a triangle by its index.
+  template <typename TriangleAt>
+  double distance(const dvec3& point, double most_m, const TriangleAt& triangle_at) const {
+    double nearest = most_m;
+    boxes_.visit_until(
+        [&](const Bounds& box) {
+          return glm::length(glm::max(glm::max(box.min - point, point - box.max), dvec3(0.0))) >= nearest;
+        },
+        [&](uint32_t index) {
+          nearest = std::min(nearest, glm::distance(nearest_on_triangle(point, triangle_at(index)), point));
+          return false;
+        });
+    return nearest;
+  }
 
  private:
   BoxTree boxes_;

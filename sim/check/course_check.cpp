@@ -111,7 +111,7 @@ class SequenceCheck {
     const std::string what = within(world_, at, context.body_poses, point.body);
     if (!what.empty()) result_.inside[index].add(sequence_, context.tick, what);
     if (before)
-      if (const std::optional<uint32_t> passed = world_.solids().first_passed(*before, at))
+      if (const std::optional<uint32_t> passed = world_.solids().surfaces().first_passed(*before, at))
         result_.passes[index].add(sequence_, context.tick,
                                   fmt::format("'{}'", world_.solids().object_of(*passed)));
     before = at;
@@ -124,7 +124,7 @@ class SequenceCheck {
     node.most_speed = std::max(node.most_speed, glm::length(motion.velocity));
     node.most_acceleration = std::max(node.most_acceleration, glm::length(motion.acceleration));
     const double clear =
-        world_.solids().distance(world_.scene.to_local(motion.pose.position), clearance_reach_m);
+        world_.solids().surfaces().distance(world_.scene.to_local(motion.pose.position), clearance_reach_m);
     if (clear < clearance_reach_m) node.least_clearance = std::min(node.least_clearance, clear);
   }
 

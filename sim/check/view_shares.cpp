@@ -57,8 +57,8 @@ ViewShares view_shares(const World& world, const CameraView& view, const TickCon
   const Pose pose = world.scene.to_local(context.nodes[view.node].pose) * view.mount;
   size_t sky = 0, ground = 0;
   for (const dvec3& direction : view.directions) {
-    const std::optional<uint32_t> facet =
-        world.solids().first_seen(pose.position, pose.rotate(direction), context.body_poses, view.body);
+    const std::optional<uint32_t> facet = world.solids().surfaces().first_seen(
+        pose.position, pose.rotate(direction), context.body_poses, view.body);
     if (!facet)
       ++sky;
     else

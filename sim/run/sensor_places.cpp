@@ -12,7 +12,7 @@ namespace greatx::sim {
 std::string within(const World& world, const dvec3& point, std::span<const Pose> body_poses,
                    uint32_t own_body) {
   const Solids& solids = world.solids();
-  const rf::Placement placement = solids.placement(point, body_poses, own_body);
+  const rf::Placement placement = solids.surfaces().of(point, body_poses, own_body);
   if (placement.solid != rf::Placement::none)
     return fmt::format("inside '{}'", solids.object_of(placement.solid));
   if (placement.beneath != rf::Placement::none)

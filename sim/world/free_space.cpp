@@ -46,15 +46,15 @@ std::optional<FreeSpace::Obstacle> WorldFreeSpace::too_near(uint32_t node, doubl
                                                             double end_s) const {
   const double radius = radii_[node], speed = course.most_speed();
   if (clearance_m > 0.0) {
-    const Solids& solids = world_.solids();
+    const rf::Surroundings& surfaces = world_.solids().surfaces();
     const auto place = [&](double time_s) { return world_.scene.to_local(course.at(time_s).pose.position); };
     const double least = radius + clearance_m;
     // Far from everything one look per second of flight, or per 50 m, is enough.
     const double look_m = least + std::max(50.0, speed);
-    if (first_below(least, speed, end_s, [&](double t) { return solids.distance(place(t), look_m); }))
+    if (first_below(least, speed, end_s, [&](double t) { return surfaces.distance(place(t), look_m); }))
       return Obstacle{};
     // A course that keeps clear of surfaces is inside a solid either always or never.
-    const rf::Placement begin = solids.placement_in_static_world(place(0.0));
+    const rf::Placement begin = surfaces.in_static_world(place(0.0));
     if (begin.solid != rf::Placement::none || begin.beneath != rf::Placement::none) return Obstacle{};
   }
   for (const Neighbour& other : neighbours) {

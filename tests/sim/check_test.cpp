@@ -85,13 +85,14 @@ TEST(Solids, DistanceIsThatOfManyPointsOfAllTriangles) {
   std::uniform_real_distribution<double> across(-55, 55), up(0.1, 35);
   for (int i = 0; i < 40; ++i) {
     const dvec3 p(across(random), across(random), up(random));
-    const double by_hand = nearest_by_hand(world.scene, p), found = world.solids().distance(p, 1e9);
+    const double by_hand = nearest_by_hand(world.scene, p),
+                 found = world.solids().surfaces().distance(p, 1e9);
     EXPECT_LE(found, by_hand + 1e-9);
     EXPECT_GE(found, by_hand - 3.0);  // the points of a triangle lie up to 120 m / 40 apart
     if (!in_a_house(p)) {
       EXPECT_NEAR(found, exact_distance(p), 1e-9);
     }
-    EXPECT_EQ(world.solids().distance(p, 0.01), 0.01);
+    EXPECT_EQ(world.solids().surfaces().distance(p, 0.01), 0.01);
   }
 }
 
