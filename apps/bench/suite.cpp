@@ -21,6 +21,7 @@
 #include "apps/console/progress.h"
 #include "apps/console/summary.h"
 #include "core/parallel.h"
+#include "core/utc.h"
 
 namespace greatx::apps {
 
@@ -82,15 +83,6 @@ uint64_t available_bytes() {
   return ~uint64_t{0};
 }
 
-std::string now_utc() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
-
 /// Holds one tracer's copy of the scene on the device.
 struct Stage {
   std::string tracer;
@@ -131,7 +123,7 @@ class Suite {
                {"greatx", GREATX_VERSION},
                {"device", suite_device(device_.info())},
                {"cores", usable_cores()},
-               {"date", now_utc()},
+               {"date", utc_text(std::time(nullptr))},
                {"embree", SuiteEmbree::version()},
                {"quick", options.quick},
                {"repeats", options.repeats},

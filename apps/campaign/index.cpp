@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -18,6 +17,7 @@
 
 #include "apps/campaign/sqlite.h"
 #include "apps/console/progress.h"
+#include "core/array_numbers.h"
 #include "core/text.h"
 #include "io/dataset/dataset_reader.h"
 #include "io/files/file.h"
@@ -35,32 +35,6 @@ struct LinkFigures {
 };
 
 double decibels_of(double power) { return 10.0 * std::log10(power); }
-
-/// Reads element `i` of an array of numbers as a double.
-double number_at(const Array& array, size_t i) {
-  const std::byte* at = array.bytes.data() + i * size_of(array.dtype);
-  const auto as = [&]<typename T>(T value) {
-    std::memcpy(&value, at, sizeof value);
-    return static_cast<double>(value);
-  };
-  switch (array.dtype) {
-    case DType::f64:
-      return as(double{});
-    case DType::f32:
-      return as(float{});
-    case DType::u8:
-      return as(uint8_t{});
-    case DType::i32:
-      return as(int32_t{});
-    case DType::u32:
-      return as(uint32_t{});
-    case DType::i64:
-      return as(int64_t{});
-    default:
-      GREATX_CHECK(false, "an array of type {}", static_cast<int>(array.dtype));
-  }
-  return 0.0;
-}
 
 /// Reads one data set for the index.
 class IndexedSet {

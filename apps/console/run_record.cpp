@@ -14,6 +14,7 @@
 
 #include "apps/console/json_text.h"
 #include "core/parallel.h"
+#include "core/utc.h"
 #include "core/version.h"
 #include "io/files/file.h"
 #include "io/files/untrusted_json.h"
@@ -35,13 +36,7 @@ double now_s() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-std::string utc(double seconds, const char* format) {
-  const auto whole = static_cast<std::time_t>(seconds);
-  std::tm parts{};
-  gmtime_r(&whole, &parts);
-  char text[64];
-  return {text, std::strftime(text, sizeof text, format, &parts)};
-}
+std::time_t whole(double seconds) { return static_cast<std::time_t>(seconds); }
 
 /// Returns the value of the first line "KEY : VALUE" or "KEY=VALUE" of a file of the system; empty if there
 /// is none.
@@ -93,11 +88,11 @@ RunRecord::RunRecord() {
             pages > 0 && page > 0 ? static_cast<uint64_t>(pages) * static_cast<uint64_t>(page) : 0},
            {"greatx", GREATX_VERSION},
            {"commit", commit()},
-           {"begin", utc(begin, "%Y-%m-%dT%H:%M:%SZ")},
+           {"begin", utc_text(whole(begin))},
            {"begin_unix_s", begin},
            {"process", ::getpid()},
            {"complete", false}};
-  name_ = fmt::format("{}_{}_{}.json", utc(begin, "%Y%m%dT%H%M%SZ"), system.nodename, ::getpid());
+  name_ = fmt::format("{}_{}_{}.json", utc_text(whole(begin), "%Y%m%dT%H%M%SZ"), system.nodename, ::getpid());
   std::ranges::replace(name_, '/', '_');
 }
 
@@ -110,7 +105,7 @@ void RunRecord::set_device(const gpu::Device& device) {
 
 void RunRecord::end(bool complete, const std::vector<std::string>& warnings) {
   const double end = now_s();
-  json_["end"] = utc(end, "%Y-%m-%dT%H:%M:%SZ");
+  json_["end"] = utc_text(whole(end));
   json_["seconds"] = end - json_["begin_unix_s"].get<double>();
   json_["complete"] = complete;
   json_["warnings"] = warnings;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/array_numbers.h"
 #include "sim/run/simulator.h"
 
 namespace greatx::sim {
@@ -15,7 +16,7 @@ namespace {
 class Looker : public RecordSink {
  public:
   Looker(const Scenario& scenario, const std::vector<SensorSpec>& specs, LookFigures& figures)
-      : scenario_(scenario), specs_(specs), figures_(figures) {
+      : specs_(specs), figures_(figures) {
     for (const ChannelConfig& channel : scenario.channels)
       for (const std::string& receiver : channel.receivers)
         for (const std::string& transmitter : channel.transmitters)
@@ -63,22 +64,12 @@ class Looker : public RecordSink {
     for (LinkFigures& figures : figures_.links) {
       if (figures.channel != spec.name) continue;
       ++figures.moments;
-      figures.without_path += value(counts, link) == 0;
-      figures.line_of_sight += direct != nullptr && value(*direct, link) != 0;
+      figures.without_path += number_at(counts, link) == 0.0;
+      figures.line_of_sight += direct != nullptr && number_at(*direct, link) != 0.0;
       ++link;
     }
   }
 
-  static uint64_t value(const Array& array, size_t index) {
-    const size_t size = size_of(array.dtype);
-    uint64_t value = 0;
-    GREATX_CHECK((index + 1) * size <= array.bytes.size(), "link {} of {} bytes", index, array.bytes.size());
-    std::copy_n(array.bytes.begin() + static_cast<ptrdiff_t>(index * size), size,
-                reinterpret_cast<std::byte*>(&value));  // little-endian
-    return value;
-  }
-
-  const Scenario& scenario_;
   const std::vector<SensorSpec>& specs_;
   LookFigures& figures_;
 };

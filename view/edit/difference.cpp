@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "core/array_numbers.h"
+
 namespace greatx::view {
 
 namespace {
@@ -18,29 +20,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Returns element i as a number, whatever the type; NaN for complex ones.
 double element(const Array& array, size_t i) {
-  switch (array.dtype) {
-    case DType::u8:
-      return array.as<uint8_t>()[i];
-    case DType::u16:
-      return array.as<uint16_t>()[i];
-    case DType::u32:
-      return array.as<uint32_t>()[i];
-    case DType::u64:
-      return static_cast<double>(array.as<uint64_t>()[i]);
-    case DType::i8:
-      return array.as<int8_t>()[i];
-    case DType::i32:
-      return array.as<int32_t>()[i];
-    case DType::i64:
-      return static_cast<double>(array.as<int64_t>()[i]);
-    case DType::f32:
-      return static_cast<double>(array.as<float>()[i]);
-    case DType::f64:
-      return array.as<double>()[i];
-    case DType::complex64:
-      return none;
-  }
-  return none;
+  return array.dtype == DType::complex64 ? none : number_at(array, i);
 }
 
 void compare_complex(const Array& a, const Array& b, Difference& row) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 
+#include "core/array_numbers.h"
 #include "core/units.h"
 #include "view/panel/panel_kinds.h"
 
@@ -15,30 +16,10 @@ namespace theme = io::theme;
 
 namespace {
 
+/// Returns element i as a number; the magnitude of a complex one.
 double number_in(const Array& array, size_t i) {
-  switch (array.dtype) {
-    case DType::u8:
-      return array.as<uint8_t>()[i];
-    case DType::u16:
-      return array.as<uint16_t>()[i];
-    case DType::u32:
-      return array.as<uint32_t>()[i];
-    case DType::u64:
-      return static_cast<double>(array.as<uint64_t>()[i]);
-    case DType::i8:
-      return array.as<int8_t>()[i];
-    case DType::i32:
-      return array.as<int32_t>()[i];
-    case DType::i64:
-      return static_cast<double>(array.as<int64_t>()[i]);
-    case DType::f32:
-      return array.as<float>()[i];
-    case DType::f64:
-      return array.as<double>()[i];
-    case DType::complex64:
-      break;
-  }
-  return std::abs(std::complex<double>(array.as<std::complex<float>>()[i]));
+  return array.dtype == DType::complex64 ? std::abs(std::complex<double>(array.as<std::complex<float>>()[i]))
+                                         : number_at(array, i);
 }
 
 std::string value_text(const ArraySpec& spec, double value) {
