@@ -5,7 +5,6 @@
 #include <iostream>
 #include <memory>
 #include <span>
-#include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -26,6 +25,7 @@
 #include "apps/console/session.h"
 #include "apps/console/watch.h"
 #include "apps/files/consistency_files.h"
+#include "core/parallel.h"
 #include "io/dataset/verify.h"
 #include "io/files/file.h"
 
@@ -89,7 +89,7 @@ void plan(const Options& options) {
     gpu::Device device(options.run.device_options());
     costs = measured_costs(open, device, options);
   }
-  CampaignPlan plan = plan_of(open, costs, std::max(1u, std::thread::hardware_concurrency()), options.cores);
+  CampaignPlan plan = plan_of(open, costs, static_cast<uint32_t>(usable_cores()), options.cores);
   print(options, plan.json, plan.text);
   const auto beyond = [&](const char* what, const std::optional<double>& most, const char* key) {
     if (!most || costs.empty() || plan.json[key] <= *most) return;
@@ -100,10 +100,8 @@ void plan(const Options& options) {
   beyond("gigabytes", open.campaign.most_gigabytes, "gigabytes");
 }
 
-/// Runs a shard in `jobs` processes, each with a part of it.
-CampaignRun run_jobs(const OpenCampaign& open, const Shard& shard, const Options& options) {
-  const std::vector<CampaignUnit> all = open.units();
-  const std::span<const CampaignUnit> units = units_of(all, shard);
+/// Runs units in `jobs` processes, which share them.
+CampaignRun run_jobs(const OpenCampaign& open, std::span<const CampaignUnit> units, const Options& options) {
   // What is complete stays so, and need not be looked at again.
   std::vector<CampaignUnit> pending(units.begin(), units.end());
   const auto complete = [&] {
@@ -115,9 +113,7 @@ CampaignRun run_jobs(const OpenCampaign& open, const Shard& shard, const Options
   const auto begin = std::chrono::steady_clock::now();
   Progress progress(open.campaign.name, static_cast<int64_t>(units.size()), options.quiet || options.json,
                     "sequences");
-  const uint32_t threads = options.threads > 0
-                               ? options.threads
-                               : std::max(1u, std::thread::hardware_concurrency() / options.jobs);
+  const uint32_t threads = options.threads > 0 ? options.threads : threads_of_each(options.jobs);
   const WorkQueue queue(pending, options.jobs);
   try {
     in_processes(
@@ -143,12 +139,12 @@ void run(const Options& options) {
   claim_folder(open);
   install_interrupt_handler();
   const std::vector<CampaignUnit> all = open.units();
+  const std::span<const CampaignUnit> units = units_of(all, shard);
   CampaignRun run;
   if (options.jobs > 1) {
-    run = run_jobs(open, shard, options);
+    run = run_jobs(open, units, options);
   } else {
     gpu::Device device(options.run.device_options());
-    const auto units = units_of(all, shard);
     const WorkQueue queue({units.begin(), units.end()}, 1);
     run = run_units(open, queue, device, options.threads, options.quiet || options.json);
     check_validation(device);
@@ -164,7 +160,7 @@ void run(const Options& options) {
                     run.done, run.seconds, run.skipped));
   if (!run.complete)
     throw Interrupted(fmt::format("{}: {} of {} sequences are complete; the same command goes on",
-                                  open.folder.string(), run.done + run.skipped, units_of(all, shard).size()));
+                                  open.folder.string(), run.done + run.skipped, units.size()));
 }
 
 /// Returns the time limits of the jobs: those that the user gives, or measured ones.
@@ -176,7 +172,7 @@ SlurmTimes slurm_times(const OpenCampaign& open, uint32_t tasks, const Options& 
     gpu::Device device(options.run.device_options());
     const std::vector<CellCost> costs = measured_costs(open, device, options);
     // A tick on processors takes longer on fewer of them.
-    const double cores = std::max(1u, std::thread::hardware_concurrency());
+    const auto cores = static_cast<double>(usable_cores());
     const double slower = device.info().type == "cpu" ? std::max(1.0, cores / options.slurm.cpus) : 1.0;
     times = measured_times(open, costs, tasks, slower);
   }

@@ -47,6 +47,12 @@ void write_among_shards(const fs::path& file, const std::string& text) {
   io::rename_file(own, file);
 }
 
+/// Tells whether a text has the key by which campaigns name their format.
+bool is_campaign_text(std::string_view text) {
+  constexpr std::string_view key = "\ngreatx_campaign:";
+  return text.starts_with(key.substr(1)) || text.find(key) != std::string_view::npos;
+}
+
 /// Returns the text of an embedded file of assets/campaigns, with or without its extension.
 std::optional<std::string> embedded_text(const std::string& name) {
   for (const EmbeddedScenario& embedded : embedded_campaigns())
@@ -103,22 +109,18 @@ std::vector<CampaignUnit> OpenCampaign::units() const {
 std::string embedded_campaign_names() {
   std::string names;
   for (const EmbeddedScenario& embedded : embedded_campaigns())
-    if (embedded.text.find("\ngreatx_campaign:") != std::string_view::npos)
-      names += (names.empty() ? "" : ", ") + std::string(embedded.name);
+    if (is_campaign_text(embedded.text)) names += (names.empty() ? "" : ", ") + std::string(embedded.name);
   return names;
 }
 
 bool is_campaign(const std::string& file) {
-  const auto says_so = [](const std::string& text) {
-    return text.starts_with("greatx_campaign:") || text.find("\ngreatx_campaign:") != std::string::npos;
-  };
   std::error_code unreadable;
   if (!fs::is_regular_file(file, unreadable)) {
     const std::optional<std::string> text = embedded_text(file);
-    return text && says_so(*text);
+    return text && is_campaign_text(*text);
   }
-  return says_so(
-      InputFile(file, fmt::format("{}: expected a scenario or a campaign", file), budget::yaml_file).text());
+  const InputFile input(file, fmt::format("{}: expected a scenario or a campaign", file), budget::yaml_file);
+  return is_campaign_text(input.text());
 }
 
 OpenCampaign open_campaign(const CampaignOptions& options) {

@@ -15,6 +15,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/apps/campaign_base.h"
 #include "tests/apps/program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -24,29 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-constexpr const char* base = R"(greatx: 1
-name: base
-seed: 4
-ticks: 6
-tick_rate_hz: 10
-scene: {generate: {kind: canyon, seed: 3, size_m: 60}}
-nodes:
-  - name: bs
-    trajectory: {type: static, position_m: [1, -20, 6]}
-    sensors: [{name: a, type: antenna}]
-  - name: uav
-    trajectory: {type: bezier, box: {min_m: [-3, -15, 3], max_m: [3, 15, 8]}, offset_m: [1, 1, 1]}
-    sensors:
-      - {name: a, type: antenna}
-      - {name: cam, type: camera, rate_hz: 10, width: 48, height: 32, fov_deg: 90, outputs: [rgb, depth]}
-channels:
-  - {name: csi, tx: bs/a, rx: [uav/a], rate_hz: 10, bandwidth_hz: 20e6, subcarriers: 16, max_depth: 1}
-)";
-
 class CampaignCli : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::ofstream(folder_ / "base.yaml") << base;
+    std::ofstream(folder_ / "base.yaml") << campaign_base(6, "rgb, depth");
     write(3, "\n      channels[csi].carrier_hz: 28e9");
   }
   void write(int sequences, const std::string& high) const {

@@ -16,6 +16,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/apps/campaign_base.h"
 #include "tests/apps/program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -27,24 +28,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr const char* slurm_base = R"(greatx: 1
-name: base
-seed: 4
-ticks: 400
-tick_rate_hz: 10
-scene: {generate: {kind: canyon, seed: 3, size_m: 60}}
-nodes:
-  - name: bs
-    trajectory: {type: static, position_m: [1, -20, 6]}
-    sensors: [{name: a, type: antenna}]
-  - name: uav
-    trajectory: {type: bezier, box: {min_m: [-3, -15, 3], max_m: [3, 15, 8]}, offset_m: [1, 1, 1]}
-    sensors:
-      - {name: a, type: antenna}
-      - {name: cam, type: camera, rate_hz: 10, width: 48, height: 32, fov_deg: 90, outputs: [rgb]}
-channels:
-  - {name: csi, tx: bs/a, rx: [uav/a], rate_hz: 10, bandwidth_hz: 20e6, subcarriers: 16, max_depth: 1}
-)";
 constexpr const char* slurm_campaign = R"(greatx_campaign: 1
 name: streets
 base: base.yaml
@@ -91,7 +74,7 @@ class SlurmCli : public ::testing::Test {
   void SetUp() override {
     fs::create_directories(folder_ / "bin");
     fs::create_directories(folder_ / "fake");
-    write("base.yaml", slurm_base);
+    write("base.yaml", campaign_base(400, "rgb"));
     write("c.yaml", slurm_campaign);
     for (const auto& [name, text] : {std::pair{"bin/sbatch", fake_sbatch},
                                      {"bin/scontrol", fake_scontrol},
@@ -304,7 +287,7 @@ TEST_F(SlurmCli, FaultsOfTheOptions) {
               AllOf(HasSubstr("\ncampaign=great_mcd_mini\n"), HasSubstr("#SBATCH --array=1-24\n")));
   // A campaign that has changed is a fault before anything is submitted.
   ASSERT_EQ(slurm("--time 90").code, 0);
-  std::string changed = slurm_base;
+  std::string changed = campaign_base(400, "rgb");
   changed.replace(changed.find("seed: 4"), 7, "seed: 5");
   write("base.yaml", changed);
   EXPECT_THAT(slurm("--time 90").err, HasSubstr("was begun with another scenario"));
