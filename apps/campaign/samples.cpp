@@ -60,9 +60,11 @@ class SampledSet {
     const SensorSpec& spec = reader_.sensors()[static_cast<size_t>(row.sensor)];
     if (spec.kind == "camera" && has_array(spec, "semantic"))
       count(reader_.load(sequence, row, "semantic"), classes_, 0, "camera", split);
-    if (spec.kind == "camera" && has_array(spec, "box_visibility"))
-      for (const float value : reader_.load(sequence, row, "box_visibility").as<float>())
-        visibility_[split].push_back(value);
+    if (spec.kind == "camera" && has_array(spec, "box_visibility")) {
+      const Array shares = reader_.load(sequence, row, "box_visibility");
+      const auto values = shares.as<float>();
+      visibility_[split].insert(visibility_[split].end(), values.begin(), values.end());
+    }
     if (spec.kind == "lidar" && has_array(spec, "instance"))
       count(reader_.load(sequence, row, "instance"), class_of_instance_, 1, "lidar", split);
   }
