@@ -35,9 +35,14 @@ class HeightField {
   std::optional<double> at(const dvec2& place) const;
 
  private:
+  /// How a grid is searched. The affine fit of (column, row) starts the search; Newton steps within the cells
+  /// that they lead to end it.
   struct Lookup {
-    glm::dmat3x2 cell_from_place{0.0};  ///< affine fit of (column, row), the start of the search
+    glm::dmat3x2 cell_from_place{0.0};
+    dvec2 low{0.0}, high{0.0};  ///< box of all samples, m
   };
+  static std::optional<dvec2> cell_of(const HeightGrid& grid, const Lookup& lookup, const dvec2& place);
+  static std::optional<double> height_in(const HeightGrid& grid, const dvec2& cell);
   std::vector<HeightGrid> grids_;
   std::vector<Lookup> lookups_;
 };
