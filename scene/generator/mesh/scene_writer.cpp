@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -26,12 +27,20 @@ dquat turn_about_z(double yaw) { return {std::cos(yaw / 2), 0.0, 0.0, std::sin(y
 
 }  // namespace
 
-SceneWriter::SceneWriter() : file_({.generator = "greatx scene generator", .compact = true}) {}
+SceneWriter::SceneWriter(std::vector<MaterialSpec> library, std::map<std::string, TextureMaps> pictures,
+                         const std::string& generator)
+    : library_(std::move(library)),
+      file_({.generator = generator, .compact = true}),
+      maps_(std::move(pictures)) {}
 
 int SceneWriter::add_mesh(const std::string& name, const MeshBuilder& mesh) {
-  GREATX_CHECK(!mesh.empty(), "mesh \"{}\" is empty", name);
+  return add_mesh(name, mesh.primitives());
+}
+
+int SceneWriter::add_mesh(const std::string& name, std::span<const PrimitiveData> primitives) {
+  GREATX_CHECK(!primitives.empty(), "mesh \"{}\" is empty", name);
   const int index = file_.add_mesh(name);
-  for (const PrimitiveData& data : mesh.primitives()) {
+  for (const PrimitiveData& data : primitives) {
     const auto [material, is_new] =
         materials_.try_emplace(data.material, static_cast<int>(materials_.size()));
     file_.add_primitive(index, {.material = material->second,
@@ -54,8 +63,11 @@ int SceneWriter::add_node(const NodeSpec& node) {
   if (node.scale != 1.0) out.scale = snap(node.scale);
   out.light = node.light;
   out.aim = node.shine;
+  std::string extras = node.extras;
   if (node.semantic_class != SemanticClass::unlabeled)
-    out.extras_json = fmt::format(R"({{"greatx_class":"{}"}})", name_of(node.semantic_class));
+    extras = fmt::format(R"("greatx_class":"{}"{}{})", name_of(node.semantic_class),
+                         extras.empty() ? "" : ",", extras);
+  if (!extras.empty()) out.extras_json = fmt::format("{{{}}}", extras);
   return file_.add_node(out);
 }
 
@@ -87,7 +99,7 @@ int SceneWriter::texture(int& index, const std::string& name, const Raster& rast
 }
 
 void SceneWriter::add_material(int library_index) {
-  const MaterialSpec& spec = material_library()[static_cast<size_t>(library_index)];
+  const MaterialSpec& spec = library_[static_cast<size_t>(library_index)];
   io::GlbMaterial out;
   out.name = spec.name;
   out.base_color = micro(spec.color);
@@ -115,6 +127,9 @@ void SceneWriter::add_material(int library_index) {
   GREATX_CHECK(index == materials_.at(library_index), "material \"{}\" is number {}", spec.name, index);
 }
 
-std::vector<std::byte> SceneWriter::finish(const std::string& scene_name) { return file_.finish(scene_name); }
+std::vector<std::byte> SceneWriter::finish(const std::string& scene_name,
+                                           const std::string& scene_extras_json) {
+  return file_.finish(scene_name, scene_extras_json);
+}
 
 }  // namespace greatx::scene::generator

@@ -6,11 +6,13 @@
 
 #include <array>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "io/formats/glb_writer.h"
 #include "scene/description/scene.h"
+#include "scene/generator/mesh/materials.h"
 #include "scene/generator/mesh/mesh_builder.h"
 #include "scene/generator/paint/textures.h"
 
@@ -23,9 +25,10 @@ struct NodeSpec {
   double yaw = 0.0;     ///< rad about z
   double scale = 1.0;
   SemanticClass semantic_class = SemanticClass::unlabeled;
-  int parent = -1;   ///< from add_node; -1: the scene
-  int light = -1;    ///< from add_light; -1: none
-  dvec3 shine{0.0};  ///< direction of the light in the parent's frame; 0: given by `yaw`
+  int parent = -1;     ///< from add_node; -1: the scene
+  int light = -1;      ///< from add_light; -1: none
+  dvec3 shine{0.0};    ///< direction of the light in the parent's frame; 0: given by `yaw`
+  std::string extras;  ///< further members of the node's extras, as JSON without braces; may be empty
 };
 
 struct LightSpec {
@@ -42,13 +45,18 @@ struct LightSpec {
 /// depend on the last bit of a sine.
 class SceneWriter {
  public:
-  SceneWriter();
+  /// Meshes refer to the materials of `library` by index. MaterialSpec::texture names a picture of `pictures`
+  /// or, if there is none, a texture known to make_texture.
+  explicit SceneWriter(std::vector<MaterialSpec> library = material_library(),
+                       std::map<std::string, TextureMaps> pictures = {},
+                       const std::string& generator = "greatx scene generator");
   /// Adds the mesh and returns its index for NodeSpec.
   int add_mesh(const std::string& name, const MeshBuilder& mesh);
+  int add_mesh(const std::string& name, std::span<const PrimitiveData> primitives);
   int add_node(const NodeSpec& node);
   int add_light(const LightSpec& light);
   /// Returns the bytes of the whole file.
-  std::vector<std::byte> finish(const std::string& scene_name);
+  std::vector<std::byte> finish(const std::string& scene_name, const std::string& scene_extras_json = "");
 
  private:
   /// Holds the glTF textures of the maps of one surface; -1: not in the file, or none.
@@ -63,6 +71,7 @@ class SceneWriter {
   int texture(int& index, const std::string& name, const Raster& raster, bool exact = false);
   const TextureMaps& maps(const std::string& name);
 
+  std::vector<MaterialSpec> library_;
   io::GlbWriter file_;
   std::map<int, int> materials_;  ///< library index -> glTF material
   std::map<std::string, TextureMaps> maps_;

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The table of materials of places: from classes ("facade/brick", "roof/tiles", "ground/road") to materials
+// with optical and radio properties. greatx has a table; a file may replace entries of it (docs/places.md).
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/generator/mesh/materials.h"
+
+namespace greatx::scene::place {
+
+class MaterialTable {
+ public:
+  /// Makes greatx's own table.
+  MaterialTable();
+  /// Replaces classes by those of a file. Throws UserError "file:line: field: expected ..., found ..." for a
+  /// class that does not exist, an unknown material, or wrong properties.
+  void read(const std::filesystem::path& file);
+  void read_text(const std::string& text, const std::string& name);
+
+  /// Returns the material of a class: one of its choices, by `draw` in [0, 1).
+  int of(const std::string& material_class, double draw = 0.0) const;
+  /// Returns a variant of a material in another colour. Its texture keeps its pattern.
+  int coloured(int material, const std::array<unsigned char, 3>& srgb);
+  /// Returns a variant of a material that shows a picture instead of its texture.
+  int pictured(int material, const std::string& picture, size_t number);
+
+  /// Returns all materials: those of the generator, which keep their numbers, then the table's own.
+  const std::vector<generator::MaterialSpec>& materials() const { return materials_; }
+  const generator::MaterialSpec& operator[](int material) const {
+    return materials_[static_cast<size_t>(material)];
+  }
+  /// Returns the classes and the names of their choices, for the report.
+  std::vector<std::pair<std::string, std::vector<std::string>>> listing() const;
+
+  /// Returns the YAML of greatx's own table.
+  static const std::string& default_text();
+
+ private:
+  int add(generator::MaterialSpec spec);
+
+  std::vector<generator::MaterialSpec> materials_;
+  std::map<std::string, std::vector<int>, std::less<>> classes_;
+  std::map<std::string, int> variants_;  ///< by name
+};
+
+}  // namespace greatx::scene::place
