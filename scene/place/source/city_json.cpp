@@ -125,7 +125,7 @@ class CityJsonReader {
     require_within(where_, vertices.size(), map_corners);
     for (size_t i = 0; i < vertices.size(); ++i)
       vertices_.push_back(vector(vertices[i], fmt::format("vertices[{}]", i)) * scale + translate);
-    degrees_.assign(vertices_.begin(), vertices_.end());
+    for (const dvec3& vertex : vertices_) degrees_.emplace_back(vertex);
     // Vertices that no object uses may lie anywhere, so that each is converted when it is used.
     converted_.assign(vertices_.size(), false);
   }

@@ -210,8 +210,8 @@ HeightGrid grid_in_frame(const HeightSamples& samples, const LocalFrame& frame) 
 
 namespace {
 
-/// Interpolates the voids of a grid, z in the frame, from its own data.
-std::vector<double> interpolated(const HeightGrid& grid) {
+/// Interpolates the voids of a file from its own data; empty if it has none.
+std::vector<double> interpolated(const HeightSamples& grid) {
   std::vector<float> heights(grid.samples.size());
   std::vector<uint8_t> mask(grid.samples.size());
   // Heights about their mean, so that single precision keeps them to 0.1 mm.
@@ -249,7 +249,7 @@ std::vector<double> interpolated(const HeightGrid& grid) {
 }
 
 /// Returns for each sample how many samples away the nearest one with data is, diagonals counting as one.
-std::vector<uint32_t> steps_to_data(const HeightGrid& grid) {
+std::vector<uint32_t> steps_to_data(const HeightSamples& grid) {
   constexpr uint32_t unseen = std::numeric_limits<uint32_t>::max();
   std::vector<uint32_t> steps(grid.samples.size(), unseen);
   std::vector<size_t> front;
@@ -272,12 +272,13 @@ std::vector<uint32_t> steps_to_data(const HeightGrid& grid) {
 
 }  // namespace
 
-HeightField join_grids(std::vector<HeightGrid> grids, const AreaTest& area, bool fill, const char* what,
-                       std::vector<Finding>& findings) {
+HeightField join_samples(std::vector<HeightSamples> samples, const LocalFrame& frame, const AreaTest& area,
+                         bool fill, const std::string& what, std::vector<Finding>& findings) {
   HeightField raw;
-  for (const HeightGrid& grid : grids) raw.add(grid);
+  for (const HeightSamples& one : samples) raw.add(grid_in_frame(one, frame));
   bool changed = false;
-  for (HeightGrid& grid : grids) {
+  for (size_t g = 0; g < samples.size(); ++g) {
+    const HeightGrid& grid = raw.grids()[g];
     std::vector<size_t> voids;
     size_t inside = 0, empty_inside = 0;
     for (size_t i = 0; i < grid.samples.size(); ++i) {
@@ -289,29 +290,28 @@ HeightField join_grids(std::vector<HeightGrid> grids, const AreaTest& area, bool
     }
     if (voids.empty()) continue;
     Notes notes(grid.source, findings);
-    const std::vector<double> heights = fill ? interpolated(grid) : std::vector<double>();
+    const std::vector<double> heights = fill ? interpolated(samples[g]) : std::vector<double>();
     if (heights.empty()) {
       if (empty_inside > 0)
-        notes.add(fill ? Kind::left_out : Kind::doubtful, fmt::format("{}_void", what), "",
+        notes.add(fill ? Kind::left_out : Kind::doubtful, what + "_void", "",
                   fmt::format("{} of {} samples within the area have no height.", empty_inside, inside));
       continue;
     }
-    const std::vector<uint32_t> steps = steps_to_data(grid);
+    const std::vector<uint32_t> steps = steps_to_data(samples[g]);
     uint32_t farthest = 0;
     for (const size_t i : voids)
       if (area.contains(dvec2(grid.samples[i]))) farthest = std::max(farthest, steps[i]);
-    for (const size_t i : voids) grid.samples[i].z = heights[i];
+    for (const size_t i : voids) samples[g].samples[i].z = heights[i];
     changed = true;
-    notes.add(
-        Kind::repaired, fmt::format("{}_void_filled", what), "",
-        fmt::format(
-            "{} of {} samples within the area, and {} around it, have no height; they are interpolated "
-            "by inverse distance from the samples around the void, at most {} samples away in the area.",
-            empty_inside, inside, voids.size() - empty_inside, farthest));
+    notes.add(Kind::repaired, what + "_void_filled", "",
+              fmt::format("{} of {} samples within the area, and {} around it, have no height; they are "
+                          "interpolated by inverse distance from the samples around the void, at most {} "
+                          "samples away in the area.",
+                          empty_inside, inside, voids.size() - empty_inside, farthest));
   }
   if (!changed) return raw;
   HeightField joined;
-  for (HeightGrid& grid : grids) joined.add(std::move(grid));
+  for (const HeightSamples& one : samples) joined.add(grid_in_frame(one, frame));
   return joined;
 }
 

@@ -48,10 +48,10 @@ HeightSamples samples_of(const HeightTile& tile);
 /// Puts samples into the frame.
 HeightGrid grid_in_frame(const HeightSamples& samples, const LocalFrame& frame);
 
-/// Counts the samples within `area` at which no grid has data, and gives them heights: GDAL's interpolation
-/// by inverse distances (GDALFillNodata) from the data around the void in the same file. Says so as findings.
-/// `fill` false: counts alone. `what` begins the topics.
-HeightField join_grids(std::vector<HeightGrid> grids, const AreaTest& area, bool fill, const char* what,
-                       std::vector<Finding>& findings);
+/// Puts all samples into the frame. Counts the samples within `area` at which no grid has data and, if `fill`,
+/// gives them heights: GDAL's interpolation by inverse distances (GDALFillNodata) from the data around the
+/// void in the same file. Says so as findings, whose topics `what` begins.
+HeightField join_samples(std::vector<HeightSamples> samples, const LocalFrame& frame, const AreaTest& area,
+                         bool fill, const std::string& what, std::vector<Finding>& findings);
 
 }  // namespace greatx::scene::place

@@ -50,9 +50,9 @@ const std::map<std::string, std::set<std::string>, std::less<>> line_keys{
 const std::set<std::string, std::less<>> silent_keys{"created_by", "source",      "note", "fixme",
                                                      "FIXME",      "attribution", "type"};
 
-/// A chain of an open ring is closed by a straight line if the gap is at most this share of its length:
-/// otherwise most of the ring would be made up.
-constexpr double most_gap = 1.0;
+/// A chain of an open ring is closed by a straight line if the gap is at most this share of its length; at 1
+/// the chain is straight. A square without one side has a third.
+constexpr double most_gap = 0.6;
 
 /// Returns the length of a line in degrees in metres, to 1 %: it only sizes messages and gaps.
 double length_m(std::span<const dvec2> line) {

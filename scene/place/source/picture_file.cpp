@@ -114,12 +114,13 @@ glm::dmat3x2 fitted(const Lattice& lattice) {
   return {linear[0], linear[1], pixel_mean - linear * local_mean};
 }
 
-/// Returns the picture on a grid along x and y, whose pixels are as large as those of the file: bilinear in
-/// colour between pixels with data, and with data where the nearest pixel has.
+/// Returns the picture on a grid along x and y, whose pixels are as large as the shorter side of those of the
+/// file: bilinear in colour between pixels with data, and with data where the nearest pixel has.
 GroundPicture resampled(const Raster& raster, const PixelWindow& window, const Pixels& pixels,
                         const Lattice& lattice, const Placement& placement, Spending& spent) {
   const glm::dmat3x2 fit = fitted(lattice);
-  const double size = 1.0 / std::sqrt(std::abs(fit[0].x * fit[1].y - fit[0].y * fit[1].x));
+  const glm::dmat2 local_from_pixel = glm::inverse(glm::dmat2(fit[0], fit[1]));
+  const double size = std::min(glm::length(local_from_pixel[0]), glm::length(local_from_pixel[1]));
   const Box box = box_of(lattice.local);
   GroundPicture picture;
   const dvec2 extent = glm::ceil((box.high - box.low) / size);

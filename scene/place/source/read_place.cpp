@@ -140,13 +140,6 @@ class PlaceReader {
     return samples;
   }
 
-  static std::vector<HeightGrid> grids_of(const std::vector<HeightSamples>& samples,
-                                          const LocalFrame& frame) {
-    std::vector<HeightGrid> grids;
-    for (const HeightSamples& one : samples) grids.push_back(grid_in_frame(one, frame));
-    return grids;
-  }
-
   /// The origin: given, or the area's middle to 1e-5 degrees (1 m), at its ground to 0.1 m.
   Geodetic find_origin(const std::vector<HeightSamples>& samples) {
     if (config_.origin) return *config_.origin;
@@ -157,7 +150,7 @@ class PlaceReader {
     HeightField field;
     double sum = 0.0;
     size_t known = 0;
-    for (HeightGrid& grid : grids_of(samples, level)) field.add(std::move(grid));
+    for (const HeightSamples& one : samples) field.add(grid_in_frame(one, level));
     if (const auto z = field.at(dvec2(0.0))) {
       origin.height_m = std::round(*z * 10.0) / 10.0;
       return origin;
@@ -187,7 +180,7 @@ class PlaceReader {
     input_.reference = {origin, config_.undulation_m, config_.vertical_datum};
     const Placement level(input_.reference, input_.terrain);
     const AreaTest test(area_in_frame(*area_, level));
-    input_.terrain = join_grids(grids_of(samples, level.frame()), test, true, "terrain", input_.findings);
+    input_.terrain = join_samples(samples, level.frame(), test, true, "terrain", input_.findings);
     placement_.emplace(input_.reference, input_.terrain);
     if (!config_.terrain.empty()) report_cover(input_.terrain, test, "terrain");
   }
@@ -296,8 +289,7 @@ class PlaceReader {
   void read_surface(const AreaTest& test) {
     if (config_.surface.empty()) return;
     const auto samples = read_samples(config_.surface, config_.ground.margin_m + terrain_margin_m, "surface");
-    input_.surface =
-        join_grids(grids_of(samples, placement_->frame()), test, false, "surface", input_.findings);
+    input_.surface = join_samples(samples, placement_->frame(), test, false, "surface", input_.findings);
     report_cover(input_.surface, test, "surface");
   }
 
