@@ -39,7 +39,9 @@ struct HeightSource {
   std::string name;
   std::filesystem::path file;
   std::string crs;
-  double unit_m = 1.0;            ///< 0.3048 for feet; files that state their unit must agree
+  /// 0.3048 for feet; a file that states another unit is an error. Nothing: the file's unit, or metres if it
+  /// states none.
+  std::optional<double> unit_m;
   std::optional<double> no_data;  ///< beside what the file says
   std::optional<dvec2> valid_m;   ///< values outside [low, high] count as no data, and are counted
   std::string licence;

@@ -55,8 +55,10 @@ void HeightField::add(HeightGrid grid) {
   lookups_.push_back(lookup);
 }
 
-std::optional<dvec2> HeightField::cell_of(const HeightGrid& grid, const Lookup& lookup, const dvec2& place) {
-  const double slack = 1e-3;
+std::optional<dvec2> HeightField::cell_of(const HeightGrid& grid, const Lookup& lookup, const dvec2& place,
+                                          double outside) {
+  const dvec2 slack = 1e-3 + outside * 2.0 * (lookup.high - lookup.low) /
+                                 static_cast<double>(std::min(grid.columns, grid.rows) - 1);
   if (glm::any(glm::lessThan(place, lookup.low - slack)) ||
       glm::any(glm::greaterThan(place, lookup.high + slack)))
     return std::nullopt;
@@ -77,8 +79,7 @@ std::optional<dvec2> HeightField::cell_of(const HeightGrid& grid, const Lookup& 
                      (du.x * missing.y - du.y * missing.x) / area);
     cell += move;
     if (std::max(std::abs(move.x), std::abs(move.y)) > search_tolerance) continue;
-    if (glm::any(glm::lessThan(cell, dvec2(-edge_tolerance))) ||
-        glm::any(glm::greaterThan(cell, most + edge_tolerance)))
+    if (glm::any(glm::lessThan(cell, dvec2(-outside))) || glm::any(glm::greaterThan(cell, most + outside)))
       return std::nullopt;
     return glm::clamp(cell, dvec2(0.0), most);
   }
@@ -106,9 +107,10 @@ std::optional<double> HeightField::height_in(const HeightGrid& grid, const dvec2
 }
 
 std::optional<double> HeightField::at(const dvec2& place) const {
-  for (size_t i = 0; i < grids_.size(); ++i)
-    if (const auto cell = cell_of(grids_[i], lookups_[i], place))
-      if (const auto height = height_in(grids_[i], *cell)) return height;
+  for (const double outside : {edge_tolerance, 0.5 + edge_tolerance})
+    for (size_t i = 0; i < grids_.size(); ++i)
+      if (const auto cell = cell_of(grids_[i], lookups_[i], place, outside))
+        if (const auto height = height_in(grids_[i], *cell)) return height;
   return std::nullopt;
 }
 

@@ -31,7 +31,9 @@ class HeightField {
 
   /// Returns the height at a place: bilinear between the four samples around it. At a cell with a corner
   /// without data, the corners with data count by their bilinear weights if they have at least half of the
-  /// weight. Returns nothing outside the grids and where there are no data.
+  /// weight. A pixel covers half a cell around its sample: at a place in no cell of any grid, but within half
+  /// a cell of one, the height at that grid's edge counts, so that tiles side by side leave no gap. Returns
+  /// nothing elsewhere and where there are no data.
   std::optional<double> at(const dvec2& place) const;
 
  private:
@@ -41,7 +43,9 @@ class HeightField {
     glm::dmat3x2 cell_from_place{0.0};
     dvec2 low{0.0}, high{0.0};  ///< box of all samples, m
   };
-  static std::optional<dvec2> cell_of(const HeightGrid& grid, const Lookup& lookup, const dvec2& place);
+  /// Returns (column, row) up to `outside` cells beyond the edge, moved to the edge.
+  static std::optional<dvec2> cell_of(const HeightGrid& grid, const Lookup& lookup, const dvec2& place,
+                                      double outside);
   static std::optional<double> height_in(const HeightGrid& grid, const dvec2& cell);
   std::vector<HeightGrid> grids_;
   std::vector<Lookup> lookups_;

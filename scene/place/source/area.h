@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Finds the area of a place on the Earth: as given, or the extent of sources.
+#pragma once
+
+#include "scene/place/config/place_config.h"
+#include "scene/place/source/map_contents.h"
+#include "scene/place/source/placement.h"
+
+namespace greatx::scene::place {
+
+/// The area in degrees; x is the longitude, perhaps beyond 180 where the area crosses the antimeridian.
+struct DegreesArea {
+  Polygon polygon;
+  Box box;
+  dvec2 centre() const { return (box.low + box.high) / 2.0; }
+};
+
+/// Returns the area that place.yaml gives, or nothing if it is the extent of sources.
+std::optional<DegreesArea> given_area(const PlaceConfig& config);
+/// Returns the rectangle of an extent. Throws UserError if it is wider than 10 degrees or empty.
+DegreesArea area_of_extent(const Box& extent, const std::string& where);
+
+/// Returns the area in the frame. Parallels are curved there, so that edges get corners every 500 m, which
+/// keeps each within 1 cm of the parallel up to latitudes of 60 degrees.
+Polygon area_in_frame(const DegreesArea& area, const Placement& placement);
+
+/// Returns "52.0107..52.0137 N, 4.3620..4.3696 E" in signed degrees for messages.
+std::string extent_text(const Box& degrees);
+
+}  // namespace greatx::scene::place

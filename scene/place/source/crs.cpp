@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/place/source/crs.h"
+
+#include <cmath>
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <gdal_priv.h>
+#include <limits>
+#include <mutex>
+#include <ogr_srs_api.h>
+#include <utility>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "scene/place/source/map_contents.h"
+
+namespace greatx::scene::place {
+
+namespace {
+
+void CPL_STDCALL take_message(CPLErr kind, CPLErrorNum, const char* message) {
+  if (kind >= CE_Warning)
+    static_cast<GdalMessages*>(CPLGetErrorHandlerUserData())->note(kind >= CE_Failure, message);
+}
+
+}  // namespace
+
+void prepare_gdal() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    OSRSetPROJEnableNetwork(0);  // grids from a network would make results depend on it
+    CPLSetConfigOption("GDAL_PAM_ENABLED", "YES");
+    CPLSetConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "FALSE");
+    CPLSetConfigOption("OGR_GEOJSON_MAX_OBJ_SIZE", "0");
+    GDALAllRegister();
+  });
+}
+
+GdalMessages::GdalMessages() { CPLPushErrorHandlerEx(take_message, this); }
+GdalMessages::~GdalMessages() { CPLPopErrorHandler(); }
+std::string GdalMessages::suffix() const {
+  const std::string& message = error_.empty() ? warning_ : error_;
+  return message.empty() ? "" : fmt::format(" ({})", printable(message));
+}
+
+double longitude_near(double longitude_deg, double near_deg) {
+  return longitude_deg - 360.0 * std::round((longitude_deg - near_deg) / 360.0);
+}
+
+bool meets_turned(const Box& a, const Box& b) {
+  for (const double turn : {0.0, 360.0, -360.0})
+    if (a.meets({b.low + dvec2(turn, 0.0), b.high + dvec2(turn, 0.0)})) return true;
+  return false;
+}
+
+Projection::Projection(std::string where, const std::string& given, const OGRSpatialReference* of_file)
+    : where_(std::move(where)) {
+  prepare_gdal();
+  const GdalMessages messages;
+  if (!given.empty()) {
+    if (crs_.SetFromUserInput(given.c_str()) != OGRERR_NONE)
+      throw_user_error("{}: crs: expected a coordinate system such as EPSG:25833, found '{}'{}", where_,
+                       printable(given), messages.suffix());
+  } else if (of_file != nullptr && !of_file->IsEmpty()) {
+    crs_ = *of_file;
+  } else {
+    throw_user_error(
+        "{}: the file states no coordinate system, and its source has no crs: add, for example, crs: "
+        "\"EPSG:25833\"",
+        where_);
+  }
+  if (crs_.IsCompound()) crs_.StripVertical();
+  if (!crs_.IsGeographic() && !crs_.IsProjected())
+    throw_user_error("{}: crs: expected a geographic or projected coordinate system, found '{}'", where_,
+                     printable(crs_.GetName() != nullptr ? crs_.GetName() : "one without a name"));
+  geographic_ = crs_.IsGeographic();
+  crs_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  OGRSpatialReference degrees;
+  degrees.SetWellKnownGeogCS("WGS84");
+  degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  to_.reset(OGRCreateCoordinateTransformation(&crs_, &degrees));
+  from_.reset(OGRCreateCoordinateTransformation(&degrees, &crs_));
+  if (!to_ || !from_)
+    throw_user_error("{}: crs: PROJ knows no way from '{}' to WGS 84{}", where_, printable(crs_.GetName()),
+                     messages.suffix());
+}
+
+bool Projection::same_crs(const Projection& other) const { return crs_.IsSame(&other.crs_) != 0; }
+
+Projection::~Projection() = default;
+Projection::Projection(Projection&&) noexcept = default;
+
+void Projection::to_degrees(std::span<dvec2> points) const {
+  const GdalMessages messages;
+  std::vector<double> x(points.size()), y(points.size());
+  std::vector<int> good(points.size());
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (geographic_ && std::abs(points[i].y) > 90.0 + 1e-9 && std::abs(points[i].x) <= 90.0)
+      throw_user_error(
+          "{}: found the latitude {} at longitude {}: latitudes end at 90 degrees; latitude and longitude "
+          "seem to be swapped (greatx expects longitude first, as x)",
+          where_, points[i].y, points[i].x);
+    x[i] = points[i].x, y[i] = points[i].y;
+  }
+  to_->Transform(static_cast<int>(points.size()), x.data(), y.data(), nullptr, good.data());
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (good[i] == 0 || !std::isfinite(x[i]) || !std::isfinite(y[i]) || std::abs(y[i]) > 90.0 + 1e-9 ||
+        std::abs(x[i]) > 540.0)
+      throw_user_error("{}: the point ({}, {}) has no place on the Earth in '{}': is its crs right?{}",
+                       where_, points[i].x, points[i].y, printable(crs_.GetName()), messages.suffix());
+    points[i] = {x[i], y[i]};
+  }
+}
+
+dvec2 Projection::to_degrees(const dvec2& point) const {
+  dvec2 result = point;
+  to_degrees(std::span(&result, 1));
+  return result;
+}
+
+void Projection::from_degrees(std::span<dvec2> degrees) const {
+  const GdalMessages messages;
+  std::vector<double> x(degrees.size()), y(degrees.size());
+  std::vector<int> good(degrees.size());
+  for (size_t i = 0; i < degrees.size(); ++i) x[i] = degrees[i].x, y[i] = degrees[i].y;
+  from_->Transform(static_cast<int>(degrees.size()), x.data(), y.data(), nullptr, good.data());
+  for (size_t i = 0; i < degrees.size(); ++i)
+    degrees[i] = good[i] != 0 ? dvec2(x[i], y[i]) : dvec2(std::numeric_limits<double>::quiet_NaN());
+}
+
+}  // namespace greatx::scene::place
