@@ -215,7 +215,12 @@ class Maker {
     if (outline.parts.empty()) {
       add_part(building, outline, outline.area, feature);
     } else {
-      for (const size_t index : outline.parts) add_part(building, parts_[index], parts_[index].area, feature);
+      std::vector<Polygon> whole = outline.area;
+      for (const size_t index : outline.parts) {
+        add_part(building, parts_[index], parts_[index].area, feature);
+        whole.insert(whole.end(), parts_[index].area.begin(), parts_[index].area.end());
+      }
+      building.plan_area_m2 = area(unite(whole));  // parts may reach beyond the outline
       add_rest(building, outline);
     }
     building.facade_class = facade_class_of(feature, config_, building.storeys);

@@ -135,9 +135,9 @@ double width_of(const Feature& feature, const LineRule& rule, double scale) {
 
 const char* name_of(Cover cover) {
   constexpr std::array<const char*, cover_count> names{
-      "base", "residential", "farmland", "meadow", "grass",   "wood",   "scrub", "sand",
-      "rock", "wetland",     "pitch",    "water",  "parking", "square", "rail",  "path"};
-  return cover == Cover::road ? "road" : names[static_cast<size_t>(cover)];
+      "base",    "residential", "farmland", "meadow",  "grass",  "wood", "scrub", "sand", "rock",
+      "wetland", "pitch",       "water",    "parking", "square", "rail", "path",  "road"};
+  return names[static_cast<size_t>(cover)];
 }
 
 std::optional<Cover> cover_of_area(const Feature& feature) {

@@ -33,7 +33,7 @@ enum class Cover : uint32_t {
   path,
   road,
 };
-inline constexpr size_t cover_count = 16;
+inline constexpr size_t cover_count = 17;
 const char* name_of(Cover cover);
 
 struct GroundArea {

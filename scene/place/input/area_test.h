@@ -6,6 +6,7 @@
 
 #include <span>
 
+#include "scene/place/input/box.h"
 #include "scene/place/input/place_input.h"
 
 namespace greatx::scene::place {
@@ -14,18 +15,6 @@ namespace greatx::scene::place {
 /// point on the boundary may count as either.
 bool contains(const Polygon& polygon, const dvec2& point);
 
-/// The box along x and y around points; empty (low > high) around none.
-struct Box {
-  dvec2 low{1e300}, high{-1e300};
-  void add(const dvec2& point) {
-    low = glm::min(low, point);
-    high = glm::max(high, point);
-  }
-  bool empty() const { return low.x > high.x; }
-  bool meets(const Box& other) const {
-    return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y;
-  }
-};
 Box box_of(std::span<const dvec2> points);
 /// Returns the box of all that a feature has, solids in plan.
 Box box_of(const Feature& feature);

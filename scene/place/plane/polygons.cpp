@@ -13,15 +13,6 @@ namespace {
 
 double cross(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
 
-bool holds(const Ring& ring, const dvec2& p) {
-  bool odd = false;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const dvec2 &a = ring[i], &b = ring[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) odd = !odd;
-  }
-  return odd;
-}
-
 /// Drops corners that repeat the one before, and spikes, whose two edges lie on each other.
 Ring cleaned(Ring ring, std::vector<std::string>& faults) {
   constexpr double same_m = 1e-6;
@@ -76,12 +67,6 @@ double perimeter(const Polygon& polygon) {
   add(polygon.outer);
   for (const Ring& hole : polygon.holes) add(hole);
   return sum;
-}
-
-bool contains(const Polygon& polygon, const dvec2& point) {
-  if (!holds(polygon.outer, point)) return false;
-  return std::none_of(polygon.holes.begin(), polygon.holes.end(),
-                      [&](const Ring& hole) { return holds(hole, point); });
 }
 
 Box box_of(const Polygon& polygon) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/place/input/area_test.h"
 #include "scene/place/input/place_input.h"
 
 namespace greatx::scene::place {
@@ -18,26 +19,6 @@ double signed_area(const Ring& ring);
 double area(const Polygon& polygon);
 double area(std::span<const Polygon> polygons);
 double perimeter(const Polygon& polygon);
-/// Returns whether a point lies in the polygon and in none of its holes. Points on the border may be either.
-bool contains(const Polygon& polygon, const dvec2& point);
-/// Returns a box as (low, high), or low > high for nothing.
-struct Box {
-  dvec2 low{1e300}, high{-1e300};
-  void add(const dvec2& p) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  void add(const Box& box) {
-    low = glm::min(low, box.low);
-    high = glm::max(high, box.high);
-  }
-  bool empty() const { return low.x > high.x; }
-  bool holds(const dvec2& p) const { return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y; }
-  bool meets(const Box& b) const {
-    return b.low.x <= high.x && b.high.x >= low.x && b.low.y <= high.y && b.high.y >= low.y;
-  }
-  Box grown(double by) const { return {low - by, high + by}; }
-};
 Box box_of(const Polygon& polygon);
 Box box_of(std::span<const Polygon> polygons);
 

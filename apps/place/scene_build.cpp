@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/place/scene_build.h"
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "apps/console/progress.h"
+#include "apps/place/report.h"
+#include "io/files/file.h"
+#include "io/formats/png.h"
+#include "scene/place/source/source.h"
+#include "scene/place/surfaces/material_table.h"
+
+namespace greatx::apps {
+
+namespace {
+
+struct BuildCommand {
+  std::string file, output, report;
+  double simplify_m = 0.0;
+  bool quiet = false, json = false, print_materials = false;
+};
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  io::write_file_atomically(file, std::as_bytes(std::span(text)));
+}
+
+void build(const BuildCommand& command) {
+  if (command.print_materials) {
+    std::cout << scene::place::MaterialTable::default_text();
+    return;
+  }
+  if (command.file.empty())
+    throw_user_error("scene build: expected the file of a place, place.yaml, found nothing");
+  scene::place::PlaceConfig config = scene::place::load_place_config(command.file);
+  if (command.simplify_m > 0.0) config.simplify_m = command.simplify_m;
+  const std::filesystem::path output = command.output.empty() ? std::filesystem::path(config.name + ".glb")
+                                                              : std::filesystem::path(command.output);
+  const std::filesystem::path folder = command.report.empty()
+                                           ? output.parent_path() / (output.stem().string() + "_report")
+                                           : std::filesystem::path(command.report);
+  const auto begin = std::chrono::steady_clock::now();
+  scene::place::BuiltPlace built;
+  scene::place::PlaceInput input;
+  {
+    Progress progress(config.name, 100, command.quiet || command.json, "");
+    // Reading takes some two fifths of the time.
+    input = scene::place::read_place(config, [&](const std::string&) { progress.update(5); });
+    progress.update(40);
+    built = scene::place::build_place(input, config, [&](const std::string&, double share) {
+      progress.update(40 + static_cast<int64_t>(60.0 * share));
+    });
+  }
+  io::create_folder_of(output);
+  io::write_file_atomically(output, built.glb);
+  std::filesystem::create_directories(folder);
+  const nlohmann::json json = json_of(built.report);
+  write_text(folder / "report.json",
+             json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  write_text(folder / "report.md", markdown_of(built.report));
+  io::write_file_atomically(folder / "plan.png",
+                            io::encode_png(picture_of(built, input), io::PngCoding::small));
+  if (command.json) {
+    std::cout << json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    return;
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::cout << fmt::format("wrote {} ({:.1f} MiB) in {:.1f} s, and {}/\n", output.string(),
+                           static_cast<double>(built.glb.size()) / 1048576.0, seconds, folder.string())
+            << summary_of(built.report);
+}
+
+}  // namespace
+
+void add_scene_build(CLI::App& scene_command) {
+  CLI::App* command =
+      scene_command.add_subcommand("build", "a real place from maps, terrain and imagery (docs/places.md)");
+  auto options = std::make_shared<BuildCommand>();
+  command->add_option("FILE", options->file, "place.yaml");
+  command->add_option("-o,--output", options->output, ".glb to write; default: NAME.glb");
+  command->add_option("--report", options->report,
+                      "folder of the report; default: beside the output, NAME_report");
+  command->add_option("--simplify", options->simplify_m, "detail of outlines below this many metres may go")
+      ->check(CLI::Range(0.0, 10.0));
+  command->add_flag("--json", options->json, "print the report as JSON");
+  command->add_flag("--quiet", options->quiet, "show no progress");
+  command->add_flag("--print-materials", options->print_materials,
+                    "print greatx's table of materials, to be edited");
+  command->callback([options] { build(*options); });
+}
+
+}  // namespace greatx::apps
