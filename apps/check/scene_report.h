@@ -19,8 +19,8 @@ std::string scene_check_text(const std::string& file, const scene::SceneFaults& 
 
 nlohmann::json scene_check_json(const std::string& file, const scene::SceneFaults& faults);
 
-/// Draws the model from straight above (north is up), at most `pixels` wide and high: surfaces that face up are
-/// light, higher ones lighter; faults are red, doubts orange. Returns u8 [height, width, 3].
+/// Draws the model from straight above (north is up), at most `pixels` wide and high: surfaces that face up
+/// are light, higher ones lighter; faults are red, doubts orange. Returns u8 [height, width, 3].
 Array draw_faults(const scene::Model& model, const scene::SceneFaults& faults, int pixels);
 
 }  // namespace greatx::apps

@@ -36,7 +36,7 @@ SceneFaults check_scene(const Model& model, const CheckOptions& options) {
   const SoupTree tree(soup);
   Topology topology = make_topology(soup, options.weld_m);
   const Closing closing = close_by_others(soup, topology, tree, options, list);
-  find_openings(soup, topology, tree, list);
+  find_openings(soup, topology, tree, options, list);
   find_wrong_sides(soup, topology, list);
   find_wrong_normals(model, list);
   const RayCount rays = find_leaks_by_rays(soup, topology, closing, tree, options, list);

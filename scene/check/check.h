@@ -15,7 +15,8 @@
 //
 // A part is a set of triangles of one object (a node with a mesh) that hang together by edges that exactly
 // two of them share. A part is closed if it has no other edges, nearly closed if caps over its openings would
-// have at most a quarter of its area, and otherwise a sheet. Closed and nearly closed parts claim to be solids.
+// have at most a quarter of its area, and otherwise a sheet. Closed and nearly closed parts claim to be
+// solids.
 #pragma once
 
 #include <cstdint>
@@ -80,9 +81,9 @@ struct SceneFaults {
   const SceneFault* find(const std::string& kind) const;  ///< null: none was found
 };
 
-/// Checks a model, which should be loaded with LoadOptions::keep_faults and `optical_only`, so that the loader
-/// leaves the faults to this function. The same model and options give the same result. docs/check.md lists
-/// the kinds.
+/// Checks a model, which should be loaded with LoadOptions::keep_faults and `optical_only`, so that the
+/// loader leaves the faults to this function. The same model and options give the same result. docs/check.md
+/// lists the kinds.
 SceneFaults check_scene(const Model& model, const CheckOptions& options = {});
 
 }  // namespace greatx::scene

@@ -162,7 +162,7 @@ RayCount find_leaks_by_rays(const Soup& soup, const Topology& topology, const Cl
   std::vector<PartRays> results(topology.parts.size());
   parallel_for(topology.parts.size(), options.threads, [&](size_t p) {
     const Part& part = topology.parts[p];
-    if (part.kind == PartKind::sheet || !part.one_sided) return;
+    if (part.kind == PartKind::sheet || !part.one_sided || part.hidden_opening) return;
     const PartTracer tracer(soup, topology, closing, tree.boxes(), static_cast<uint32_t>(p));
     results[p] = PartCaster(soup, topology, tracer, static_cast<uint32_t>(p), options).cast();
   });

@@ -16,8 +16,8 @@ struct RayCount {
 /// From eight points within each closed or nearly closed part, `options.rays` rays go in directions that are
 /// uniform on the sphere. A point lies halfway between a random point of the surface and the next surface
 /// behind it. A closed part meets its own triangles; a part whose openings others close, all triangles of its
-/// group. A ray that meets nothing is a leak. A hole that takes the share p of the directions is missed with
-/// the probability (1 - p)^rays. Adds
+/// group; a part with a hidden opening is left out. A ray that meets nothing is a leak. A hole that takes the
+/// share p of the directions is missed with the probability (1 - p)^rays. Adds
 ///   ray_leak        parts of which rays come out; the size is the share of the rays
 ///   overlaps_itself parts from whose inside rays meet a front, once all their triangles look outwards: the
 ///                   part reaches into itself (a doubt)

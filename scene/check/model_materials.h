@@ -13,8 +13,8 @@ namespace greatx::scene::check {
 
 /// Returns
 ///   no_radio         materials that a mesh uses and that have no radio properties (a fault, if `radio`); the
-///                    size is the area of their triangles, and `other` is the medium of ITU-R P.2040 that a word
-///                    of the name suggests, if one does
+///                    size is the area of their triangles, and `other` is the medium of ITU-R P.2040 that a
+///                    word of the name suggests, if one does
 ///   lost_picture     pictures that cannot be read (a fault); `material` is the message
 ///   unused_material  materials that no mesh uses (a doubt)
 std::vector<SceneFault> find_material_faults(const Model& model, const std::vector<double>& area_of_material,

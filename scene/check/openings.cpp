@@ -10,13 +10,15 @@
 #include <tuple>
 
 #include "core/parallel.h"
+#include "core/random.h"
+#include "core/units.h"
 
 namespace greatx::scene::check {
 namespace {
 
 constexpr FaultList::Kind hole{FaultSeverity::fault, "hole", "holes in solids", "m"};
-constexpr FaultList::Kind buried_opening{FaultSeverity::doubt, "buried_opening",
-                                         "openings of solids beneath another surface", "m"};
+constexpr FaultList::Kind hidden_opening{FaultSeverity::doubt, "hidden_opening",
+                                         "openings of solids behind or beneath another surface", "m"};
 constexpr FaultList::Kind open_sheet{FaultSeverity::doubt, "open_sheet", "borders of open sheets", "m"};
 constexpr FaultList::Kind t_junction{FaultSeverity::doubt, "t_junction",
                                      "corners on the inside of another triangle's edge", ""};
@@ -146,11 +148,59 @@ bool is_beneath(const dvec3& point, const Part& part, const Soup& soup, const To
   });
 }
 
+/// Returns the first triangle on a ray, or `nothing`.
+uint32_t first_on_ray(const dvec3& origin, const dvec3& direction, double beyond, const Soup& soup,
+                      const SoupTree& tree) {
+  double nearest = 1e300;
+  uint32_t first = nothing;
+  tree.boxes().visit_until(
+      [&](const Bounds& box) {
+        return !ray_meets(box, origin, direction, nearest, 1e-9 * glm::length(box.max - origin));
+      },
+      [&](uint32_t t) {
+        const auto at = line_meets_triangle(origin, direction, soup.triangles[t]);
+        if (at && *at > beyond && *at < nearest) nearest = *at, first = t;
+        return false;
+      });
+  return first;
+}
+
 /// The edges of one loop that stay open, those that hang together.
 struct Opening {
   std::vector<uint32_t> edges;
   double length_m = 0.0;
 };
+
+/// Returns whether most rays out of an opening first meet the back of a surface.
+bool leads_into_another(const Opening& opening, const Soup& soup, const Topology& topology,
+                        const SoupTree& tree, uint64_t seed) {
+  constexpr uint32_t rays = 128;
+  dvec3 center{0.0}, outwards{0.0};
+  for (const uint32_t e : opening.edges)
+    center += 0.5 * (topology.open_edges[e].a + topology.open_edges[e].b) /
+              static_cast<double>(opening.edges.size());
+  for (const uint32_t e : opening.edges) {
+    const OpenEdge& edge = topology.open_edges[e];
+    const dvec3 cap = glm::cross(edge.b - center, edge.a - center);
+    outwards += topology.turned[edge.triangle] ? -cap : cap;
+  }
+  RandomStream random(seed, 10, opening.edges.front());
+  uint32_t backs = 0;
+  for (uint32_t i = 0; i < rays; ++i) {
+    const OpenEdge& edge =
+        topology.open_edges[opening.edges[random.below(static_cast<uint32_t>(opening.edges.size()))]];
+    const dvec3 start = glm::mix(edge.a, edge.b, random.uniform());
+    const double z = random.uniform(-1.0, 1.0), azimuth = random.uniform(0.0, 2.0 * pi);
+    const double r = std::sqrt(1.0 - z * z);
+    dvec3 direction(r * std::cos(azimuth), r * std::sin(azimuth), z);
+    if (glm::dot(direction, outwards) < 0.0) direction = -direction;
+    // A step towards the middle leaves the surfaces that the edge touches.
+    const dvec3 origin = start + 0.01 * (center - start);
+    const uint32_t t = first_on_ray(origin, direction, 0.0, soup, tree);
+    if (t != nothing && glm::dot(soup.normals[t], direction) > 0.0) ++backs;
+  }
+  return 2 * backs > rays;
+}
 
 std::vector<Opening> openings_of(const Loop& loop, const Topology& topology) {
   std::vector<Opening> openings;
@@ -215,20 +265,24 @@ Closing close_by_others(const Soup& soup, Topology& topology, const SoupTree& tr
   return closing;
 }
 
-void find_openings(const Soup& soup, const Topology& topology, const SoupTree& tree, FaultList& faults) {
+void find_openings(const Soup& soup, Topology& topology, const SoupTree& tree, const CheckOptions& options,
+                   FaultList& faults) {
   for (uint32_t p = 0; p < topology.parts.size(); ++p) {
-    const Part& part = topology.parts[p];
+    Part& part = topology.parts[p];
     const bool claims_solid = part.kind != PartKind::sheet || is_foliage(soup, topology, part);
     if (!claims_solid && lies_on_ground(soup.class_of(part.object))) continue;
     for (const Loop& loop : part.loops)
       for (const Opening& opening : openings_of(loop, topology)) {
+        const auto beneath = [&](uint32_t e) {
+          const OpenEdge& edge = topology.open_edges[e];
+          return is_beneath(0.5 * (edge.a + edge.b), part, soup, topology, tree, p);
+        };
+        const bool hidden = claims_solid && (std::ranges::all_of(opening.edges, beneath) ||
+                                             leads_into_another(opening, soup, topology, tree, options.seed));
+        part.hidden_opening |= hidden;
         const OpenEdge& first = topology.open_edges[opening.edges.front()];
-        const bool buried = claims_solid && std::ranges::all_of(opening.edges, [&](uint32_t e) {
-                              const OpenEdge& edge = topology.open_edges[e];
-                              return is_beneath(0.5 * (edge.a + edge.b), part, soup, topology, tree, p);
-                            });
         faults.add(!claims_solid ? open_sheet
-                   : buried      ? buried_opening
+                   : hidden      ? hidden_opening
                                  : hole,
                    {0.5 * (first.a + first.b), part.object, nothing, soup.material[first.triangle],
                     opening.length_m});

@@ -11,9 +11,9 @@ namespace greatx::scene::check {
 
 /// Adds
 ///   flipped           triangles that face another way than most of the area of their part
-///   inside_out        closed or nearly closed parts of negative volume; a doubt if the part contains the whole
-///                     scene, since rooms are modelled so, and nothing if it lies within another closed part of
-///                     its object, since cavities are
+///   inside_out        closed or nearly closed parts of negative volume; a doubt if the part contains the
+///                     whole scene, since rooms are modelled so, and nothing if it lies within another closed
+///                     part of its object, since cavities are
 ///   not_orientable    parts with no consistent orientation
 /// The place of `inside_out` is the middle of the part and its size the volume, m^3; that of `flipped` is the
 /// middle of the triangle and its size the area, m^2.

@@ -77,7 +77,7 @@ std::optional<SizeRange> range_of(SemanticClass semantic_class) {
     case SemanticClass::building:
       return SizeRange{1.0, 2000.0};
     case SemanticClass::vehicle:
-      return SizeRange{0.5, 60.0};
+      return SizeRange{1.0, 60.0};
     case SemanticClass::uav:
       return SizeRange{0.02, 30.0};
     case SemanticClass::person:
@@ -91,6 +91,28 @@ std::optional<SizeRange> range_of(SemanticClass semantic_class) {
     default:
       return std::nullopt;
   }
+}
+
+/// Returns the bounds of an object with all that hangs on its node.
+Bounds whole_of(const Soup& soup, uint32_t object) {
+  const std::vector<ModelInstance>& instances = soup.model->instances;
+  const uint32_t end = soup.model->nodes[instances[object].node].end;
+  Bounds bounds;
+  for (uint32_t i = object; i < instances.size() && instances[i].node < end; ++i)
+    if (!soup.objects[i].bounds.empty()) bounds.add(soup.objects[i].bounds);
+  return bounds;
+}
+
+/// Returns whether the object hangs on another one of its class, as a wheel does on a car. Instances are in
+/// the order of their nodes, parents before children.
+bool is_piece_of_its_kind(const Model& model, uint32_t object) {
+  const ModelInstance& one = model.instances[object];
+  for (uint32_t i = object; i-- > 0;) {
+    const ModelInstance& other = model.instances[i];
+    if (model.nodes[other.node].end > one.node && other.semantic_class == one.semantic_class) return true;
+    if (object - i > 1000) break;  // siblings in between: a flat list of many objects has no such parent
+  }
+  return false;
 }
 
 double longest(const Bounds& bounds) {
@@ -127,8 +149,9 @@ void find_far_objects(const Soup& soup, FaultList& faults) {
       faults.add(far_away, {middles[i], objects[i], nothing, nothing, distances[i]});
 }
 
-/// Finds a scene whose y axis points up although it is taken for one whose z axis does, or the like. Ground and
-/// roofs face upwards, and nothing is as large in a place that people build (also sim/check/scene_check.h).
+/// Finds a scene whose y axis points up although it is taken for one whose z axis does, or the like. Ground
+/// and roofs face upwards, and nothing is as large in a place that people build (also
+/// sim/check/scene_check.h).
 void find_side(const Soup& soup, FaultList& faults) {
   constexpr double cos_25_degrees = 0.9063;
   constexpr size_t up = 4;
@@ -172,7 +195,8 @@ void find_strange_sizes(const Soup& soup, const CheckOptions& options, FaultList
     if (one.bounds.empty()) continue;
     if (one.noise_m > 0.5 * options.weld_m)
       faults.add(rounded, {one.bounds.center(), object, nothing, nothing, one.noise_m});
-    const double side = longest(one.bounds);
+    if (is_piece_of_its_kind(*soup.model, object)) continue;
+    const double side = longest(whole_of(soup, object));
     if (const auto range = range_of(soup.class_of(object));
         range && (side < range->least || side > range->most))
       faults.add(object_size, {one.bounds.center(), object, nothing, nothing, side});

@@ -53,8 +53,8 @@ class SoupTree {
   BoxTree boxes_;
 };
 
-/// Returns whether origin + t * direction is in the box, grown by `distance`, for a t in [0, most] (the method
-/// of slabs).
+/// Returns whether origin + t * direction is in the box, grown by `distance`, for a t in [0, most] (the
+/// method of slabs).
 bool ray_meets(const Bounds& box, const dvec3& origin, const dvec3& direction, double most, double distance);
 
 /// A place with indices instead of names.

@@ -228,16 +228,29 @@ class Maker {
     }
     for (const uint32_t e : loop.edges) {
       const OpenEdge& edge = result_.open_edges[e];
-      loop.cap_m2 += 0.5 * glm::length(glm::cross(edge.a - loop.center, edge.b - loop.center));
+      const dvec3 twice = glm::cross(edge.a - loop.center, edge.b - loop.center);
+      loop.cap_m2 += 0.5 * glm::length(twice);
+      loop.cap_normal += 0.5 * (result_.turned[edge.triangle] ? -twice : twice);
     }
+  }
+
+  bool is_nearly_closed(const Part& part) const {
+    double caps = 0.0;
+    for (const Loop& loop : part.loops) caps += loop.cap_m2;
+    if (caps > most_cap_share * part.area_m2) return false;
+    return std::ranges::all_of(part.loops, [&](const Loop& loop) {
+      const double length = glm::length(loop.cap_normal);
+      if (!(length > 0.0)) return true;
+      double shadow = 0.0;
+      for (const uint32_t t : result_.triangles_of(part))
+        shadow += 0.5 * soup_.areas[t] * std::abs(glm::dot(soup_.normals[t], loop.cap_normal / length));
+      return length <= most_cap_by_shadow * shadow;
+    });
   }
 
   /// Decides what a part is, and turns it outwards.
   void judge(Part& part) {
-    double caps = 0.0;
-    for (const Loop& loop : part.loops) caps += loop.cap_m2;
-    if (!part.loops.empty())
-      part.kind = caps <= most_cap_share * part.area_m2 ? PartKind::nearly_closed : PartKind::sheet;
+    if (!part.loops.empty()) part.kind = is_nearly_closed(part) ? PartKind::nearly_closed : PartKind::sheet;
     // A triangle that welding has left without area has no edges, but closes nothing.
     if (part.loops.empty() && part.count < 2) part.kind = PartKind::sheet;
     const std::span<const uint32_t> triangles = result_.triangles_of(part);

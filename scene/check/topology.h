@@ -27,7 +27,8 @@ struct Loop {
   std::vector<uint32_t> edges;  ///< into Topology::open_edges
   dvec3 center{0.0};            ///< mean of the edges' middles
   double length_m = 0.0;
-  double cap_m2 = 0.0;  ///< area of the triangles between the edges and the centre
+  double cap_m2 = 0.0;    ///< area of the triangles between the edges and the centre
+  dvec3 cap_normal{0.0};  ///< their area vector, m^2
 };
 
 enum class PartKind { closed, nearly_closed, sheet };
@@ -41,7 +42,8 @@ struct Part {
   double volume_m3 = 0.0;
   bool one_sided = true;  ///< false: no orientation fits all triangles (a Moebius strip)
   Bounds bounds;
-  std::vector<Loop> loops;  ///< of all its open edges
+  bool hidden_opening = false;  ///< set by find_openings()
+  std::vector<Loop> loops;      ///< of all its open edges
 };
 
 struct Topology {
@@ -61,6 +63,10 @@ struct Topology {
 
 /// Caps may have this part of the area of a part that is nearly closed: a cube without one face has 1/5.
 inline constexpr double most_cap_share = 0.25;
+/// A cap of a part that is nearly closed is at most this many times as large as the surfaces that face the
+/// cap's direction or the opposite one, projected and halved. A box without one face has 2. A tube has no
+/// surface across it and is a sheet.
+inline constexpr double most_cap_by_shadow = 3.0;
 
 /// Corners at exactly the same place are one. Where edges then are open, their ends are welded within
 /// `weld_m` (each to the first one near enough), so that a mesh of details smaller than that keeps its form.

@@ -136,8 +136,8 @@ bool is_known_data_uri(const std::string& uri) {
                      [&](const char* prefix) { return uri.starts_with(prefix); });
 }
 
-/// Reads the file that `uri` names. If `lost` is set, an error goes there with the index, and the bytes are no
-/// picture.
+/// Reads the file that `uri` names. If `lost` is set, an error goes there with the index, and the bytes are
+/// no picture.
 Bytes read_external_file(AssetFolder& folder, const std::string& uri, const std::string& what, size_t index,
                          std::map<size_t, std::string>* lost) {
   try {

@@ -31,8 +31,8 @@ struct GltfFile {
 
 /// Parses .gltf or .glb from `bytes`. External files come from `folder` alone; tinygltf itself opens no file.
 /// Throws UserError, which starts with `name`, if the file is not glTF 2.0 or is truncated, if a URI is not
-/// allowed, or if a required extension is not supported. With `keep_faults`, images whose files cannot be read
-/// are listed instead.
+/// allowed, or if a required extension is not supported. With `keep_faults`, images whose files cannot be
+/// read are listed instead.
 GltfFile parse_gltf(const std::string& name, std::span<const unsigned char> bytes, AssetFolder& folder,
                     bool keep_faults = false);
 
