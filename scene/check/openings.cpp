@@ -98,7 +98,8 @@ Closed close_edge(const OpenEdge& edge, const Soup& soup, const Topology& topolo
       if (on_edge && from_end > 2.0 * tolerance) result.junctions.push_back(corner);
     }
   }
-  const double open = uncovered(intervals) * length;
+  // Surfaces that touch the ends alone leave the whole edge open.
+  const double open = result.parts.empty() ? length : uncovered(intervals) * length;
   result.open_m = open > std::max(2.0 * tolerance, 1e-9 * length) ? open : 0.0;
   std::ranges::sort(result.parts);
   result.parts.erase(std::unique(result.parts.begin(), result.parts.end()), result.parts.end());
