@@ -173,9 +173,14 @@ RayCount find_leaks_by_rays(const Soup& soup, const Topology& topology, const Cl
     count.rays += rays.rays, count.out += rays.out;
     const uint32_t material = soup.material[topology.part_triangles[part.first]];
     const auto share = [&](uint64_t of) { return static_cast<double>(of) / static_cast<double>(rays.rays); };
-    if (rays.out > 0) faults.add(ray_leak, {rays.out_from, part.object, nothing, material, share(rays.out)});
-    if (rays.on_front > 0)
-      faults.add(overlaps_itself, {rays.front_at, part.object, nothing, material, share(rays.on_front)});
+    // No ray leaves a part without open edges from a point that it encloses. The point was outside: behind a
+    // surface of the part that is folded through another.
+    const bool leaks = rays.out > 0 && !part.loops.empty();
+    if (leaks) faults.add(ray_leak, {rays.out_from, part.object, nothing, material, share(rays.out)});
+    const uint64_t odd = rays.on_front + (leaks ? 0 : rays.out);
+    if (odd > 0)
+      faults.add(overlaps_itself, {rays.on_front > 0 ? rays.front_at : rays.out_from, part.object, nothing,
+                                   material, share(odd)});
   }
   return count;
 }

@@ -18,9 +18,9 @@ struct RayCount {
 /// behind it. A closed part meets its own triangles; a part whose openings others close, all triangles of its
 /// group; a part with a hidden opening is left out. A ray that meets nothing is a leak. A hole that takes the
 /// share p of the directions is missed with the probability (1 - p)^rays. Adds
-///   ray_leak        parts of which rays come out; the size is the share of the rays
-///   overlaps_itself parts from whose inside rays meet a front, once all their triangles look outwards: the
-///                   part reaches into itself (a doubt)
+///   ray_leak        parts with open edges of which rays come out; the size is the share of the rays
+///   overlaps_itself parts from whose inside rays meet a front, once all their triangles look outwards, or
+///                   that have no open edge and yet let a ray out: the part reaches into itself (a doubt)
 /// The random numbers depend on the seed and the part alone.
 RayCount find_leaks_by_rays(const Soup& soup, const Topology& topology, const Closing& closing,
                             const SoupTree& tree, const CheckOptions& options, FaultList& faults);

@@ -30,8 +30,6 @@ constexpr std::array hints{
     Hint{"wall", "itu: concrete, thickness_m: 0.3"},
     Hint{"glass", "itu: glass, thickness_m: 0.006"},
     Hint{"window", "itu: glass, thickness_m: 0.006"},
-    Hint{"acrylic", "itu: clear_acrylic, thickness_m: 0.005"},
-    Hint{"plexi", "itu: clear_acrylic, thickness_m: 0.005"},
     Hint{"wood", "itu: wood, thickness_m: 0.04"},
     Hint{"timber", "itu: wood, thickness_m: 0.04"},
     Hint{"metal", "itu: metal"},
