@@ -10,6 +10,7 @@
 #include "apps/commands.h"
 #include "apps/files/scene_import.h"
 #include "apps/place/scene_build.h"
+#include "apps/scene_check.h"
 #include "core/error.h"
 #include "core/srgb.h"
 #include "scene/build/build.h"
@@ -162,6 +163,7 @@ void add_scene(CLI::App& app) {
   }
   add_import(*command);
   add_scene_build(*command);
+  add_scene_check(*command);
   CLI::App* describe = command->add_subcommand("info", "describe a glTF file as greatx sees it");
   auto options = std::make_shared<InfoCommand>();
   describe->add_option("FILE", options->file, ".gltf or .glb")->required();

@@ -136,10 +136,25 @@ bool is_known_data_uri(const std::string& uri) {
                      [&](const char* prefix) { return uri.starts_with(prefix); });
 }
 
+/// Reads the file that `uri` names. If `lost` is set, an error goes there with the index, and the bytes are
+/// no picture.
+Bytes read_external_file(AssetFolder& folder, const std::string& uri, const std::string& what, size_t index,
+                         std::map<size_t, std::string>* lost) {
+  try {
+    Bytes bytes = folder.read(uri, what);
+    if (bytes.empty()) throw_user_error("{}: file '{}' is empty", what, uri);
+    return bytes;
+  } catch (const UserError& error) {
+    if (!lost) throw;
+    lost->emplace(index, error.what());
+    return {0};
+  }
+}
+
 /// Reads the file of every URI in `list` and puts a token in place of the URI, so that tinygltf never sees a
-/// path. Returns whether the document has changed.
+/// path. Returns whether the document has changed. `lost` gets what cannot be read; null: that is an error.
 bool take_externals(const std::string& name, json& document, const char* list, const char* singular,
-                    AssetFolder& folder, std::vector<Bytes>& externals) {
+                    AssetFolder& folder, std::vector<Bytes>& externals, std::map<size_t, std::string>* lost) {
   if (!document.contains(list)) return false;
   bool changed = false;
   for (size_t index = 0; index < document[list].size(); ++index) {
@@ -154,8 +169,7 @@ bool take_externals(const std::string& name, json& document, const char* list, c
       }
       continue;
     }
-    Bytes bytes = folder.read(uri, what);
-    if (bytes.empty()) throw_user_error("{}: file '{}' is empty", what, uri);
+    Bytes bytes = read_external_file(folder, uri, what, index, lost);
     if (element.contains("byteLength")) {
       // Files may be padded beyond the length that the buffer declares (glTF 2.0, section 3.6.1).
       const uint64_t length = element["byteLength"];
@@ -278,7 +292,8 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-GltfFile parse_gltf(const std::string& name, std::span<const unsigned char> bytes, AssetFolder& folder) {
+GltfFile parse_gltf(const std::string& name, std::span<const unsigned char> bytes, AssetFolder& folder,
+                    bool keep_faults) {
   if (bytes.empty()) throw_user_error("{}: the file is empty", name);
   if (bytes.size() > UINT32_MAX)
     throw_user_error("{}: {} bytes, expected less than 4 GiB", name, bytes.size());
@@ -287,11 +302,13 @@ GltfFile parse_gltf(const std::string& name, std::span<const unsigned char> byte
 
   GltfFile file;
   file.name = name;
+  file.keep_faults = keep_faults;
   file.json = parse_json(name, container.text);
   check_required_extensions(name, file.json);
   std::vector<Bytes> externals;
-  bool rewritten = take_externals(name, file.json, "buffers", "buffer", folder, externals);
-  rewritten |= take_externals(name, file.json, "images", "image", folder, externals);
+  bool rewritten = take_externals(name, file.json, "buffers", "buffer", folder, externals, nullptr);
+  rewritten |= take_externals(name, file.json, "images", "image", folder, externals,
+                              keep_faults ? &file.lost_images : nullptr);
   check_image_views(name, file.json);
 
   std::string rewritten_text, error;

@@ -20,7 +20,8 @@ std::vector<Vec> read_vectors(const GltfFile& file, int accessor, const std::str
   for (size_t index = 0; index < vectors.size(); ++index) {
     for (int axis = 0; axis < Vec::length(); ++axis) {
       const float value = floats[index * static_cast<size_t>(Vec::length()) + static_cast<size_t>(axis)];
-      if (!std::isfinite(value)) throw_user_error("{}: vertex {} is not finite ({})", what, index, value);
+      if (!std::isfinite(value) && !file.keep_faults)
+        throw_user_error("{}: vertex {} is not finite ({})", what, index, value);
       vectors[index][axis] = value;
     }
   }
@@ -162,7 +163,7 @@ ModelPrimitive read_primitive(const GltfFile& file, const tinygltf::Primitive& s
   if (primitive.indices.empty() || primitive.indices.size() % 3 != 0) {
     throw_user_error("{}: {} corners make no whole number of triangles", what, primitive.indices.size());
   }
-  dropped += drop_degenerate(primitive);
+  if (!file.keep_faults) dropped += drop_degenerate(primitive);
 
   const int material = source.material;
   if (material >= 0 && static_cast<size_t>(material) >= file.model.materials.size()) {

@@ -17,6 +17,7 @@ std::string mesh_name(const GltfFile& file, size_t mesh);
 /// Reads the triangles of mesh `mesh` and checks them: every index is in range, every number is finite.
 /// Exactly degenerate triangles, points and lines are skipped with a note. `ModelPrimitive::material` is the
 /// file's material index, or `no_material`. Throws UserError, which names file, mesh and primitive.
+/// With GltfFile::keep_faults degenerate triangles and vertices that are not finite are kept.
 ModelMesh read_mesh(const GltfFile& file, size_t mesh, std::vector<std::string>& notes,
                     GeometryMemory& memory);
 

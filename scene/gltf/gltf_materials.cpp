@@ -120,8 +120,34 @@ PbrMaterial read_pbr(const tinygltf::Material& source, const json& document, con
   return pbr;
 }
 
-/// Reads the radio properties: from the name, then from the extension, then from the sidecar. Later fields
-/// replace earlier ones (docs/materials.md).
+/// Returns the radio fields that `extras.greatx_radio` holds, where tools such as Blender put custom
+/// properties: a map, or a text of YAML such as "itu: glass, thickness_m: 0.006", with or without braces.
+/// Throws UserError for any other value and for any other key that begins with "greatx", since somebody meant
+/// it for this program.
+std::optional<Field> radio_of_extras(const json& material, const std::string& what) {
+  const auto extras = material.find("extras");
+  if (extras == material.end() || !extras->is_object()) return std::nullopt;
+  std::optional<Field> radio;
+  for (const auto& [key, value] : extras->items()) {
+    const std::string path = "extras." + printable(key);
+    if (key == "greatx_radio") {
+      if (!value.is_string()) {
+        radio = field_from_json(value, what, path);
+        continue;
+      }
+      const std::string text = value.get<std::string>();
+      const bool braces = text.find_first_not_of(" \t\n") != std::string::npos &&
+                          text[text.find_first_not_of(" \t\n")] == '{';
+      radio = Field::parse_yaml(braces ? text : "{" + text + "}", {what + ", " + path, {}, {}});
+    } else if (key.starts_with("greatx") || key.starts_with("GREATX")) {
+      throw_user_error("{}: {}: expected greatx_radio, found '{}'", what, path, printable(key));
+    }
+  }
+  return radio;
+}
+
+/// Reads the radio properties: from the name, then from the extension, the extras and the sidecar. Later
+/// fields replace earlier ones (docs/materials.md).
 void read_radio(Material& material, const json& document, const std::string& what,
                 const RadioSidecar& sidecar) {
   RadioSources sources;
@@ -131,6 +157,7 @@ void read_radio(Material& material, const json& document, const std::string& wha
   if (const json* extension = extension_of(document, "GREATX_radio_material")) {
     sources = read_radio_fields(field_from_json(*extension, what, "GREATX_radio_material"), sources);
   }
+  if (const auto radio = radio_of_extras(document, what)) sources = read_radio_fields(*radio, sources);
   if (const Field* entry = sidecar.find(material.name)) sources = read_radio_fields(*entry, sources);
   if (sources.radio) sidecar.extrapolate(material.name, *sources.radio);
   material.radio = std::move(sources.radio);
@@ -163,8 +190,8 @@ std::string yaml_quoted(const std::string& name) {
     }
   }
   throw_user_error(
-      "{}: {} material{} used by meshes without radio properties. Add the extension GREATX_radio_material, "
-      "or a line "
+      "{}: {} material{} used by meshes without radio properties. Add the extension GREATX_radio_material "
+      "(in Blender: the custom property greatx_radio), or a line "
       "each to the radio-materials YAML, with the right medium in place of concrete (one of {}; or "
       "relative_permittivity and conductivity):\nmaterials:{}{}",
       file, missing.size(), missing.size() == 1 ? " is" : "s are", fmt::join(itu_names(), ", "), lines,
@@ -204,6 +231,11 @@ void read_materials(const GltfFile& file, const LoadOptions& options, Model& mod
     new_index[index] = static_cast<uint32_t>(model.materials.size());
     model.materials.push_back(std::move(material));
   }
+  for (size_t index = 0; index < file.model.materials.size(); ++index)
+    if (new_index.count(static_cast<uint32_t>(index)) == 0) {
+      const std::string& name = file.model.materials[index].name;
+      model.unused_materials.push_back(name.empty() ? fmt::format("material_{}", index) : name);
+    }
   if (!missing.empty()) refuse_missing(file.name, missing);
   for (ModelMesh& mesh : model.meshes) {
     for (ModelPrimitive& primitive : mesh.primitives) primitive.material = new_index.at(primitive.material);

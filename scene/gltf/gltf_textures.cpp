@@ -47,19 +47,32 @@ int32_t TextureReader::read(int index, bool srgb, const std::string& what) {
   const Key key{source.source, srgb, repeat_u, repeat_v};
   if (const auto found = done_.find(key); found != done_.end()) return found->second;
 
-  const tinygltf::Image& image = images[static_cast<size_t>(source.source)];
+  try {
+    return done_[key] = decode(key, what);
+  } catch (const UserError& error) {
+    if (!file_.keep_faults) throw;
+    const auto lost = file_.lost_images.find(static_cast<size_t>(source.source));
+    model_.lost_pictures.push_back(
+        lost == file_.lost_images.end() ? error.what() : fmt::format("{}: {}", what, lost->second));
+    return done_[key] = -1;
+  }
+}
+
+int32_t TextureReader::decode(const Key& key, const std::string& what) {
+  const auto [source, srgb, repeat_u, repeat_v] = key;
+  const tinygltf::Image& image = file_.model.images[static_cast<size_t>(source)];
   DecodedPicture picture = decode_picture(image.image, what, memory_);
   Texture texture;
   texture.name = image.name;
   texture.width = picture.width;
   texture.height = picture.height;
   texture.rgba = std::move(picture.rgba);
-  if (texture.name.empty()) texture.name = fmt::format("image {}", source.source);
+  if (texture.name.empty()) texture.name = fmt::format("image {}", source);
   texture.srgb = srgb;
   texture.repeat_u = repeat_u;
   texture.repeat_v = repeat_v;
   model_.textures.push_back(std::move(texture));
-  return done_[key] = static_cast<int32_t>(model_.textures.size() - 1);
+  return static_cast<int32_t>(model_.textures.size() - 1);
 }
 
 }  // namespace greatx::scene

@@ -98,13 +98,13 @@ Model load_model(const std::filesystem::path& file, const LoadOptions& options) 
   const std::string name = file.string();
   const std::vector<unsigned char> bytes = read_regular_file(file, "model", budget::model_file);
   AssetFolder folder(file);
-  return model_of(parse_gltf(name, bytes, folder), options);
+  return model_of(parse_gltf(name, bytes, folder, options.keep_faults), options);
 }
 
 Model load_model(const std::string& name, std::span<const std::byte> glb, const LoadOptions& options) {
   const std::span<const unsigned char> bytes(reinterpret_cast<const unsigned char*>(glb.data()), glb.size());
   AssetFolder folder({});
-  return model_of(parse_gltf(name, bytes, folder), options);
+  return model_of(parse_gltf(name, bytes, folder, options.keep_faults), options);
 }
 
 }  // namespace greatx::scene

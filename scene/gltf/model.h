@@ -54,6 +54,9 @@ struct Model {
   std::vector<PunctualLight> lights;      ///< in the model's frame
   std::vector<uint32_t> nodes_of_lights;  ///< [lights], into nodes
   std::vector<std::string> notes;
+  std::vector<std::string> unused_materials;  ///< names of those that the file has and no loaded mesh uses
+  /// Pictures that `LoadOptions::keep_faults` has left out, each as the message of the error.
+  std::vector<std::string> lost_pictures;
 };
 
 /// Returns the names of a model's nodes for messages, each once, at most 20: "hull, wheel and 3 more".
@@ -64,6 +67,10 @@ struct LoadOptions {
   std::filesystem::path radio_materials;
   /// Accepts materials without radio properties (scenes for cameras and LiDAR alone).
   bool optical_only = false;
+  /// For `greatx scene check`, which lists the faults of a file instead of stopping at the first. Vertices
+  /// that are not finite and triangles of zero area are kept, and a material does without a picture that
+  /// cannot be read. Such a model is for checks alone: build_scene() may refuse it.
+  bool keep_faults = false;
 };
 
 /// Loads a .gltf or .glb file. Throws UserError, which names the file and the mesh or material.
