@@ -31,6 +31,7 @@ using generator::NodeSpec;
 using generator::SceneWriter;
 
 constexpr uint32_t most_picture_px = 4096;
+constexpr double least_detail_m = 0.01;  // corners that bend a wall by less make slivers alone
 
 /// Returns a text as a member of a JSON object, "key":"text".
 std::string member(const char* key, const std::string& text) {
@@ -90,7 +91,10 @@ class Assembly {
     out_.buildings = make_buildings(
         input_, config_.buildings, [this](const dvec2& p) { return level_(p); }, report.findings);
     // Foundations reach below the ground's mesh, which is off by its bound.
-    complex_ = make_complex(out_.buildings, {std::max(0.5, 2.0 * config_.ground.error_m)}, report.findings);
+    complex_ = make_complex(out_.buildings,
+                            {std::max(0.5, 2.0 * config_.ground.error_m), config_.buildings.weld_m,
+                             std::max(least_detail_m, config_.simplify_m)},
+                            report.findings);
     report.most_welded_m = complex_.most_welded_m;
     for (size_t i = 0; i < out_.buildings.size(); ++i) {
       const Building& building = out_.buildings[i];

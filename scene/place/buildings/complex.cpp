@@ -359,7 +359,7 @@ Complex make_complex(std::vector<Building>& buildings, const ComplexOptions& opt
   Complex out;
   out.built_area_m2.assign(buildings.size(), 0.0);
   if (buildings.empty()) return out;
-  Edges edges = noded_outlines(buildings);
+  Edges edges = noded_outlines(buildings, {options.weld_m, options.simplify_m});
   Plan plan = make_plan(buildings, edges);
   lay_foundations(buildings, plan, options.foundation_m);
   level_neighbours(buildings, plan, out.most_welded_m);
@@ -386,12 +386,14 @@ Complex make_complex(std::vector<Building>& buildings, const ComplexOptions& opt
 std::vector<std::array<dvec3, 3>> triangles_of(const WallPiece& wall) {
   const dvec2 from = to_metres(wall.from), to = to_metres(wall.to);
   std::vector<std::array<dvec3, 3>> triangles;
-  // Climbs both sides and always takes the lower next corner, so that triangles are as upright as they can be.
+  // Climbs both sides. Each step takes the side whose next corner is nearer in height to the corner opposite,
+  // so that triangles on narrow walls are no slivers.
   size_t i = 0, j = 0;
   while (i + 1 < wall.from_z.size() || j + 1 < wall.to_z.size()) {
     const dvec3 a(from, wall.from_z[i]), b(to, wall.to_z[j]);
     const bool climb_from =
-        j + 1 == wall.to_z.size() || (i + 1 < wall.from_z.size() && wall.from_z[i + 1] <= wall.to_z[j + 1]);
+        j + 1 == wall.to_z.size() ||
+        (i + 1 < wall.from_z.size() && std::abs(wall.from_z[i + 1] - b.z) <= std::abs(wall.to_z[j + 1] - a.z));
     if (climb_from)
       triangles.push_back({a, b, dvec3(from, wall.from_z[++i])});
     else

@@ -6,9 +6,9 @@
 // where solid meets air or another building:
 //   in a region     between layers: roofs and floors
 //   at an edge      between the layers on its left and on its right: walls
-// Heights at a corner of the plan that differ by less than 1 cm become one, and every wall has all heights
+// Heights at a corner of the plan that differ by 1 cm or less become one, and every wall has all heights
 // of its corners as its own corners. Therefore faces meet at whole edges, within a building and between
-// buildings, and no face is thinner than 1 cm because of heights that nearly agree.
+// buildings, and no face is of 1 cm or less because of heights that nearly agree.
 #pragma once
 
 #include <array>
@@ -21,8 +21,9 @@
 namespace greatx::scene::place {
 
 inline constexpr uint32_t no_building = 0xFFFFFFFFu;
-/// Heights at one corner of the plan that are nearer than this are one height.
-inline constexpr double same_height_m = 0.01;
+/// Heights at one corner of the plan that are nearer than this are one height: sources that round to whole
+/// centimetres give many steps of one, which would be slivers.
+inline constexpr double same_height_m = 0.0102;
 
 /// A wall over one edge of the plan. Its outside is on the right of the way from `from` to `to`.
 struct WallPiece {
@@ -51,6 +52,8 @@ struct Complex {
 
 struct ComplexOptions {
   double foundation_m = 0.5;  ///< depth of foundations below the lowest ground
+  double weld_m = 0.02;       ///< corners and walls nearer than this become one
+  double simplify_m = 0.01;   ///< corners go if the outline then moves by less than this
 };
 
 /// Makes the faces. Where buildings overlap, the higher one stands; what that takes from the other one is a

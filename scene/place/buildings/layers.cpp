@@ -106,7 +106,7 @@ std::vector<Layer> without_overlaps(std::vector<Layer> layers, const dvec2& p, d
 
 }  // namespace
 
-Edges noded_outlines(const std::vector<Building>& buildings) {
+Edges noded_outlines(const std::vector<Building>& buildings, const CleaningOptions& cleaning) {
   std::vector<Segment> segments;
   const auto add_ring = [&](const Ring& ring) {
     for (size_t i = 0; i < ring.size(); ++i)
@@ -124,7 +124,7 @@ Edges noded_outlines(const std::vector<Building>& buildings) {
       if (part.roof.size() > 1)
         for (const RoofFace& face : part.roof) add(face.area);
     }
-  return node(segments, 1.0 / grid_per_m);
+  return cleaned(node(segments, 1.0 / grid_per_m), cleaning);
 }
 
 Plan make_plan(const std::vector<Building>& buildings, const Edges& edges) {

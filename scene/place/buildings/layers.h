@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scene/place/buildings/building.h"
+#include "scene/place/plane/cleaning.h"
 #include "scene/place/plane/noding.h"
 
 namespace greatx::scene::place {
@@ -39,10 +40,8 @@ struct Plan {
   dvec2 place(uint32_t point) const { return to_metres(triangulation.points()[point]); }
 };
 
-using Edges = std::vector<std::array<GridPoint, 2>>;
-
-/// Divides the outlines and roof edges of all buildings where they meet.
-Edges noded_outlines(const std::vector<Building>& buildings);
+/// Divides the outlines and roof edges of all buildings where they meet, and cleans them.
+Edges noded_outlines(const std::vector<Building>& buildings, const CleaningOptions& cleaning);
 Plan make_plan(const std::vector<Building>& buildings, const Edges& edges);
 /// Two planes that meet at an edge cross each other between its ends, at `share` of the way.
 struct PlaneCrossing {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scene/place/ground/cover_map.h"
+#include "scene/place/plane/cleaning.h"
 #include "scene/place/plane/noding.h"
 
 namespace greatx::scene::place {
@@ -77,7 +78,9 @@ class Builder {
     const dvec2 a = box.low, b(box.high.x, box.low.y), c = box.high, d(box.low.x, box.high.y);
     for (const Segment& side : {Segment{a, b}, Segment{b, c}, Segment{c, d}, Segment{d, a}})
       segments.push_back(side);
-    return triangulate_noded(to_grid(box.low), to_grid(box.high), node(segments, options.grid_m));
+    return triangulate_noded(
+        to_grid(box.low), to_grid(box.high),
+        cleaned(node(segments, options.grid_m), {0.08, options.simplify_m, options.grid_m}));
   }
 
   /// A sample of a grid that lies in an earlier grid does not count.

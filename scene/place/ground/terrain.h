@@ -49,6 +49,7 @@ struct TerrainOptions {
   Box rectangle;
   double error_m = 0.25;
   double grid_m = 1.0 / 32.0;  ///< grid to which the borders of areas are rounded
+  double simplify_m = 0.05;    ///< corners of borders go if the border then moves by less than this
 };
 
 TerrainMesh make_terrain(const HeightField& field, const GroundLevel& level,
