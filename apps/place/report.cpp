@@ -44,15 +44,16 @@ double percent_off(double built, double source) {
 }
 
 /// The lines of numbers that text and Markdown share.
-std::vector<std::string> lines_of(const PlaceReport& report) {
+std::vector<std::string> lines_of(const PlaceReport& report, const LoadedPlace& loaded) {
   std::vector<std::string> lines;
   const dvec2 size = report.rectangle.high - report.rectangle.low;
   const Georeference& frame = report.reference;
   lines.push_back(
       fmt::format("{:.0f} m x {:.0f} m about {:.6f}, {:.6f}, {:.1f} m above the ellipsoid of WGS 84", size.x,
                   size.y, frame.origin.latitude_deg, frame.origin.longitude_deg, frame.origin.height_m));
-  lines.push_back(fmt::format("{} buildings of {} parts with {} courts, {} triangles in all",
-                              report.buildings, report.parts, report.courts, report.triangles));
+  lines.push_back(fmt::format("{} buildings of {} parts with {} courts; {} triangles, {} facets",
+                              report.buildings, report.parts, report.courts, report.triangles,
+                              loaded.facets));
   std::vector<std::string> heights;
   for (const auto& [from, count] : report.heights) heights.push_back(fmt::format("{} by {}", count, from));
   lines.push_back(fmt::format("heights: {}", fmt::join(heights, ", ")));
@@ -69,13 +70,19 @@ std::vector<std::string> lines_of(const PlaceReport& report) {
     lines.push_back("terrain: level, as there is no source of heights");
   std::vector<std::string> objects;
   for (const auto& [kind, count] : report.objects) objects.push_back(fmt::format("{} {}", count, kind));
+  using enum scene::FaultSeverity;
+  std::vector<std::string> kinds;
+  for (const scene::SceneFault& entry : loaded.check.faults)
+    kinds.push_back(fmt::format("{} {}", entry.count, entry.kind));
+  lines.push_back(fmt::format("scene check: {} faults, {} doubts{}{}", loaded.check.count(fault),
+                              loaded.check.count(doubt), kinds.empty() ? "" : ": ", fmt::join(kinds, ", ")));
   if (!objects.empty()) lines.push_back(fmt::format("objects: {}", fmt::join(objects, ", ")));
   return lines;
 }
 
 }  // namespace
 
-nlohmann::json json_of(const PlaceReport& report) {
+nlohmann::json json_of(const PlaceReport& report, const LoadedPlace& loaded) {
   nlohmann::json json;
   json["name"] = report.name;
   json["georeference"] = {{"latitude_deg", report.reference.origin.latitude_deg},
@@ -95,6 +102,14 @@ nlohmann::json json_of(const PlaceReport& report) {
                        {"built_volume_m3", report.built_volume_m3},
                        {"most_welded_m", report.most_welded_m}};
   json["triangles"] = report.triangles_by_kind;
+  json["facets"] = loaded.facets;
+  nlohmann::json check = nlohmann::json::object();
+  for (const scene::SceneFault& entry : loaded.check.faults) check[entry.kind] = entry.count;
+  json["scene_check"] = {{"faults", loaded.check.count(scene::FaultSeverity::fault)},
+                         {"doubts", loaded.check.count(scene::FaultSeverity::doubt)},
+                         {"rays", loaded.check.figures.rays},
+                         {"rays_out", loaded.check.figures.rays_out},
+                         {"kinds", check}};
   json["ground_m2"] = report.cover_m2;
   json["objects"] = report.objects;
   json["terrain"] = {{"samples", report.terrain_samples},
@@ -112,9 +127,9 @@ nlohmann::json json_of(const PlaceReport& report) {
   return json;
 }
 
-std::string markdown_of(const PlaceReport& report) {
+std::string markdown_of(const PlaceReport& report, const LoadedPlace& loaded) {
   std::string text = fmt::format("# {}\n\n", report.name);
-  for (const std::string& line : lines_of(report)) text += fmt::format("- {}\n", line);
+  for (const std::string& line : lines_of(report, loaded)) text += fmt::format("- {}\n", line);
   text += "\n![sources and scene from above](plan.png)\n\n## Ground\n\n| cover | m^2 |\n|---|---|\n";
   for (const auto& [cover, size] : report.cover_m2) text += fmt::format("| {} | {:.0f} |\n", cover, size);
   text += "\n## Findings\n";
@@ -136,9 +151,9 @@ std::string markdown_of(const PlaceReport& report) {
   return text;
 }
 
-std::string summary_of(const PlaceReport& report) {
+std::string summary_of(const PlaceReport& report, const LoadedPlace& loaded) {
   std::string text;
-  for (const std::string& line : lines_of(report)) text += fmt::format("  {}\n", line);
+  for (const std::string& line : lines_of(report, loaded)) text += fmt::format("  {}\n", line);
   for (const auto& [name, topic] : topics_of(report)) {
     const Finding& first = *topic.findings.front();
     text += fmt::format("  {}: {} x {} ({}: {})\n", name_of(topic.kind), topic.findings.size(), name,

@@ -12,6 +12,7 @@
 #include "apps/place/report.h"
 #include "io/files/file.h"
 #include "io/formats/png.h"
+#include "scene/gltf/model.h"
 #include "scene/place/source/source.h"
 #include "scene/place/surfaces/material_table.h"
 
@@ -27,6 +28,15 @@ struct BuildCommand {
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
   io::write_file_atomically(file, std::as_bytes(std::span(text)));
+}
+
+/// Loads what was built as any scene is loaded, and checks it.
+LoadedPlace load(const std::string& name, const scene::place::BuiltPlace& built) {
+  const scene::Model model = scene::load_model(name, built.glb, {});
+  LoadedPlace loaded;
+  loaded.check = scene::check_scene(model);
+  loaded.facets = loaded.check.figures.facets;
+  return loaded;
 }
 
 void build(const BuildCommand& command) {
@@ -55,13 +65,14 @@ void build(const BuildCommand& command) {
       progress.update(40 + static_cast<int64_t>(60.0 * share));
     });
   }
+  const LoadedPlace loaded = load(output.string(), built);
   io::create_folder_of(output);
   io::write_file_atomically(output, built.glb);
   std::filesystem::create_directories(folder);
-  const nlohmann::json json = json_of(built.report);
+  const nlohmann::json json = json_of(built.report, loaded);
   write_text(folder / "report.json",
              json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  write_text(folder / "report.md", markdown_of(built.report));
+  write_text(folder / "report.md", markdown_of(built.report, loaded));
   io::write_file_atomically(folder / "plan.png",
                             io::encode_png(picture_of(built, input), io::PngCoding::small));
   if (command.json) {
@@ -71,7 +82,7 @@ void build(const BuildCommand& command) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::cout << fmt::format("wrote {} ({:.1f} MiB) in {:.1f} s, and {}/\n", output.string(),
                            static_cast<double>(built.glb.size()) / 1048576.0, seconds, folder.string())
-            << summary_of(built.report);
+            << summary_of(built.report, loaded);
 }
 
 }  // namespace

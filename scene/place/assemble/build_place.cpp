@@ -134,6 +134,15 @@ class Assembly {
 
   void make_ground() {
     out_.ground = ground_plan(input_, config_.ground, out_.report.findings);
+    streets_unknown_ =
+        !out_.buildings.empty() &&
+        std::none_of(out_.ground.areas.begin(), out_.ground.areas.end(), [](const GroundArea& area) {
+          return area.cover == Cover::road || area.cover == Cover::path || area.cover == Cover::square;
+        });
+    if (streets_unknown_)
+      out_.report.findings.push_back(
+          {Finding::Kind::assumed, "streets_unknown", config_.name,
+           "no source has roads: the ground where nothing is said is asphalt, as among houses"});
     Box& box = out_.report.rectangle;
     box = box_of(input_.area);
     for (const Building& building : out_.buildings)
@@ -148,7 +157,7 @@ class Assembly {
       const Polygon polygon{border, {}};
       areas.push_back({Cover::base, {polygon}, box_of(polygon)});
     }
-    terrain_.emplace(make_terrain(input_.terrain, level_, areas, {box, config_.ground.error_m, 1.0 / 32.0}));
+    terrain_.emplace(make_terrain(input_.terrain, level_, areas, {box, config_.ground.error_m}));
     out_.report.terrain_error_m = terrain_->largest_error_m;
     out_.report.terrain_samples = terrain_->samples;
   }
@@ -245,7 +254,9 @@ class Assembly {
       const auto& c = triangles[t].corners;
       const std::array<dvec3, 3> corners{terrain_->point(c[0]), terrain_->point(c[1]), terrain_->point(c[2])};
       const Cover cover = terrain_->covers[t];
-      int material = table_.of(std::string("ground/") + name_of(cover));
+      int material =
+          table_.of(cover == Cover::base && streets_unknown_ ? "ground/base_built"
+                                                             : std::string("ground/") + name_of(cover));
       const auto picture = pictures_->over(dvec2(corners[0]), dvec2(corners[1]), dvec2(corners[2]));
       if (picture) material = table_.pictured(material, pictures_->name(*picture), *picture);
       std::array<dvec2, 3> uvs;
@@ -440,6 +451,7 @@ class Assembly {
   Complex complex_;
   std::optional<TerrainMesh> terrain_;
   ObjectPlan objects_;
+  bool streets_unknown_ = false;
   std::set<std::string> names_;
   std::map<std::string, SemanticClass> ground_class_;
   BuiltPlace out_;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/random.h"
+#include "scene/place/assemble/windows.h"
 
 namespace greatx::scene::place {
 
@@ -70,7 +71,8 @@ std::map<RunKey, Run> find_runs(const std::vector<const WallPiece*>& walls) {
 
 /// The materials of one building.
 struct Look {
-  int facade = 0, blind = 0, party = 0, floor = 0;
+  int facade = 0, blind = 0, party = 0, floor = 0, window = 0;
+  int storeys = 1;
   std::vector<int> roofs;  ///< by part
   double storey_m = 3.0, base_z = 0.0;
 };
@@ -86,6 +88,8 @@ Look look_of(const Building& building, uint32_t index, const BuildingConfig& con
     look.facade = table.coloured(look.facade, *building.facade_colour);
     look.blind = table.coloured(look.blind, *building.facade_colour);
   }
+  look.window = table.of("window");
+  look.storeys = std::max(1, building.storeys);
   look.party = table.of("party");
   look.floor = table.of("floor");
   const double roof_draw = random.uniform();
@@ -104,8 +108,8 @@ Look look_of(const Building& building, uint32_t index, const BuildingConfig& con
 
 class Facades {
  public:
-  Facades(const Look& look, const MaterialTable& table, uint64_t seed, uint32_t building)
-      : look_(look), table_(table), seed_(seed), building_(building) {}
+  Facades(const Look& look, const MaterialTable& table, const BuildingConfig& config, uint32_t building)
+      : look_(look), table_(table), config_(config), building_(building) {}
 
   void add(const WallPiece& wall, const Run& run, PlaceMesh& mesh) const {
     int material = look_.facade;
@@ -113,36 +117,48 @@ class Facades {
       material = look_.party;
     else if (wall.beside_neighbour || run.length < narrowest_facade_m || below_ground(wall))
       material = look_.blind;
-    const generator::MaterialSpec& spec = table_[material];
-    const dvec2 from = to_metres(wall.from), along = glm::normalize(to_metres(wall.to) - from);
-    const dvec3 normal(along.y, -along.x, 0.0);
-    for (const auto& triangle : triangles_of(wall)) {
-      std::array<dvec2, 3> uvs;
-      for (size_t i = 0; i < 3; ++i) {
-        const double s = run.start + glm::dot(dvec2(triangle[i]) - from, along);
-        uvs[i] = spec.bays > 0 ? facade_uv(spec, run, s, triangle[i].z)
-                               : dvec2(s / spec.tile_m.x, -(triangle[i].z - look_.base_z) / spec.tile_m.y);
-      }
-      mesh.triangle(material, triangle, {normal, normal, normal}, uvs);
+    if (material == look_.facade && config_.facades == FacadeDetail::geometry) {
+      const WindowLattice lattice{run.start, run.length / bays_of(run), look_.base_z, look_.storey_m,
+                                  look_.storeys};
+      for (const WallTriangle& part : with_windows(wall, lattice))
+        add_triangle(part.window ? look_.window : look_.blind, wall, run, part.corners, mesh);
+      return;
     }
+    for (const auto& corners : triangles_of(wall)) add_triangle(material, wall, run, corners, mesh);
   }
 
  private:
+  static double bays_of(const Run& run) { return std::max(1.0, std::round(run.length / bay_m)); }
+
+  void add_triangle(int material, const WallPiece& wall, const Run& run, const std::array<dvec3, 3>& corners,
+                    PlaceMesh& mesh) const {
+    const generator::MaterialSpec& spec = table_[material];
+    const dvec2 from = to_metres(wall.from), along = glm::normalize(to_metres(wall.to) - from);
+    const dvec3 normal(along.y, -along.x, 0.0);
+    std::array<dvec2, 3> uvs;
+    for (size_t i = 0; i < 3; ++i) {
+      const double s = run.start + glm::dot(dvec2(corners[i]) - from, along);
+      uvs[i] = spec.bays > 0 ? facade_uv(spec, run, s, corners[i].z)
+                             : dvec2(s / spec.tile_m.x, -(corners[i].z - look_.base_z) / spec.tile_m.y);
+    }
+    mesh.triangle(material, corners, {normal, normal, normal}, uvs);
+  }
+
   bool below_ground(const WallPiece& wall) const {
     return std::max(wall.from_z.back(), wall.to_z.back()) < look_.base_z + 0.5;
   }
 
   /// A façade begins at a bay of its own, so that walls differ. A tile has two storeys.
   dvec2 facade_uv(const generator::MaterialSpec& spec, const Run& run, double s, double z) const {
-    const double bays = std::max(1.0, std::round(run.length / bay_m));
-    RandomStream random(seed_, 72 + building_, run.number);
+    const double bays = bays_of(run);
+    RandomStream random(config_.seed, 72 + building_, run.number);
     const double first = random.below(static_cast<uint32_t>(spec.bays));
     return {(first + s / run.length * bays) / spec.bays, -(z - look_.base_z) / (2.0 * look_.storey_m)};
   }
 
   const Look& look_;
   const MaterialTable& table_;
-  uint64_t seed_;
+  const BuildingConfig& config_;
   uint32_t building_;
 };
 
@@ -187,7 +203,7 @@ std::vector<PlaceMesh> building_meshes(const std::vector<Building>& buildings, c
     PlaceMesh& mesh = meshes.emplace_back(dvec3(middle, std::floor(buildings[i].ground_z)));
     const Look look = look_of(buildings[i], i, config, table);
     const std::map<RunKey, Run> runs = find_runs(walls[i]);
-    const Facades facades(look, table, config.seed, i);
+    const Facades facades(look, table, config, i);
     for (const WallPiece* wall : walls[i]) facades.add(*wall, runs.at({wall->from, wall->to}), mesh);
     for (const FlatFace* face : flats[i]) add_flat(*face, look, pictures, table, mesh);
   }

@@ -392,8 +392,8 @@ std::vector<std::array<dvec3, 3>> triangles_of(const WallPiece& wall) {
   while (i + 1 < wall.from_z.size() || j + 1 < wall.to_z.size()) {
     const dvec3 a(from, wall.from_z[i]), b(to, wall.to_z[j]);
     const bool climb_from =
-        j + 1 == wall.to_z.size() ||
-        (i + 1 < wall.from_z.size() && std::abs(wall.from_z[i + 1] - b.z) <= std::abs(wall.to_z[j + 1] - a.z));
+        j + 1 == wall.to_z.size() || (i + 1 < wall.from_z.size() &&
+                                      std::abs(wall.from_z[i + 1] - b.z) <= std::abs(wall.to_z[j + 1] - a.z));
     if (climb_from)
       triangles.push_back({a, b, dvec3(from, wall.from_z[++i])});
     else

@@ -25,6 +25,7 @@ constexpr double least_area_m2 = 0.5;
 struct Candidate {
   const Feature* feature = nullptr;
   std::vector<Polygon> area;
+  std::vector<Polygon> read_area;  ///< before corners of neighbours became one
   Box box;
   std::vector<RoofFace> solid_roof;  ///< of a solid
   double solid_bottom = 0.0;
@@ -98,7 +99,8 @@ class Maker {
   }
 
   void add_candidate(const Feature& feature, std::vector<Candidate>& list) {
-    Candidate candidate{&feature, {}, {}, {}, 0.0, {}};
+    Candidate candidate;
+    candidate.feature = &feature;
     if (!feature.faces.empty()) {
       candidate.solid_roof = roof_of_solid(feature.faces, candidate.solid_bottom);
       double sum = 0.0;
@@ -131,6 +133,7 @@ class Maker {
       return;
     }
     candidate.box = box_of(candidate.area);
+    candidate.read_area = candidate.area;
     list.push_back(std::move(candidate));
   }
 
@@ -210,15 +213,15 @@ class Maker {
     building.use = use ? *use : "yes";
     if (const std::string* name = feature.tag("name")) building.name = *name;
     building.ground_z = lowest_ground(outline.area, ground_);
-    building.plan_area_m2 = area(outline.area);
+    building.plan_area_m2 = area(outline.read_area);
     building.floor_height_m = config_.floor_height_m;
     if (outline.parts.empty()) {
       add_part(building, outline, outline.area, feature);
     } else {
-      std::vector<Polygon> whole = outline.area;
+      std::vector<Polygon> whole = outline.read_area;
       for (const size_t index : outline.parts) {
         add_part(building, parts_[index], parts_[index].area, feature);
-        whole.insert(whole.end(), parts_[index].area.begin(), parts_[index].area.end());
+        whole.insert(whole.end(), parts_[index].read_area.begin(), parts_[index].read_area.end());
       }
       building.plan_area_m2 = area(unite(whole));  // parts may reach beyond the outline
       add_rest(building, outline);

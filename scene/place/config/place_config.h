@@ -72,7 +72,7 @@ struct BuildingConfig {
   uint64_t seed = 1;
   double floor_height_m = 3.0;  ///< of storeys whose height is not given
   FacadeDetail facades = FacadeDetail::texture;
-  double weld_m = 0.02;  ///< corners and walls of neighbours nearer than this become one
+  double weld_m = 0.05;  ///< corners and walls of neighbours nearer than this become one
   /// Heights where nothing says them, by value of `building`: {"house": {6, 9}}, drawn uniformly; "" is for
   /// all others.
   std::map<std::string, dvec2> assumed_height_m;

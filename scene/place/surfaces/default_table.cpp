@@ -27,6 +27,8 @@ classes:
   blind/metal: [roof_sheet]
   blind/wood: [barn_boards_brown]
   blind/blind: [blind_plaster]
+  window:
+    - {name: window_glass, like: skylight, radio: {layers: [{itu: glass, thickness_m: 0.006}, {relative_permittivity: 1.0, conductivity: 0.0, thickness_m: 0.016}, {itu: glass, thickness_m: 0.006}], scattering_coefficient: 0.05}}
   party: [blind_brick]
   floor: [concrete]
   roof/flat: [roof_gravel, roof_dark]
@@ -40,6 +42,7 @@ classes:
   roof/thatch:
     - {name: thatch, like: stubble, roughness: 1.0, radio: {itu: wood, thickness_m: 0.3, scattering_coefficient: 0.4}}
   ground/base: [verge]
+  ground/base_built: [asphalt_lot]
   ground/residential: [verge]
   ground/farmland: [crop_young]
   ground/meadow: [meadow]
