@@ -63,6 +63,10 @@ std::vector<std::string> lines_of(const PlaceReport& report, const LoadedPlace& 
   lines.push_back(fmt::format("volumes: {:.1f} m^3 of {:.1f} m^3 ({:+.3f} %)", report.built_volume_m3,
                               report.source_volume_m3,
                               percent_off(report.built_volume_m3, report.source_volume_m3)));
+  lines.push_back(
+      fmt::format("outlines: no corner is off by more than {:.3f} m in plan, heights that nearly agree moved "
+                  "by at most {:.3f} m",
+                  report.most_moved_m, report.most_welded_m));
   if (report.terrain_samples > 0)
     lines.push_back(fmt::format("terrain: at most {:.3f} m off at {} samples", report.terrain_error_m,
                                 report.terrain_samples));
@@ -100,7 +104,8 @@ nlohmann::json json_of(const PlaceReport& report, const LoadedPlace& loaded) {
                        {"built_area_m2", report.built_area_m2},
                        {"source_volume_m3", report.source_volume_m3},
                        {"built_volume_m3", report.built_volume_m3},
-                       {"most_welded_m", report.most_welded_m}};
+                       {"most_welded_m", report.most_welded_m},
+                       {"most_moved_m", report.most_moved_m}};
   json["triangles"] = report.triangles_by_kind;
   json["facets"] = loaded.facets;
   nlohmann::json check = nlohmann::json::object();

@@ -96,6 +96,7 @@ class Assembly {
                              std::max(least_detail_m, config_.simplify_m)},
                             report.findings);
     report.most_welded_m = complex_.most_welded_m;
+    report.most_moved_m = complex_.most_moved_m;
     for (size_t i = 0; i < out_.buildings.size(); ++i) {
       const Building& building = out_.buildings[i];
       report.source_area_m2 += building.plan_area_m2;

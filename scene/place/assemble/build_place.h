@@ -33,6 +33,7 @@ struct PlaceReport {
   double source_area_m2 = 0.0, built_area_m2 = 0.0;
   double source_volume_m3 = 0.0, built_volume_m3 = 0.0;
   double most_welded_m = 0.0;  ///< largest change of a height where surfaces nearly meet
+  double most_moved_m = 0.0;   ///< largest distance of a corner of an outline from what was built
   size_t triangles = 0;
   std::map<std::string, size_t> triangles_by_kind;  ///< "buildings", "ground", "objects"
   std::map<std::string, double> cover_m2;           ///< area of the ground by cover

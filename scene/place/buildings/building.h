@@ -61,6 +61,7 @@ struct Building {
   Source height_from = Source::tag;
   std::string facade_class;                                   ///< class of the walls' material, "brick"
   std::optional<std::array<unsigned char, 3>> facade_colour;  ///< sRGB
+  std::vector<Polygon> read_outline;                          ///< as read, before neighbours were joined
   double plan_area_m2 = 0.0;                                  ///< of the source's footprint
   double plan_volume_m3 = 0.0;                                ///< of the columns, from the ground up
 };

@@ -360,6 +360,11 @@ Complex make_complex(std::vector<Building>& buildings, const ComplexOptions& opt
   out.built_area_m2.assign(buildings.size(), 0.0);
   if (buildings.empty()) return out;
   Edges edges = noded_outlines(buildings, {options.weld_m, options.simplify_m});
+  std::vector<dvec2> corners;
+  for (const Building& building : buildings)
+    for (const Polygon& polygon : building.read_outline)
+      corners.insert(corners.end(), polygon.outer.begin(), polygon.outer.end());
+  out.most_moved_m = largest_distance(corners, edges, 4.0 * (options.weld_m + options.simplify_m) + 0.1);
   Plan plan = make_plan(buildings, edges);
   lay_foundations(buildings, plan, options.foundation_m);
   level_neighbours(buildings, plan, out.most_welded_m);

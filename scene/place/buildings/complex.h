@@ -48,6 +48,7 @@ struct Complex {
   std::vector<FlatFace> flats;
   std::vector<double> built_area_m2;  ///< of each building: the plan that it has above any other
   double most_welded_m = 0.0;         ///< largest change of a height
+  double most_moved_m = 0.0;          ///< largest distance of a corner of an outline from what was built
 };
 
 struct ComplexOptions {

@@ -213,6 +213,7 @@ class Maker {
     building.use = use ? *use : "yes";
     if (const std::string* name = feature.tag("name")) building.name = *name;
     building.ground_z = lowest_ground(outline.area, ground_);
+    building.read_outline = outline.read_area;
     building.plan_area_m2 = area(outline.read_area);
     building.floor_height_m = config_.floor_height_m;
     if (outline.parts.empty()) {

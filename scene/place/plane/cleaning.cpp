@@ -238,4 +238,23 @@ Edges cleaned(Edges edges, const CleaningOptions& options) {
   return edges;
 }
 
+double largest_distance(const std::vector<dvec2>& points, const Edges& edges, double most_m) {
+  Cells cells(4.0);
+  for (uint32_t i = 0; i < edges.size(); ++i) {
+    const dvec2 a = to_metres(edges[i][0]), b = to_metres(edges[i][1]);
+    cells.add(glm::min(a, b), glm::max(a, b), i);
+  }
+  double largest = 0.0;
+  for (const dvec2& p : points) {
+    double least = most_m;
+    cells.near(p - most_m, p + most_m, [&](uint32_t i) {
+      const dvec2 a = to_metres(edges[i][0]), along = to_metres(edges[i][1]) - a;
+      const double t = std::clamp(glm::dot(p - a, along) / glm::dot(along, along), 0.0, 1.0);
+      least = std::min(least, glm::distance(p, a + along * t));
+    });
+    largest = std::max(largest, least);
+  }
+  return largest;
+}
+
 }  // namespace greatx::scene::place

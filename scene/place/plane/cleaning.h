@@ -22,4 +22,8 @@ struct CleaningOptions {
 /// where lines meet). The result is noded. No line moves by more than twice the larger of the two distances.
 Edges cleaned(Edges edges, const CleaningOptions& options);
 
+/// Returns the largest distance of any of the points from the nearest edge, if that is at most `most_m`;
+/// otherwise `most_m`.
+double largest_distance(const std::vector<dvec2>& points, const Edges& edges, double most_m);
+
 }  // namespace greatx::scene::place
