@@ -50,7 +50,8 @@ inline constexpr double most_origin_height_m = 1e6, most_undulation_m = 1e4;
 dvec3 geocentric(const Geodetic& place);
 /// Returns the inverse, with a longitude of -180...180. It is exact to some nanometres from 5000 km below the
 /// ellipsoid outwards (Bowring's formula, repeated until it stands still). At a pole the longitude is 0.
-/// Nearer to the centre of the Earth than 50 km several places have the same position, and it returns one.
+/// Nearer to the centre of the Earth than 50 km several places have the same position; the result is finite
+/// there and not exact.
 Geodetic geodetic(const dvec3& geocentric_m);
 
 /// Converts between places on the Earth and the scene's x, y, z.

@@ -3,8 +3,8 @@
 //
 // Keeps the place of a scene on the Earth in its glTF file, as extras of the glTF scene:
 //
-//   "scenes": [{"extras": {"greatx_georeference": {"latitude_deg": 52.0, "longitude_deg": 4.3, "height_m": 45.1,
-//                                                  "undulation_m": 43.4, "vertical_datum": "NAP"}}}]
+//   "scenes": [{"extras": {"greatx_georeference": {"latitude_deg": 52.0, "longitude_deg": 4.3,
+//                 "height_m": 45.1, "undulation_m": 43.4, "vertical_datum": "NAP"}}}]
 //
 // It is the place of the origin of the loaded frame (x east, y north, z up), which is glTF's own origin.
 // `height_m` is above the ellipsoid. `undulation_m` (0) and `vertical_datum` ("") may be left out, and other
