@@ -251,7 +251,7 @@ void run_paths(const PathsOptions& options) {
     outputs.push_back(json_lines_output(std::cout, scene));
   else if (!options.quiet)
     outputs.push_back(table_output(std::cout, scene, options.brief));
-  if (!options.csv.empty()) outputs.push_back(csv_output(options.csv, scene.carrier_hz));
+  if (!options.csv.empty()) outputs.push_back(csv_output(options.csv, scene));
 
   install_interrupt_handler();
   const TerminalWatch watch(options.quiet);

@@ -238,7 +238,8 @@ TEST_F(GeoreferenceCli, LogsGiveTheBytesOfPoints) {
 constexpr const char* lit = R"(greatx: 1
 name: lit
 ticks: 1
-scene: {generate: {kind: canyon, seed: 3, size_m: 60}, georeference: {latitude_deg: -36.85, longitude_deg: 174.76,
+scene: {generate: {kind: canyon, seed: 3, size_m: 60},
+  georeference: {latitude_deg: -36.85, longitude_deg: 174.76,
   height_m: 60.5, undulation_m: 33.5}}
 environment: {ENVIRONMENT time: "2026-06-21T15:00:00+12:00"}
 nodes:
@@ -260,7 +261,7 @@ TEST_F(GeoreferenceCli, SunIsThatOfThePlace) {
   const Outcome there = greatx(fmt::format("generate '{0}.yaml' -o '{0}' -q", path("there")));
   EXPECT_EQ(there.code, 0);
   EXPECT_THAT(there.err,
-              HasSubstr("there.yaml:6: environment.place: the sun and the sky are those of latitude "
+              HasSubstr("there.yaml:7: environment.place: the sun and the sky are those of latitude "
                         "36.85, longitude 174.76, but the scene's georeference is 73.7 degrees away"));
   EXPECT_FALSE(here == records("there"));
   const Outcome words = greatx(fmt::format("explain '{}.yaml'", path("here")));
@@ -296,6 +297,18 @@ TEST_F(GeoreferenceCli, ReceiversMayBePlaces) {
   ASSERT_EQ(degrees.code, 0) << degrees.err;
   EXPECT_THAT(degrees.out, HasSubstr("\"paths\""));
   EXPECT_EQ(metres.out, degrees.out);
+  const json link = json::parse(degrees.out)["receivers"][0];
+  EXPECT_NEAR(link["geodetic"][0], at.latitude_deg, 1e-12);
+  EXPECT_NEAR(link["geodetic"][1], at.longitude_deg, 1e-12);
+  EXPECT_NEAR(link["geodetic"][2], at.height_m + 43.4, 1e-8);
+  EXPECT_NEAR(link["transmitter_geodetic"][0], mast.latitude_deg, 1e-12);
+  ASSERT_EQ(greatx(fmt::format("paths '{}' --receivers '{}' -q --csv-out '{}'", path("rig.yaml"),
+                               path("degrees.csv"), path("out.csv")))
+                .code,
+            0);
+  const std::string csv = read_file(path("out.csv"));
+  EXPECT_THAT(csv, HasSubstr(",delay_spread_ns,latitude_deg,longitude_deg,height_m\n0,"));
+  EXPECT_THAT(csv, HasSubstr(fmt::format(",{},", link["geodetic"][0].get<double>())));
   const Outcome info = greatx(fmt::format("scene info '{}'", path("canyon.glb")));
   EXPECT_THAT(info.out,
               HasSubstr("  origin at latitude 52.01160000, longitude 4.35710000, 45.000 m above the "
