@@ -107,8 +107,8 @@ class Dataset:
     @property
     def georeference(self) -> Optional[Dict[str, Any]]:
         """Returns the place of x = y = z = 0 on the Earth: latitude_deg, longitude_deg, height_m (above the
-        ellipsoid), undulation_m and vertical_datum. None if the scene has none. geodesy.LocalFrame.of(dataset)
-        converts positions."""
+        ellipsoid), undulation_m and vertical_datum. None if the scene has none.
+        geodesy.LocalFrame.of(dataset) converts positions."""
         if "georeference" not in self.run:
             return None
         field = Field(self.path / "dataset.json", self.run, "run")["georeference"]
@@ -259,8 +259,8 @@ class Sequence:
     def poses(self) -> "Sensor":
         """Returns the sensor with the poses of all nodes. Its arrays are `position` [records, nodes, 3] m,
         `orientation` [records, nodes, 4] (w, x, y, z), `velocity`, ..., and for a scene with a georeference
-        `geodetic` [records, nodes, 3] (latitude and longitude in degrees, height in m above the ellipsoid); its
-        metadata `nodes` holds the names.
+        `geodetic` [records, nodes, 3] (latitude and longitude in degrees, height in m above the ellipsoid);
+        its metadata `nodes` holds the names.
         """
         for sensor in self.sensors.values():
             if sensor.kind == "pose":

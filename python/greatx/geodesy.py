@@ -80,8 +80,8 @@ def geodetic(positions: Any) -> np.ndarray:
 
 
 class LocalFrame:
-    """Converts between places on the Earth and the x (east), y (north), z (up) of a scene, whose plane touches
-    the ellipsoid at the scene's origin.
+    """Converts between places on the Earth and the x (east), y (north), z (up) of a scene, whose plane
+    touches the ellipsoid at the scene's origin.
 
     height_m is the height of the origin above the ellipsoid. A height above the vertical datum is less than
     that above the ellipsoid by undulation_m. Raises Error if a number is out of its range.
