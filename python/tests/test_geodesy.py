@@ -106,8 +106,8 @@ class Site(unittest.TestCase):
         np.testing.assert_allclose(tick.geodetic[0], [-17.0001, -179.9999, 69.5], rtol=0, atol=1e-8)
         # The way from 179.9999 to -179.9999 degrees goes on eastwards, a tenth of it a tick.
         np.testing.assert_allclose(places[:, 1, 1], [179.9999, 179.99992, 179.99994], rtol=0, atol=1e-9)
-        self.assertEqual(poses.metadata["undulation_m"].value, 61.5)
-        self.assertEqual(poses.metadata["vertical_datum"].value, "MSL")
+        self.assertEqual(poses.metadata["undulation_m"], 61.5)
+        self.assertEqual(poses.metadata["vertical_datum"], "MSL")
 
     def test_georeference(self):
         self.assertEqual(

@@ -201,6 +201,9 @@ World load_world(const Scenario& scenario) {
     const bool fixed_in_world = never_moves(scenario, index);
     if (!node.model) continue;
     models.push_back(load(*node.model, scenario.scene));
+    if (models.back().georeference)
+      models.back().notes.push_back(fmt::format("{}: its georeference is not used, since node '{}' places it",
+                                                models.back().file.string(), node.name));
     Pose pose{node.model_mount.position_m, orientation_of(node.model_mount.rotation)};
     if (fixed_in_world) {
       const auto& fixed = std::get<StaticTrajectory>(node.trajectory);
