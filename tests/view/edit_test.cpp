@@ -246,6 +246,18 @@ TEST(Handles, AreThePlacesThatAScenarioGives) {
   EXPECT_EQ(moved.value, "[-40, 1.5, 0]");
 }
 
+TEST(Handles, PlacesInDegreesHaveNone) {
+  const auto root = read_yaml(
+      "scene: {objects: [{name: a, position_deg: [52, 4, 1]}, {name: b}]}\n"
+      "nodes: [{name: n, trajectory: {type: waypoints, points: [{t_s: 0, position_deg: [52, 4, 1]}, "
+      "{t_s: 1, position_m: [1, 2, 3]}]}}]\n",
+      "places");
+  std::vector<std::string> labels;
+  for (const Handle& handle : handles_of(root)) labels.push_back(handle.label);
+  EXPECT_THAT(labels, testing::ElementsAre("n, way-point 1 at 1 s", "b"));
+  EXPECT_FALSE(insert_behind(root, parse_yaml_path("nodes[0].trajectory.points[0]")));
+}
+
 TEST(Handles, AWayPointIsInsertedHalfWay) {
   const auto root = read_yaml(city(), "city");
   const std::optional<YamlChange> between =
