@@ -210,6 +210,22 @@ TEST_F(SchemaTest, ChoosesTheShapeThatTheValueHas) {
   EXPECT_TRUE(has(at(city(), "channels[0]"), "max_depth"));
 }
 
+TEST_F(SchemaTest, ANewValueGetsTheFirstOfSeveralKeys) {
+  const auto required = [&](const std::string& trajectory) {
+    const FormType type = at("nodes: [{name: a, trajectory: {" + trajectory + "}}]", "nodes[0].trajectory");
+    std::vector<std::string> keys;
+    for (const FormType::Member& member : type.members)
+      if (member.required) keys.push_back(member.key);
+    return keys;
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(required("type: static"), ElementsAre("type", "position_m"));
+  EXPECT_THAT(required("type: static, position_deg: [52, 4, 1]"), ElementsAre("type"));
+  EXPECT_THAT(required("type: corridor"), ElementsAre("type", "center_line_m"));
+  EXPECT_EQ(at("nodes: [{trajectory: {type: static}}]", "nodes[0].trajectory.position_deg").kind,
+            FormType::Kind::numbers);
+}
+
 TEST(MaterialSchema, MaterialsOfAnyNameHaveTheFields) {
   const Schema schema(materials_schema());
   const auto root = read_yaml("materials: {brick: {itu: brick}}", "test");
