@@ -14,6 +14,9 @@
 #include "apps/console/progress.h"
 #include "apps/console/session.h"
 #include "core/error.h"
+#include "core/text.h"
+#include "core/units.h"
+#include "scene/georeference/georeference.h"
 #include "sim/channel/notes.h"
 #include "sim/experiment/experiment.h"
 #include "sim/scenario/parse/load_scenario.h"
@@ -107,6 +110,15 @@ void print_json(const sim::Experiment& experiment, const Measured& measured) {
                                {"switchable", effect->switchable},
                                {"reason", effect->reason},
                                {"bound", effect->bound}});
+  if (const auto& reference = scenario.scene.georeference)
+    json["georeference"] = nlohmann::json::parse(scene::georeference_json(*reference));
+  if (const auto& place = scenario.environment.place)
+    json["place"] = {{"latitude_deg", degrees(place->latitude)},
+                     {"longitude_deg", degrees(place->longitude)},
+                     {"height_m", place->height_m},
+                     {"time", place->time},
+                     {"of_scene", place->of_scene}};
+  if (!scenario.warnings.empty()) json["warnings"] = scenario.warnings;
   json["parts"] = nlohmann::json::array();
   for (const sim::Part& part : experiment.world->parts)
     json["parts"].push_back({{"name", part.name}, {"rate_hz", part.rate.value_hz()}});
@@ -127,12 +139,26 @@ void print_passes(const Measured& measured) {
                                pass.ms, pass.count == 1.0 ? "" : fmt::format(", {:.3g} times", pass.count));
 }
 
+/// Says where on the Earth the scene is, and where and when the sun and the sky are those of.
+void print_places(const sim::Scenario& scenario) {
+  if (const auto& reference = scenario.scene.georeference)
+    std::cout << fmt::format("  origin at {}\n", scene::georeference_words(*reference));
+  if (const auto& place = scenario.environment.place)
+    std::cout << fmt::format("  sun and sky at latitude {:.6g}, longitude {:.6g} ({}), {}\n",
+                             degrees(place->latitude), degrees(place->longitude),
+                             place->of_scene ? "the scene's georeference" : "environment.place",
+                             printable(place->time));
+  for (const std::string& warning : scenario.warnings)
+    std::cout << fmt::format("  warning: {}\n", printable(warning));
+}
+
 void print_words(const sim::Experiment& experiment, const Measured& measured) {
   const sim::Scenario& scenario = experiment.scenario;
   const sim::World& world = *experiment.world;
   std::cout << fmt::format("{}: {} triangles, {} facets, {} instances, {} bodies\n", scenario.name,
                            world.scene.triangle_count(), world.scene.facets.size(),
                            world.scene.instances.size(), world.scene.bodies.size());
+  print_places(scenario);
   for (const sim::Part& part : world.parts)
     std::cout << fmt::format("  turns {:<24} {:+.6g} Hz about ({:.3f}, {:.3f}, {:.3f}) of its node\n",
                              part.name, part.rate.value_hz(), world.scene.bodies[part.body].joint->axis.x,

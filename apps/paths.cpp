@@ -72,7 +72,8 @@ uint32_t find_end(const char* option, const std::string& text, size_t count,
 PathsRequest paths_request(const PathsOptions& options, const sim::Scenario& scenario) {
   PathsRequest request;
   request.channel = find_channel(options.channel, scenario);
-  if (!options.receivers.empty()) request.points = sim::load_receiver_list(options.receivers);
+  if (!options.receivers.empty())
+    request.points = sim::load_receiver_list(options.receivers, sim::EarthPositions(scenario.scene));
   const sim::ChannelConfig& channel = scenario.channels[request.channel];
   if (!options.receiver.empty())
     request.only = request.points.empty()
@@ -250,7 +251,7 @@ void run_paths(const PathsOptions& options) {
     outputs.push_back(json_lines_output(std::cout, scene));
   else if (!options.quiet)
     outputs.push_back(table_output(std::cout, scene, options.brief));
-  if (!options.csv.empty()) outputs.push_back(csv_output(options.csv, scene.carrier_hz));
+  if (!options.csv.empty()) outputs.push_back(csv_output(options.csv, scene));
 
   install_interrupt_handler();
   const TerminalWatch watch(options.quiet);

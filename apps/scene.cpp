@@ -15,6 +15,7 @@
 #include "core/srgb.h"
 #include "scene/build/build.h"
 #include "scene/generator/generate.h"
+#include "scene/georeference/georeference.h"
 #include "scene/import/mitsuba.h"
 
 namespace greatx::apps {
@@ -136,6 +137,8 @@ void info(const InfoCommand& command) {
                            scene.lights.size(), scene.textures.size());
   std::cout << fmt::format("  {:.2f} x {:.2f} x {:.2f} m around ({:.2f}, {:.2f}, {:.2f})\n", size.x, size.y,
                            size.z, center.x, center.y, center.z);
+  if (model.georeference)
+    std::cout << fmt::format("  origin at {}\n", scene::georeference_words(*model.georeference));
   std::cout << fmt::format("  nodes {}\n", scene::node_names(model));
   for (const scene::Material& material : scene.materials) {
     std::cout << fmt::format("  material {:<28} {}; {}\n", material.name, describe(material.radio),

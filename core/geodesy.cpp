@@ -30,32 +30,38 @@ dvec3 geocentric(const Geodetic& place) {
 
 Geodetic geodetic(const dvec3& p) {
   const double across = std::hypot(p.x, p.y);
-  // Bowring's parametric latitude converges by a factor of some 1e-6 per step near the ellipsoid.
-  double tangent = p.z / across * (semi_major / semi_minor);
-  double latitude = 0.0;
-  for (int step = 0; step < 6; ++step) {
-    const double cosine = 1.0 / std::hypot(1.0, tangent),
-                 sine = std::isinf(tangent) ? std::copysign(1.0, tangent) : tangent * cosine;
-    latitude = std::atan2(p.z + second_eccentricity_2 * semi_minor * sine * sine * sine,
-                          across - eccentricity_2 * semi_major * cosine * cosine * cosine);
-    tangent = (semi_minor / semi_major) * std::tan(latitude);
+  const double longitude = across > 0.0 ? std::atan2(p.y, p.x) : 0.0;
+  if (across == 0.0 && p.z == 0.0) return {90.0, degrees(longitude), -semi_minor};
+  // The sine and the cosine of the parametric latitude stand for it, since its tangent is infinite at a pole.
+  // A step shrinks the error by some 1e-3 near the ellipsoid and by less within the Earth.
+  double sine = p.z / semi_minor, cosine = across / semi_major, latitude = 0.0;
+  constexpr int most_steps = 50;
+  for (int step = 0; step < most_steps; ++step) {
+    const double length = std::hypot(sine, cosine);
+    sine /= length, cosine /= length;
+    const double up = p.z + second_eccentricity_2 * semi_minor * sine * sine * sine,
+                 out = across - eccentricity_2 * semi_major * cosine * cosine * cosine;
+    const double before = latitude;
+    latitude = std::atan2(up, out);
+    if (step > 0 && std::abs(latitude - before) < 1e-16) break;
+    sine = semi_minor * std::sin(latitude), cosine = semi_major * std::cos(latitude);
   }
-  const double sine = std::sin(latitude), cosine = std::cos(latitude);
   // This expression of the height is stable at the poles and at the equator alike.
-  const double normal = semi_major / std::sqrt(1.0 - eccentricity_2 * sine * sine);
-  const double height = across * cosine + p.z * sine - normal * (1.0 - eccentricity_2 * sine * sine);
-  return {degrees(latitude), degrees(std::atan2(p.y, p.x)), height};
+  const double s = std::sin(latitude), c = std::cos(latitude);
+  const double height = across * c + p.z * s - semi_major * std::sqrt(1.0 - eccentricity_2 * s * s);
+  return {degrees(latitude), degrees(longitude), height};
 }
 
 LocalFrame::LocalFrame(const Georeference& reference) : reference_(reference) {
   const auto& [latitude_deg, longitude_deg, height_m] = reference.origin;
-  if (!(std::abs(latitude_deg) <= 90.0))
-    throw_user_error("georeference: latitude: expected -90 to 90 degrees, found {}", latitude_deg);
-  if (!(std::abs(longitude_deg) <= 180.0))
-    throw_user_error("georeference: longitude: expected -180 to 180 degrees, found {}", longitude_deg);
-  if (!std::isfinite(height_m) || !std::isfinite(reference.undulation_m))
-    throw_user_error("georeference: height: expected finite numbers, found {} and {}", height_m,
-                     reference.undulation_m);
+  const auto require = [](const char* what, const char* unit, double value, double most) {
+    if (!(std::abs(value) <= most))
+      throw_user_error("{}: expected {:g} to {:g} {}, found {}", what, -most, most, unit, value);
+  };
+  require("latitude_deg", "degrees", latitude_deg, 90.0);
+  require("longitude_deg", "degrees", longitude_deg, 180.0);
+  require("height_m", "metres", height_m, most_origin_height_m);
+  require("undulation_m", "metres", reference.undulation_m, most_undulation_m);
   origin_ = geocentric(reference.origin);
   const double latitude = radians(latitude_deg), longitude = radians(longitude_deg);
   const double sl = std::sin(latitude), cl = std::cos(latitude), so = std::sin(longitude),

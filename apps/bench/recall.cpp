@@ -130,9 +130,10 @@ Case make_case(const RecallOptions& options, const std::string& name) {
   chosen.scenario = name;
   Case c{sim::make_experiment(frozen_for_recall(load_scenario(chosen), options.paths)), {}, {}};
   const scene::Scene& scene = c.experiment.scene();
-  c.receivers = options.receiver_file.empty()
-                    ? draw_receivers(scene, c.experiment.scenario.seed, options.receivers)
-                    : sim::load_receiver_list(options.receiver_file);
+  c.receivers =
+      options.receiver_file.empty()
+          ? draw_receivers(scene, c.experiment.scenario.seed, options.receivers)
+          : sim::load_receiver_list(options.receiver_file, sim::EarthPositions(c.experiment.scenario.scene));
   const rf::FacetKinds kinds = rf::facet_kinds(scene, sim::radio_effects(c.experiment));
   const rf::FacetWorld world(scene);
   const sim::Moment moment = beginning_of(c.experiment);

@@ -175,7 +175,7 @@ void measure_scattering(gpu::Device& device, const RecallOptions& options,
     const std::vector<dvec3> receivers =
         options.receiver_file.empty()
             ? draw_receivers(experiment.scene(), experiment.scenario.seed, options.receivers)
-            : sim::load_receiver_list(options.receiver_file);
+            : sim::load_receiver_list(options.receiver_file, sim::EarthPositions(experiment.scenario.scene));
     nlohmann::json& result = results.emplace_back();
     result = {{"scene", experiment.scenario.name},
               {"facets", experiment.scene().facets.size()},

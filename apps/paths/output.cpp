@@ -85,10 +85,10 @@ class TableOutput : public PathsOutput {
 
 class CsvOutput : public PathsOutput {
  public:
-  CsvOutput(std::filesystem::path file, double carrier_hz) : file_(std::move(file)), carrier_hz_(carrier_hz) {
+  CsvOutput(std::filesystem::path file, const PathScene& scene) : file_(std::move(file)), scene_(scene) {
     io::create_folder_of(file_);
     out_.open(io::part_name(file_), std::ios::binary | std::ios::trunc);
-    out_ << csv_head();
+    out_ << csv_head(scene_);
     check();
   }
   ~CsvOutput() override {
@@ -97,7 +97,7 @@ class CsvOutput : public PathsOutput {
     std::filesystem::remove(io::part_name(file_), ignored);
   }
   void add(const PathLink& link) override {
-    out_ << csv_row(link, carrier_hz_);
+    out_ << csv_row(link, scene_);
     check();
   }
   void end(const Json&) override {
@@ -113,7 +113,7 @@ class CsvOutput : public PathsOutput {
   }
   std::filesystem::path file_;
   std::ofstream out_;
-  double carrier_hz_;
+  PathScene scene_;
   bool finished_ = false;
 };
 
@@ -165,8 +165,8 @@ std::unique_ptr<PathsOutput> table_output(std::ostream& out, const PathScene& sc
   return std::make_unique<TableOutput>(out, scene, brief);
 }
 
-std::unique_ptr<PathsOutput> csv_output(const std::filesystem::path& file, double carrier_hz) {
-  return std::make_unique<CsvOutput>(file, carrier_hz);
+std::unique_ptr<PathsOutput> csv_output(const std::filesystem::path& file, const PathScene& scene) {
+  return std::make_unique<CsvOutput>(file, scene);
 }
 
 }  // namespace greatx::apps

@@ -47,6 +47,6 @@ std::unique_ptr<PathsOutput> json_lines_output(std::ostream& out, const PathScen
 std::unique_ptr<PathsOutput> table_output(std::ostream& out, const PathScene& scene, bool brief);
 /// Returns an output that writes the compact CSV to a file. The file appears under its name when it is
 /// complete.
-std::unique_ptr<PathsOutput> csv_output(const std::filesystem::path& file, double carrier_hz);
+std::unique_ptr<PathsOutput> csv_output(const std::filesystem::path& file, const PathScene& scene);
 
 }  // namespace greatx::apps

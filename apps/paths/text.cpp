@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/geodesy.h"
 #include "core/units.h"
 #include "rf/antenna/antenna.h"
 
@@ -16,6 +17,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json json_of(const dvec3& v) { return Json::array({v.x, v.y, v.z}); }
+Json json_of(const Geodetic& place) {
+  return Json::array({place.latitude_deg, place.longitude_deg, place.height_m});
+}
 Json json_of(const rf::Complex& z) { return Json::array({z.real(), z.imag()}); }
 
 /// Returns the gain in dB, or null if there is no power, because JSON has no infinity.
@@ -133,22 +137,35 @@ nlohmann::ordered_json json_of(const PathLink& link, const PathScene& scene) {
             {"first_delay_s", figures.first_delay_s ? Json(*figures.first_delay_s) : Json()},
             {"delay_spread_s", figures.delay_spread_s ? Json(*figures.delay_spread_s) : Json()},
             {"paths", Json::array()}};
+  if (const auto& reference = scene.scene->georeference) {
+    const LocalFrame frame(*reference);
+    json["geodetic"] = json_of(frame.place(link.receiver_m));
+    json["transmitter_geodetic"] = json_of(frame.place(link.transmitter_m));
+  }
   for (const rf::Path& path : link.paths) json["paths"].push_back(json_of(path, scene));
   return json;
 }
 
-std::string csv_head() {
-  return "receiver,x_m,y_m,z_m,distance_m,paths,line_of_sight,path_gain_db,first_delay_ns,delay_spread_ns\n";
+std::string csv_head(const PathScene& scene) {
+  return fmt::format(
+      "receiver,x_m,y_m,z_m,distance_m,paths,line_of_sight,path_gain_db,first_delay_ns,delay_spread_ns{}\n",
+      scene.scene->georeference ? ",latitude_deg,longitude_deg,height_m" : "");
 }
 
-std::string csv_row(const PathLink& link, double carrier_hz) {
-  const LinkFigures figures = figures_of(link, carrier_hz);
+std::string csv_row(const PathLink& link, const PathScene& scene) {
+  const LinkFigures figures = figures_of(link, scene.carrier_hz);
   const auto cell = [](bool there, double value) { return there ? fmt::format("{}", value) : std::string(); };
-  return fmt::format("{},{},{},{},{},{},{},{},{},{}\n", link.index, link.receiver_m.x, link.receiver_m.y,
-                     link.receiver_m.z, link.distance_m, figures.paths, figures.line_of_sight ? 1 : 0,
-                     cell(figures.gain > 0.0, gain_db(figures.gain)),
-                     cell(figures.first_delay_s.has_value(), 1e9 * figures.first_delay_s.value_or(0.0)),
-                     cell(figures.delay_spread_s.has_value(), 1e9 * figures.delay_spread_s.value_or(0.0)));
+  std::string row =
+      fmt::format("{},{},{},{},{},{},{},{},{},{}", link.index, link.receiver_m.x, link.receiver_m.y,
+                  link.receiver_m.z, link.distance_m, figures.paths, figures.line_of_sight ? 1 : 0,
+                  cell(figures.gain > 0.0, gain_db(figures.gain)),
+                  cell(figures.first_delay_s.has_value(), 1e9 * figures.first_delay_s.value_or(0.0)),
+                  cell(figures.delay_spread_s.has_value(), 1e9 * figures.delay_spread_s.value_or(0.0)));
+  if (const auto& reference = scene.scene->georeference) {
+    const Geodetic place = LocalFrame(*reference).place(link.receiver_m);
+    row += fmt::format(",{},{},{}", place.latitude_deg, place.longitude_deg, place.height_m);
+  }
+  return row + '\n';
 }
 
 }  // namespace greatx::apps

@@ -22,13 +22,15 @@ std::string brief_head();
 std::string brief_row(const PathLink& link, double carrier_hz);
 
 /// Returns everything about a receiver: the figures of the link and all its paths. Positions are in world
-/// coordinates, values in SI units, angles in radians.
+/// coordinates, values in SI units, angles in radians. If the scene has a georeference, the ends also have
+/// latitude, longitude in degrees and height above the ellipsoid.
 nlohmann::ordered_json json_of(const PathLink& link, const PathScene& scene);
 
 /// Returns the header line of the compact CSV:
-/// receiver,x_m,y_m,z_m,distance_m,paths,line_of_sight,path_gain_db,first_delay_ns,delay_spread_ns.
-std::string csv_head();
+/// receiver,x_m,y_m,z_m,distance_m,paths,line_of_sight,path_gain_db,first_delay_ns,delay_spread_ns, and for a
+/// scene with a georeference latitude_deg,longitude_deg,height_m (above the ellipsoid).
+std::string csv_head(const PathScene& scene);
 /// Returns the line of a receiver. Cells that have no meaning without a path are empty.
-std::string csv_row(const PathLink& link, double carrier_hz);
+std::string csv_row(const PathLink& link, const PathScene& scene);
 
 }  // namespace greatx::apps

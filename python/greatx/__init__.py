@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from . import geodesy
 from .antenna import Array
 from .arrays import Frames, Ragged
 from .campaign import Campaign, campaign
@@ -46,6 +47,7 @@ __all__ = [
     "Sequence",
     "Tick",
     "campaign",
+    "geodesy",
     "load",
 ]
 

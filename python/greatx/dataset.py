@@ -3,6 +3,7 @@
 """Opens a generated data set by memory maps, and gives access by sequence, by sensor and by tick
 (docs/python.md).
 """
+
 from __future__ import annotations
 
 import os
@@ -102,6 +103,22 @@ class Dataset:
         """Returns the description of the run: scenario, seed, effects, device, `materials`, `instances`,
         `semantic_classes`, ..."""
         return self.info["run"]
+
+    @property
+    def georeference(self) -> Optional[Dict[str, Any]]:
+        """Returns the place of x = y = z = 0 on the Earth: latitude_deg, longitude_deg, height_m (above the
+        ellipsoid), undulation_m and vertical_datum. None if the scene has none.
+        geodesy.LocalFrame.of(dataset) converts positions."""
+        if "georeference" not in self.run:
+            return None
+        field = Field(self.path / "dataset.json", self.run, "run")["georeference"]
+        return {
+            "latitude_deg": field["latitude_deg"].number(-90.0, 90.0),
+            "longitude_deg": field["longitude_deg"].number(-180.0, 180.0),
+            "height_m": field["height_m"].number(-1e6, 1e6),
+            "undulation_m": field["undulation_m"].number(-1e4, 1e4),
+            "vertical_datum": field["vertical_datum"].text(),
+        }
 
     @property
     def materials(self) -> List[str]:
@@ -241,8 +258,9 @@ class Sequence:
     @property
     def poses(self) -> "Sensor":
         """Returns the sensor with the poses of all nodes. Its arrays are `position` [records, nodes, 3] m,
-        `orientation` [records, nodes, 4] (w, x, y, z), `velocity`, ...; its metadata `nodes` holds the
-        names.
+        `orientation` [records, nodes, 4] (w, x, y, z), `velocity`, ..., and for a scene with a georeference
+        `geodetic` [records, nodes, 3] (latitude and longitude in degrees, height in m above the ellipsoid);
+        its metadata `nodes` holds the names.
         """
         for sensor in self.sensors.values():
             if sensor.kind == "pose":

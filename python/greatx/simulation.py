@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Computes scenes, paths and channels by the compiled module (docs/python.md)."""
+
 from __future__ import annotations
 
 import json
@@ -190,6 +191,11 @@ class Simulation:
         doc="{latitude_deg, longitude_deg, height_m, time}; None: sun and moon are where the scenario puts "
         "them.",
     )
+    georeference = property(
+        lambda self: self._facts["georeference"],
+        doc="The place of x = y = z = 0 on the Earth: latitude_deg, longitude_deg, height_m (above the "
+        "ellipsoid), undulation_m, vertical_datum; None: the scene has none. See geodesy.LocalFrame.",
+    )
     channels = property(
         lambda self: self._facts["channels"],
         doc="{channel: its transmitters, receivers, carrier_hz, subcarriers, max_depth, ...}",
@@ -242,6 +248,14 @@ class Simulation:
         unless the change replaces them by angles of the sun. Raises Error if only one angle is given.
         """
         place = self.place
+        scene = self.georeference
+        if place is None and scene is not None and "time" in environment and "place" not in environment:
+            place = {
+                "latitude_deg": scene["latitude_deg"],
+                "longitude_deg": scene["longitude_deg"],
+                "height_m": scene["height_m"] - scene["undulation_m"],
+                "time": environment["time"],
+            }
         sun = environment.get("sun")
         angles = {"azimuth_deg", "elevation_deg"} & set(sun if isinstance(sun, Mapping) else ())
         if place is None or not {"place", "time", "sun", "moon"} & set(environment):

@@ -5,6 +5,8 @@
 #include <functional>
 #include <map>
 
+#include "scene/georeference/georeference.h"
+
 namespace greatx::python {
 
 void change_environment(sim::Environment& to, const sim::Environment& from, const std::string& key) {
@@ -36,6 +38,11 @@ nlohmann::ordered_json place_facts(const sim::Environment& environment) {
           {"longitude_deg", degrees(place->longitude)},
           {"height_m", place->height_m},
           {"time", place->time}};
+}
+
+nlohmann::ordered_json reference_facts(const sim::SceneConfig& scene) {
+  if (!scene.georeference) return nullptr;
+  return nlohmann::ordered_json::parse(scene::georeference_json(*scene.georeference));
 }
 
 }  // namespace greatx::python

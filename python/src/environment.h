@@ -21,4 +21,8 @@ void change_environment(sim::Environment& to, const sim::Environment& from, cons
 /// if the environment has none.
 nlohmann::ordered_json place_facts(const sim::Environment& environment);
 
+/// Returns the georeference of the scene, {latitude_deg, longitude_deg, height_m, undulation_m,
+/// vertical_datum}, or null if it has none.
+nlohmann::ordered_json reference_facts(const sim::SceneConfig& scene);
+
 }  // namespace greatx::python

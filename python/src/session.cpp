@@ -146,6 +146,7 @@ std::string Session::facts() const {
             {"ticks", scenario_.ticks},
             {"tick_rate_hz", scenario_.tick_rate_hz.str()},
             {"place", place_facts(scenario_.environment)},
+            {"georeference", reference_facts(scenario_.scene)},
             {"nodes", Json::object()},
             {"antennas", antennas_of(scenario_)},
             {"channels", Json::object()}};

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Tests changes of a scenario's environment from Python: sun, moon, place and time."""
+
 import unittest
 
 import greatx
@@ -42,6 +43,19 @@ class Light(unittest.TestCase):
         self.assertEqual(
             self.sim({"place": PARIS, "time": NIGHT}, sun={"elevation_deg": 10}).place["time"], NIGHT
         )
+
+    def test_place_of_the_scene(self):
+        site = {"latitude_deg": -36.85, "longitude_deg": 174.76, "height_m": 60.5, "undulation_m": 33.5}
+        base = {**EMPTY, "scene": {"georeference": site}}
+        sim = greatx.Simulation(base, environment={"time": NOON}, validation=True)
+        self.assertEqual(sim.georeference, {**site, "vertical_datum": ""})
+        self.assertEqual(sim.place["time"], NOON)
+        self.assertAlmostEqual(sim.place["latitude_deg"], -36.85, places=12)
+        self.assertAlmostEqual(sim.place["longitude_deg"], 174.76, places=12)
+        self.assertAlmostEqual(sim.place["height_m"], 27.0, places=9)
+        self.assertIsNone(self.sim().georeference)
+        with self.assertRaisesRegex(greatx.Error, "a scene with a georeference"):
+            self.sim({"time": NOON})
 
     def test_sun_by_hand(self):
         self.assertIsNone(self.placed({"sun": {"azimuth_deg": 10, "elevation_deg": 20}}).place)

@@ -392,6 +392,7 @@ Scene build_scene(const std::vector<ModelPlacement>& placements, const BuildOpti
   Scene scene;
   scene.name = options.name;
   scene.origin = options.origin ? *options.origin : default_origin(placements);
+  scene.georeference = options.georeference;
   scene.positions.reserve(planned.vertices);
   scene.normals.reserve(planned.vertices);
   scene.tangents.reserve(planned.vertices);

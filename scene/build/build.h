@@ -34,6 +34,7 @@ struct ModelPlacement {
 struct BuildOptions {
   std::string name;
   std::optional<dvec3> origin;  ///< default: the centre of the static bounds, rounded to whole metres
+  std::optional<Georeference> georeference;  ///< of the world; those of models are not looked at
   /// Tolerances of facets: triangles merge if every corner lies this close to the plane, and their normals
   /// are this close.
   double coplanar_distance_m = 1e-4;

@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geodesy.h"
 #include "core/vec.h"
 #include "scene/material/material.h"
 
@@ -139,8 +140,9 @@ struct FacetTriangle {
 
 struct Scene {
   std::string name;
-  std::string hash;   ///< SHA-256 over everything below that reaches a sensor
-  dvec3 origin{0.0};  ///< world position of the local origin: local = world - origin
+  std::string hash;                          ///< SHA-256 over everything below that reaches a sensor
+  dvec3 origin{0.0};                         ///< world position of the local origin: local = world - origin
+  std::optional<Georeference> georeference;  ///< of the world's x, y, z; none: the scene is nowhere on Earth
 
   // The geometry is indexed by Primitive. Body 0 is in local coordinates.
   std::vector<vec3> positions;

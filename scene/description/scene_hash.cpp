@@ -136,6 +136,11 @@ std::string hash_of(const Scene& scene) {
   for (const Texture& texture : scene.textures) feed(feeder, texture);
   feeder.count(scene.lights.size());
   for (const PunctualLight& light : scene.lights) feed(feeder, light);
+  if (const auto& place = scene.georeference)  // the poses say where on the Earth they are
+    feeder.text("georeference")
+        .values(place->origin.latitude_deg, place->origin.longitude_deg, place->origin.height_m,
+                place->undulation_m)
+        .text(place->vertical_datum);
   return feeder.hex();
 }
 

@@ -9,8 +9,8 @@
 namespace greatx::scene {
 
 /// Returns the SHA-256 over everything that reaches a sensor: origin, geometry, instances, bodies, facets,
-/// materials, textures and lights. Names of materials and textures, notes and the scene's own name do not
-/// count.
+/// materials, textures and lights, and the georeference if there is one. Names of materials and textures,
+/// notes and the scene's own name do not count.
 std::string hash_of(const Scene& scene);
 
 }  // namespace greatx::scene

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "scene/files/asset_folder.h"
+#include "scene/georeference/georeference.h"
 #include "scene/gltf/gltf_file.h"
 #include "scene/gltf/gltf_geometry.h"
 #include "scene/gltf/gltf_materials.h"
@@ -66,9 +67,18 @@ void note_ignored_extensions(const GltfFile& file, Model& model) {
   }
 }
 
+/// Reads the extras of the scenes alone, so that a large file is not written out and parsed again.
+std::optional<Georeference> read_georeference(const GltfFile& file) {
+  nlohmann::json scenes;
+  for (const char* member : {"scene", "scenes"})
+    if (file.json.contains(member)) scenes[member] = file.json[member];
+  return georeference_of_document(scenes.dump(), {file.name, 0});
+}
+
 Model model_of(const GltfFile& file, const LoadOptions& options) {
   Model model;
   model.file = file.name;
+  model.georeference = read_georeference(file);
   note_ignored_extensions(file, model);
   read_nodes(file, model);
   read_placed_meshes(file, model);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,8 +52,9 @@ struct Model {
   std::vector<ModelInstance> instances;
   std::vector<Material> materials;
   std::vector<Texture> textures;
-  std::vector<PunctualLight> lights;      ///< in the model's frame
-  std::vector<uint32_t> nodes_of_lights;  ///< [lights], into nodes
+  std::vector<PunctualLight> lights;         ///< in the model's frame
+  std::vector<uint32_t> nodes_of_lights;     ///< [lights], into nodes
+  std::optional<Georeference> georeference;  ///< of the model's frame (scene/georeference)
   std::vector<std::string> notes;
   std::vector<std::string> unused_materials;  ///< names of those that the file has and no loaded mesh uses
   /// Pictures that `LoadOptions::keep_faults` has left out, each as the message of the error.

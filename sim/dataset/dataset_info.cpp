@@ -7,6 +7,7 @@
 #include "core/hash.h"
 #include "core/version.h"
 #include "scene/description/scene.h"
+#include "scene/georeference/georeference.h"
 #include "sim/dataset/packed_outputs.h"
 #include "sim/world/instance_boxes.h"
 
@@ -28,6 +29,8 @@ io::DatasetInfo dataset_info(const Experiment& experiment, const gpu::Device& de
   run["vulkan"] = device.info().api_version;
   run["tracer"] = gpu::name_of(device.tracer());
   run["local_origin_m"] = {scene.origin.x, scene.origin.y, scene.origin.z};
+  if (scene.georeference)
+    run["georeference"] = nlohmann::json::parse(scene::georeference_json(*scene.georeference));
   run["semantic_classes"] = scene::semantic_class_names();
   run["instances"] = nlohmann::json::array();
   const std::vector<InstanceBox> boxes = instance_boxes(*experiment.world);

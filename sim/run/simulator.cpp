@@ -75,6 +75,7 @@ Simulator::Simulator(gpu::Device& device, const Experiment& experiment)
       sensors_(make_sensors({gpu_scene_, passes_, experiment})),
       comparer_(world_, experiment.plan.consistency.on),
       places_(scenario_, world_) {
+  statistics_.warnings = scenario_.warnings;
   for (const RunSensor& run : sensors_) {
     schedule_.add(run.rate_hz);
     specs_.push_back(run.sensor->spec());

@@ -23,6 +23,7 @@ struct PlaceAndTime {
   double height_m = 0.0;                   ///< above the sea
   std::string time;                        ///< RFC 3339 as written, "2026-06-21T12:00:00+02:00"
   double unix_s = 0.0;                     ///< the same instant, UTC seconds since 1970
+  bool of_scene = false;                   ///< whether the place is that of the scene's georeference
 };
 
 /// Describes the moon, if it does not follow from place and time.

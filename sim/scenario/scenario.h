@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/geodesy.h"
 #include "core/record.h"
 #include "core/units.h"
 #include "core/vec.h"
@@ -67,6 +68,9 @@ struct SceneConfig {
   std::optional<dvec3> origin_m;
   std::filesystem::path radio_materials;  ///< sidecar YAML; empty: none
   bool optical_only = false;
+  /// The place of the world's origin on the Earth, from the scenario or from the scene's glTF file.
+  std::optional<Georeference> georeference;
+  HeightOf heights = HeightOf::datum;  ///< of positions in latitude and longitude, unless they say otherwise
 };
 
 // ---------------------------------------------------------------------------------------------------- motion
@@ -245,7 +249,8 @@ struct Scenario {
   std::map<std::string, Switch> effects;  ///< by the names in sim/plan/effect_list.h
   double tolerance_db = 0.01;             ///< an effect that cannot change more stays off
   StorageConfig storage;
-  AccuracyWish accuracy;  ///< asks `greatx generate` to choose settings (sim/tradeoff)
+  AccuracyWish accuracy;              ///< asks `greatx generate` to choose settings (sim/tradeoff)
+  std::vector<std::string> warnings;  ///< contradictions that are no faults; every run shows them
 };
 
 /// Holds the indices of a sensor called "node/sensor".

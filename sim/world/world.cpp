@@ -100,6 +100,15 @@ void check_optical_only(const Scenario& scenario) {
                               sensor.name);
 }
 
+/// Checks that a file still says of its place what it said when the scenario was parsed.
+void check_georeference(const scene::Model& model, const StaticObject& object, const SceneConfig& config) {
+  if (model.georeference && model.georeference != config.georeference)
+    throw_user_error_at(object.model.where,
+                        "scene: expected the georeference that '{}' had when the scenario was read, found "
+                        "another one",
+                        model.file.string());
+}
+
 bool same_source(const ModelSource& a, const ModelSource& b) { return a.source == b.source; }
 
 bool same_object(const StaticObject& a, const StaticObject& b) {
@@ -160,7 +169,8 @@ const Solids& MadeSolids::of(const scene::Scene& scene) const {
 
 bool same_world(const Scenario& a, const Scenario& b) {
   return a.name == b.name && a.scene.origin_m == b.scene.origin_m &&
-         a.scene.radio_materials == b.scene.radio_materials && a.scene.optical_only == b.scene.optical_only &&
+         a.scene.georeference == b.scene.georeference && a.scene.radio_materials == b.scene.radio_materials &&
+         a.scene.optical_only == b.scene.optical_only &&
          std::ranges::equal(a.scene.objects, b.scene.objects, same_object) &&
          std::ranges::equal(a.nodes, b.nodes, same_body) && same_bodies(a, b);
 }
@@ -177,6 +187,7 @@ World load_world(const Scenario& scenario) {
   std::vector<scene::ModelPlacement> placements;
   for (const StaticObject& object : scenario.scene.objects) {
     models.push_back(load(object.model, scenario.scene));
+    check_georeference(models.back(), object, scenario.scene);
     placements.push_back({object.name,
                           &models.back(),
                           {object.position_m, orientation_of(object.rotation)},
@@ -190,6 +201,9 @@ World load_world(const Scenario& scenario) {
     const bool fixed_in_world = never_moves(scenario, index);
     if (!node.model) continue;
     models.push_back(load(*node.model, scenario.scene));
+    if (models.back().georeference)
+      models.back().notes.push_back(fmt::format("{}: its georeference is not used, since node '{}' places it",
+                                                models.back().file.string(), node.name));
     Pose pose{node.model_mount.position_m, orientation_of(node.model_mount.rotation)};
     if (fixed_in_world) {
       const auto& fixed = std::get<StaticTrajectory>(node.trajectory);
@@ -208,7 +222,9 @@ World load_world(const Scenario& scenario) {
       placements.back().parts.push_back(std::move(part.placement));
     }
   }
-  world.scene = scene::build_scene(placements, {scenario.name, scenario.scene.origin_m});
+  world.scene = scene::build_scene(placements, {.name = scenario.name,
+                                                .origin = scenario.scene.origin_m,
+                                                .georeference = scenario.scene.georeference});
   for (size_t index = 0; index < scenario.nodes.size(); ++index) {
     const NodeConfig& node = scenario.nodes[index];
     const bool own_body = node.model && !never_moves(scenario, index);

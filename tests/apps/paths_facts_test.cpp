@@ -157,9 +157,9 @@ TEST(PathText, ADarkPathIsNullInJsonAndEmptyInCsv) {
   PathLink link = sample_link();
   link.paths = {path_through({{0, 0, 2}, {40, 0, 2}}, {}, 0.0)};
   EXPECT_TRUE(json_of(link, sample.view())["paths"][0]["gain_db"].is_null());
-  EXPECT_THAT(csv_row(link, carrier), HasSubstr(",1,1,,133."));
+  EXPECT_THAT(csv_row(link, sample.view()), HasSubstr(",1,1,,133."));
   link.paths.clear();
-  EXPECT_EQ(csv_row(link, carrier), "0,40,0,2,40,0,0,,,\n");
+  EXPECT_EQ(csv_row(link, sample.view()), "0,40,0,2,40,0,0,,,\n");
 }
 
 TEST(PathOutput, JsonIsOneObjectAndLinesAreOneEach) {

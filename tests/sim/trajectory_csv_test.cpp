@@ -56,7 +56,9 @@ TEST(WayPointCsv, FaultsNameLineAndColumn) {
   EXPECT_EQ(csv_refusal("t,x,y,z\n1,0,0,0,0,0,0\n"),
             "f.csv:2:13: expected 4 values as in the lines before, found 7");
   EXPECT_EQ(csv_refusal("x,y,z,t\n"), "f.csv:1:1: t: expected a number, or 't' in a header line, found 'x'");
-  EXPECT_EQ(csv_refusal("t,x,y,z\nt,x,y,z\n"), "f.csv:2:1: t: expected a finite number, found 't'");
+  EXPECT_EQ(csv_refusal("t,x,y,z\nt,x,y,z\n"),
+            "f.csv:2:1: t: expected a finite number of seconds, or a date and time with its offset such as "
+            "2026-06-21T12:00:00Z, found 't'");
   EXPECT_EQ(csv_refusal("0;0;0;0\n"),
             "f.csv:1:1: expected 4 or 7 values (t, x, y, z[, yaw_deg, pitch_deg, roll_deg]), found 1");
 }

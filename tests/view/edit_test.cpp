@@ -210,6 +210,22 @@ TEST_F(SchemaTest, ChoosesTheShapeThatTheValueHas) {
   EXPECT_TRUE(has(at(city(), "channels[0]"), "max_depth"));
 }
 
+TEST_F(SchemaTest, ANewValueGetsTheFirstOfSeveralKeys) {
+  const auto required = [&](const std::string& trajectory) {
+    const FormType type = at("nodes: [{name: a, trajectory: {" + trajectory + "}}]", "nodes[0].trajectory");
+    std::vector<std::string> keys;
+    for (const FormType::Member& member : type.members)
+      if (member.required) keys.push_back(member.key);
+    return keys;
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(required("type: static"), ElementsAre("type", "position_m"));
+  EXPECT_THAT(required("type: static, position_deg: [52, 4, 1]"), ElementsAre("type"));
+  EXPECT_THAT(required("type: corridor"), ElementsAre("type", "center_line_m"));
+  EXPECT_EQ(at("nodes: [{trajectory: {type: static}}]", "nodes[0].trajectory.position_deg").kind,
+            FormType::Kind::numbers);
+}
+
 TEST(MaterialSchema, MaterialsOfAnyNameHaveTheFields) {
   const Schema schema(materials_schema());
   const auto root = read_yaml("materials: {brick: {itu: brick}}", "test");
@@ -244,6 +260,18 @@ TEST(Handles, AreThePlacesThatAScenarioGives) {
   const YamlChange moved = move_handle(handles[9], dvec3(-40.00004, 1.5, 0.0));
   EXPECT_EQ(yaml_path_text(moved.path), "nodes[3].trajectory.points[0].position_m");
   EXPECT_EQ(moved.value, "[-40, 1.5, 0]");
+}
+
+TEST(Handles, PlacesInDegreesHaveNone) {
+  const auto root = read_yaml(
+      "scene: {objects: [{name: a, position_deg: [52, 4, 1]}, {name: b}]}\n"
+      "nodes: [{name: n, trajectory: {type: waypoints, points: [{t_s: 0, position_deg: [52, 4, 1]}, "
+      "{t_s: 1, position_m: [1, 2, 3]}]}}]\n",
+      "places");
+  std::vector<std::string> labels;
+  for (const Handle& handle : handles_of(root)) labels.push_back(handle.label);
+  EXPECT_THAT(labels, testing::ElementsAre("n, way-point 1 at 1 s", "b"));
+  EXPECT_FALSE(insert_behind(root, parse_yaml_path("nodes[0].trajectory.points[0]")));
 }
 
 TEST(Handles, AWayPointIsInsertedHalfWay) {

@@ -21,7 +21,7 @@ namespace greatx::view {
 namespace {
 
 /// The keys whose values are files.
-constexpr std::array file_keys{"file", "radio_materials", "csv", "shots_file", "pattern_file"};
+constexpr std::array file_keys{"file", "radio_materials", "csv", "gpx", "shots_file", "pattern_file"};
 
 /// Lists the places of files that are given relative to the scenario's folder and lie there.
 void find_files(const FieldValue& value, const YamlPath& here, const std::filesystem::path& folder,

@@ -107,7 +107,9 @@ std::vector<Handle> handles_of(const Value& scenario) {
   if (const Value objects = value_at(scenario, place))
     for (size_t i = 0; i < objects->items.size(); ++i) {
       const std::string name = text_of(*objects->items[i], "name");
-      gatherer.pose(name, name, below(place, i), true, dvec3(0.0));
+      // A place in latitude and longitude has no handle, as an axis of the scene is none of its numbers.
+      if (value_at(objects->items[i], {YamlStep("position_deg")}) == nullptr)
+        gatherer.pose(name, name, below(place, i), true, dvec3(0.0));
     }
   return std::move(gatherer.handles);
 }

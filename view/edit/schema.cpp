@@ -135,6 +135,26 @@ std::vector<std::string> texts(const Part& list) {
   return all;
 }
 
+/// Returns the keys that a part's first alternative requires, if the alternatives say which keys go together
+/// (position_m or position_deg) and the value has the keys of none. A new value gets these keys.
+std::vector<std::string> first_of_several(const Part& part, const FieldValue* value) {
+  std::vector<std::string> keys;
+  if (part.contains("allOf"))
+    for (const Part& one : part["allOf"])
+      for (std::string& key : first_of_several(one, value)) keys.push_back(std::move(key));
+  if (!part.contains("oneOf") || std::ranges::any_of(part["oneOf"], is_shape)) return keys;
+  const auto there = [&](const Part& alternative) {
+    if (value == nullptr || !alternative.contains("required")) return false;
+    return std::ranges::all_of(alternative["required"], [&](const Part& key) {
+      return member_of(value, key.get<std::string>()) != nullptr;
+    });
+  };
+  const Part& first = part["oneOf"][0];
+  if (std::ranges::none_of(part["oneOf"], there) && first.contains("required"))
+    for (const std::string& key : texts(first["required"])) keys.push_back(key);
+  return keys;
+}
+
 void read_list(const Part& root, const Collector& from, FormType& type) {
   const Part* const items = from.find("items");
   type.kind = FormType::Kind::list;
@@ -223,6 +243,8 @@ FormType Schema::type_of(const SchemaPart& part, const FieldValue* value) const 
   for (const Part* const layer : from.layers())
     if (layer->contains("required"))
       for (const std::string& key : texts((*layer)["required"])) member(key)->required = true;
+  for (const Part* const layer : from.layers())
+    for (const std::string& key : first_of_several(*layer, value)) member(key)->required = true;
   for (const Part* const layer : from.layers())
     if (layer->contains("dependentRequired"))
       for (const auto& [key, others] : (*layer)["dependentRequired"].items())

@@ -119,8 +119,10 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   if (const auto f = map.find("sequences")) scenario.sequences = f->integer32(1, most_sequences);
   parse_time(map, scenario);
   if (const auto f = map.find("scene")) scenario.scene = parse_scene(*f);
-  if (const auto f = map.find("environment")) scenario.environment = parse_environment(*f);
-  if (const auto f = map.find("nodes")) scenario.nodes = parse_nodes(*f, scenario.tick_rate_hz);
+  if (const auto f = map.find("environment"))
+    scenario.environment = parse_environment(*f, scenario.scene.georeference, scenario.warnings);
+  if (const auto f = map.find("nodes"))
+    scenario.nodes = parse_nodes(*f, scenario.tick_rate_hz, EarthPositions(scenario.scene));
   if (const auto f = map.find("channels")) {
     scenario.channels = parse_channels(*f, scenario.tick_rate_hz, scenario.nodes);
     if (scenario.scene.optical_only && !scenario.channels.empty())

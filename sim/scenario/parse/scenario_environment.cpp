@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Parses environment: sun, moon and sky, the air, rain and fog.
+#include <cmath>
+
 #include "core/units.h"
 #include "sim/scenario/date_time.h"
 #include "sim/scenario/parse/scenario_parse.h"
@@ -10,19 +12,57 @@ namespace greatx::sim {
 
 namespace {
 
-PlaceAndTime parse_place(const Field& field, const Field& time) {
+/// The bounds of the height of a place above the sea.
+constexpr double least_place_height_m = -500.0, most_place_height_m = 20000.0;
+
+/// Returns the georeference's origin as a place, with its height above the vertical datum.
+PlaceAndTime place_of_scene(const Georeference& scene, const Field& time) {
+  PlaceAndTime place;
+  place.latitude = radians(scene.origin.latitude_deg);
+  place.longitude = radians(scene.origin.longitude_deg);
+  place.height_m = scene.origin.height_m - scene.undulation_m;
+  place.of_scene = true;
+  if (!(place.height_m >= least_place_height_m && place.height_m <= most_place_height_m))
+    time.fail(fmt::format("a place beside it, since the scene's origin is not between {:g} m and {:g} m high",
+                          least_place_height_m, most_place_height_m),
+              fmt::format("a height of {} m", place.height_m));
+  return place;
+}
+
+/// Warns if sun and sky would be those of another place than the scene's.
+void compare_places(const Field& field, const PlaceAndTime& place, const Georeference& scene,
+                    std::vector<std::string>& warnings) {
+  constexpr double most_deg = 1.0;
+  const double latitude_deg = degrees(place.latitude), longitude_deg = degrees(place.longitude);
+  const double apart = std::hypot(
+      latitude_deg - scene.origin.latitude_deg,
+      std::cos(place.latitude) * std::remainder(longitude_deg - scene.origin.longitude_deg, 360.0));
+  if (apart > most_deg)
+    warnings.push_back(
+        fmt::format("{}:{}: {}: the sun and the sky are those of latitude {:.6g}, longitude {:.6g}, but the "
+                    "scene's georeference is {:.3g} degrees away at latitude {:.6g}, longitude {:.6g}",
+                    field.where().file, field.where().line, field.path(), latitude_deg, longitude_deg, apart,
+                    scene.origin.latitude_deg, scene.origin.longitude_deg));
+}
+
+PlaceAndTime parse_place(const Field& field) {
   const FieldMap map(field, {"latitude_deg", "longitude_deg", "height_m"});
   PlaceAndTime place;
   place.latitude = radians(map.require("latitude_deg", "degrees, north positive").between(-90.0, 90.0));
   place.longitude = radians(map.require("longitude_deg", "degrees, east positive").between(-180.0, 180.0));
-  if (const auto f = map.find("height_m")) place.height_m = f->between(-500.0, 20000.0);
+  if (const auto f = map.find("height_m"))
+    place.height_m = f->between(least_place_height_m, most_place_height_m);
+  return place;
+}
+
+/// Sets the time of a place.
+void parse_time_of(PlaceAndTime& place, const Field& time) {
   place.time = time.text();
   const auto instant = parse_date_time(place.time);
   if (!instant) time.fail("a date and time with its offset such as 2026-06-21T12:00:00+02:00 (RFC 3339)");
   if (*instant < first_known_instant || *instant >= last_known_instant)
     time.fail("a date from 1900 to 2150, the years for which sun and moon are known");
   place.unix_s = *instant;
-  return place;
 }
 
 void parse_sun(const Field& field, Environment& environment) {
@@ -53,15 +93,23 @@ void parse_moon(const Field& field, Environment& environment) {
 
 }  // namespace
 
-Environment parse_environment(const Field& field) {
+Environment parse_environment(const Field& field, const std::optional<Georeference>& scene,
+                              std::vector<std::string>& warnings) {
   const FieldMap map(
       field, {"place", "time", "sun", "moon", "sky", "sky_illuminance_lux", "sky_glow_cd_m2", "turbidity",
               "temperature_k", "pressure_hpa", "water_vapour_g_m3", "rain_mm_h", "fog_g_m3", "fog_height_m"});
   Environment environment;
-  if (const auto f = map.find("place"))
-    environment.place = parse_place(*f, map.require("time", "a date and time beside place"));
-  else if (const auto time = map.find("time"))
-    time->fail("a place beside it: latitude_deg, longitude_deg");
+  const auto time = map.find("time");
+  if (const auto f = map.find("place")) {
+    environment.place = parse_place(*f);
+    parse_time_of(*environment.place, map.require("time", "a date and time beside place"));
+    if (scene) compare_places(*f, *environment.place, *scene, warnings);
+  } else if (time && scene) {
+    environment.place = place_of_scene(*scene, *time);
+    parse_time_of(*environment.place, *time);
+  } else if (time) {
+    time->fail("a place beside it (latitude_deg, longitude_deg) or a scene with a georeference");
+  }
   if (const auto f = map.find("sun")) parse_sun(*f, environment);
   if (const auto f = map.find("moon")) parse_moon(*f, environment);
   if (const auto f = map.find("sky"))

@@ -58,14 +58,15 @@ std::string folder_name(const Field& field) {
 }
 
 NodeConfig parse_node(const Field& field, size_t index, const Rational& tick_rate_hz,
-                      std::vector<NodeReference>& references, PatternFiles& patterns) {
+                      const EarthPositions& earth, std::vector<NodeReference>& references,
+                      PatternFiles& patterns) {
   const FieldMap map(field, {"name", "trajectory", "model", "class", "sensors"});
   NodeConfig node;
   node.where = field.where();
   const Field name = map.require("name", "a name");
   node.name = folder_name(name);
   if (node.name == "static") name.fail("a name other than 'static', which is the world that never moves");
-  node.trajectory = parse_trajectory(map.require("trajectory", "a trajectory"), index, references);
+  node.trajectory = parse_trajectory(map.require("trajectory", "a trajectory"), index, earth, references);
   if (const auto f = map.find("model")) {
     const FieldMap model(*f, {"file", "generate", "position_m", "rotation_deg", "scale", "parts"});
     node.model = parse_model_source(model);
@@ -314,13 +315,14 @@ Rational rate_of(const Field& field, const Rational& tick_rate_hz) {
   return rate;
 }
 
-std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz) {
+std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz,
+                                    const EarthPositions& earth) {
   std::vector<NodeConfig> nodes;
   std::vector<NodeReference> references;
   PatternFiles patterns;
   std::set<std::string> names;
   for (const Field& item : field.list("nodes")) {
-    nodes.push_back(parse_node(item, nodes.size(), tick_rate_hz, references, patterns));
+    nodes.push_back(parse_node(item, nodes.size(), tick_rate_hz, earth, references, patterns));
     if (!names.insert(nodes.back().name).second)
       item.fail("every node's name once", fmt::format("a second '{}'", nodes.back().name));
   }

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/scenario/parse/earth_positions.h"
 #include "sim/scenario/parse/pattern_file.h"
 #include "sim/scenario/parse/scenario_values.h"
 #include "sim/scenario/scenario.h"
@@ -49,8 +50,11 @@ dvec3 parse_scale(const Field& field);
 std::string parse_semantic_class(const Field& field);
 
 SceneConfig parse_scene(const Field& field);
-Environment parse_environment(const Field& field);
-Trajectory parse_trajectory(const Field& field, size_t node, std::vector<NodeReference>& references);
+/// Parses the environment of a scene. Place and time without a place take that of the georeference.
+Environment parse_environment(const Field& field, const std::optional<Georeference>& scene,
+                              std::vector<std::string>& warnings);
+Trajectory parse_trajectory(const Field& field, size_t node, const EarthPositions& earth,
+                            std::vector<NodeReference>& references);
 SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz, PatternFiles& patterns);
 /// Parses width, height, intrinsics, near_m, msaa, distortion.
 void parse_pinhole(const FieldMap& map, PinholeConfig& camera);
@@ -70,7 +74,8 @@ void resolve_illuminators(std::vector<NodeConfig>& nodes);
 void resolve_interferers(std::vector<NodeConfig>& nodes);
 /// Gives event cameras that share a camera's pixels its optics and mount.
 void resolve_event_cameras(std::vector<NodeConfig>& nodes);
-std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz);
+std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz,
+                                    const EarthPositions& earth);
 /// Parse parts of a receiver and of its processing, which radars and sensing channels share.
 rf::RadarWindow parse_window(const Field& field);
 void parse_cfar(const Field& field, rf::RadarCfar& cfar);

@@ -48,16 +48,43 @@ Generated parse_generated(const Field& field) {
   return generated;
 }
 
-StaticObject parse_object(const Field& field) {
-  const FieldMap map(field, {"name", "file", "generate", "position_m", "rotation_deg", "scale", "class"});
+/// Parses all but the position, which may need the georeference of the files of all objects.
+StaticObject parse_object(const FieldMap& map) {
   StaticObject object;
   object.name = map.require("name", "a name").name();
   object.model = parse_model_source(map);
-  if (const auto f = map.find("position_m")) object.position_m = position_of(*f);
   if (const auto f = map.find("rotation_deg")) object.rotation = angles_of(*f);
   if (const auto f = map.find("scale")) object.scale = parse_scale(*f);
   if (const auto f = map.find("class")) object.semantic_class = parse_semantic_class(*f);
   return object;
+}
+
+/// Parses `objects` behind the scene's main file.
+void parse_objects(const Field& field, SceneConfig& scene, std::vector<FieldMap>& maps) {
+  std::set<std::string> names;
+  for (const Field& item : field.list("objects")) {
+    maps.emplace_back(item, Keys{"name", "file", "generate", "position_m", "position_deg", "heights",
+                                 "rotation_deg", "scale", "class"});
+    scene.objects.push_back(parse_object(maps.back()));
+    const std::string& name = scene.objects.back().name;
+    if (!names.insert(name).second) item.fail("every object's name once", fmt::format("a second '{}'", name));
+  }
+}
+
+/// Returns the files among the objects. The last of them have `maps`.
+std::vector<SceneFile> files_of(const SceneConfig& scene, const std::vector<FieldMap>& maps) {
+  std::vector<SceneFile> files;
+  const size_t first = scene.objects.size() - maps.size();
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    const auto* const file = std::get_if<std::filesystem::path>(&scene.objects[i].model.source);
+    if (!file) continue;
+    bool in_place = true;
+    if (i >= first)
+      for (const char* key : {"position_m", "position_deg", "rotation_deg", "scale"})
+        in_place = in_place && !maps[i - first].has(key);
+    files.push_back({*file, scene.objects[i].model.where, in_place});
+  }
+  return files;
 }
 
 }  // namespace
@@ -106,22 +133,23 @@ ModelSource parse_model_source(const FieldMap& map) {
 }
 
 SceneConfig parse_scene(const Field& field) {
-  const FieldMap map(field, {"file", "generate", "objects", "radio_materials", "optical_only", "origin_m"});
+  const FieldMap map(field, {"file", "generate", "objects", "radio_materials", "optical_only", "origin_m",
+                             "georeference", "heights"});
   SceneConfig scene;
   if (map.has("file") || map.has("generate")) {
     StaticObject whole;  // instances keep the names of the file, without a prefix
     whole.model = parse_model_source(map);
     scene.objects.push_back(std::move(whole));
   }
-  if (const auto objects = map.find("objects")) {
-    std::set<std::string> names;
-    for (const Field& item : objects->list("objects")) {
-      scene.objects.push_back(parse_object(item));
-      const std::string& name = scene.objects.back().name;
-      if (!names.insert(name).second)
-        item.fail("every object's name once", fmt::format("a second '{}'", name));
-    }
-  }
+  std::vector<FieldMap> maps;
+  if (const auto objects = map.find("objects")) parse_objects(*objects, scene, maps);
+  if (const auto f = map.find("heights")) scene.heights = heights_of(*f);
+  scene.georeference = parse_georeference(map, files_of(scene, maps));
+  const EarthPositions earth(scene);
+  const size_t first = scene.objects.size() - maps.size();
+  for (size_t i = 0; i < maps.size(); ++i)
+    if (const auto position = find_position(maps[i], with_heights_of(maps[i], earth)))
+      scene.objects[first + i].position_m = *position;
   if (const auto f = map.find("radio_materials")) scene.radio_materials = f->file();
   if (const auto f = map.find("optical_only")) scene.optical_only = f->boolean();
   if (const auto f = map.find("origin_m")) scene.origin_m = position_of(*f);

@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "sim/scenario/limits.h"
 #include "sim/scenario/parse/csv.h"
+#include "sim/scenario/parse/place_table.h"
 
 namespace greatx::sim {
 namespace {
@@ -52,54 +53,95 @@ void check_trajectory_header(const CsvLine& line) {
   }
 }
 
-WayPoint parse_point(const CsvLine& line) {
+/// Returns a point of the given time; it has an attitude if `angles_deg` are given.
+WayPoint way_point(double time_s, const dvec3& position, const std::optional<dvec3>& angles_deg) {
+  WayPoint point{time_s, position, std::nullopt};
+  if (angles_deg)
+    point.orientation = orientation_from_yaw_pitch_roll(radians(angles_deg->x), radians(angles_deg->y),
+                                                        radians(angles_deg->z));
+  return point;
+}
+
+WayPoint parse_point(const CsvLine& line, LogTimes& times) {
   check_count(line);
-  std::array<double, 7> values{};
-  for (size_t i = 0; i < line.cells.size(); ++i) {
+  const auto number = [&](size_t i, double most) {
     const auto value = csv_number(line.cells[i].text);
     if (!value || !std::isfinite(*value))
       fail(line, i, "a finite number", fmt::format("'{}'", line.cells[i].text));
-    const double most = i == 0 ? most_time_s : i < 4 ? most_position_m : most_angle_deg;
     if (std::abs(*value) > most)
       fail(line, i, fmt::format("a number from {:g} to {:g}", -most, most),
            fmt::format("'{}'", line.cells[i].text));
-    values[i] = *value;
+    return *value;
+  };
+  const auto vector = [&](size_t i, double most) {
+    return dvec3(number(i, most), number(i + 1, most), number(i + 2, most));
+  };
+  const double time_s = times.next(
+      line.cells[0].text,
+      [&](const std::string& expected, const std::string& found) { fail(line, 0, expected, found); });
+  std::optional<dvec3> angles_deg;
+  const dvec3 position = vector(1, most_position_m);
+  if (line.cells.size() == 7) angles_deg = vector(4, most_angle_deg);
+  return way_point(time_s, position, angles_deg);
+}
+
+/// Parses the lines behind a header that names places on the Earth.
+std::vector<WayPoint> parse_places(const CsvLine& header, CsvReader& reader, const WayPointLog& log) {
+  using enum PlaceColumn;
+  constexpr std::array required{time, latitude, longitude, height};
+  constexpr std::array optional{yaw, pitch, roll};
+  const PlaceTable table(header, required, optional);
+  LogTimes times(log);
+  std::vector<WayPoint> points;
+  while (const std::optional<CsvLine> line = reader.next()) {
+    table.check(*line);
+    const double time_s = times.next(line->cells[table.cell(time)].text,
+                                     [&](const std::string& expected, const std::string& found) {
+                                       table.fail(*line, time, expected, found);
+                                     });
+    std::optional<dvec3> angles_deg;
+    if (table.has(yaw))
+      angles_deg = {table.number(*line, yaw, most_angle_deg), table.number(*line, pitch, most_angle_deg),
+                    table.number(*line, roll, most_angle_deg)};
+    points.push_back(way_point(time_s, table.position(*line, log.earth), angles_deg));
   }
-  WayPoint point{values[0], {values[1], values[2], values[3]}, std::nullopt};
-  if (line.cells.size() == 7)
-    point.orientation =
-        orientation_from_yaw_pitch_roll(radians(values[4]), radians(values[5]), radians(values[6]));
-  return point;
+  return points;
+}
+
+/// Parses lines in metres. `first` is the first of them, or a header.
+std::vector<WayPoint> parse_metres(const CsvLine& first, CsvReader& reader, const WayPointLog& log) {
+  std::vector<WayPoint> points;
+  LogTimes times(log);
+  const size_t columns = first.cells.size();
+  if (csv_number(first.cells[0].text))
+    points.push_back(parse_point(first, times));
+  else
+    check_trajectory_header(first);
+  while (const std::optional<CsvLine> line = reader.next()) {
+    check_count(*line);
+    if (line->cells.size() != columns)
+      line->fail(line->cells.size() - 1, fmt::format("expected {} values as in the lines before, found {}",
+                                                     columns, line->cells.size()));
+    points.push_back(parse_point(*line, times));
+  }
+  return points;
 }
 
 }  // namespace
 
-std::vector<WayPoint> parse_way_points(std::string_view text, const std::string& name) {
-  std::vector<WayPoint> points;
-  size_t columns = 0;  // number of columns in the first line
+std::vector<WayPoint> parse_way_points(std::string_view text, const std::string& name,
+                                       const WayPointLog& log) {
   CsvReader reader(text, name);
-  while (const std::optional<CsvLine> line = reader.next()) {
-    if (columns == 0 && !csv_number(line->cells[0].text)) {
-      check_trajectory_header(*line);
-      columns = line->cells.size();
-      continue;
-    }
-    const WayPoint point = parse_point(*line);
-    if (columns != 0 && line->cells.size() != columns)
-      line->fail(line->cells.size() - 1, fmt::format("expected {} values as in the lines before, found {}",
-                                                     columns, line->cells.size()));
-    columns = line->cells.size();
-    if (!points.empty() && !(point.time_s > points.back().time_s))
-      fail(*line, 0, fmt::format("a time greater than the one before, {}", points.back().time_s),
-           fmt::format("'{}'", line->cells[0].text));
-    points.push_back(point);
-  }
+  std::vector<WayPoint> points;
+  if (const std::optional<CsvLine> first = reader.next())
+    points =
+        PlaceTable::begins(*first) ? parse_places(*first, reader, log) : parse_metres(*first, reader, log);
   if (points.empty()) throw_user_error("{}: expected one way-point or more, found none", name);
   return points;
 }
 
-std::vector<WayPoint> load_way_points(const std::filesystem::path& file) {
-  return parse_way_points(read_csv_file(file, "way-points"), file.string());
+std::vector<WayPoint> load_way_points(const std::filesystem::path& file, const WayPointLog& log) {
+  return parse_way_points(read_csv_file(file, "way-points"), file.string(), log);
 }
 
 }  // namespace greatx::sim

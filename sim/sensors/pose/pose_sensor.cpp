@@ -9,7 +9,7 @@
 
 namespace greatx::sim {
 
-PoseSensor::PoseSensor(const Scenario& scenario, const dvec3& origin) {
+PoseSensor::PoseSensor(const Scenario& scenario, const scene::Scene& scene) {
   const auto nodes = static_cast<int64_t>(scenario.nodes.size());
   spec_.name = "poses";
   spec_.kind = "pose";
@@ -25,10 +25,19 @@ PoseSensor::PoseSensor(const Scenario& scenario, const dvec3& origin) {
   add("angular_velocity", 3, "rad/s", "[node, xyz] world axes");
   add("mean_velocity", 3, "m/s",
       "[node, xyz] (p_k - p_(k-1)) / (t_k - t_(k-1)); NaN in the first record of a sequence");
+  if (scene.georeference) {
+    frame_.emplace(*scene.georeference);
+    add("geodetic", 3, "deg, deg, m",
+        "[node, latitude longitude height] position on the Earth: WGS 84, height above the ellipsoid");
+  }
   nlohmann::json metadata;
   for (const NodeConfig& node : scenario.nodes) metadata["nodes"].push_back(node.name);
   metadata["non_finite"] = {"mean_velocity"};
-  metadata["local_origin_m"] = {origin.x, origin.y, origin.z};
+  metadata["local_origin_m"] = {scene.origin.x, scene.origin.y, scene.origin.z};
+  if (scene.georeference) {  // a height above the datum is that of the array less the undulation
+    metadata["undulation_m"] = scene.georeference->undulation_m;
+    metadata["vertical_datum"] = scene.georeference->vertical_datum;
+  }
   spec_.metadata_json = metadata.dump();
 }
 
@@ -58,6 +67,11 @@ void PoseSensor::record(gpu::TickSlot& slot, const TickContext& context) {
     const dvec3 before = context.motion_at(node, context.previous_time_s).pose.position;
     return (motions[node].pose.position - before) / (context.time_s - context.previous_time_s);
   });
+  if (frame_)
+    add(3, [&](uint32_t node) {
+      const Geodetic place = frame_->place(motions[node].pose.position);
+      return dvec3(place.latitude_deg, place.longitude_deg, place.height_m);
+    });
 }
 
 std::vector<Array> PoseSensor::collect(const gpu::TickSlot& slot) { return std::move(arrays_[slot.index]); }

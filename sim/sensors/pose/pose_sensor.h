@@ -3,7 +3,10 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
+#include "core/geodesy.h"
+#include "scene/description/scene.h"
 #include "sim/sensors/sensor.h"
 
 namespace greatx::sim {
@@ -11,7 +14,8 @@ namespace greatx::sim {
 /// Delivers the ground truth of the motion of all nodes whenever another sensor fires.
 class PoseSensor : public Sensor {
  public:
-  PoseSensor(const Scenario& scenario, const dvec3& origin);
+  /// If the scene has a georeference, each record also has the places of the nodes on the Earth.
+  PoseSensor(const Scenario& scenario, const scene::Scene& scene);
   const SensorSpec& spec() const override { return spec_; }
   void record(gpu::TickSlot& slot, const TickContext& context) override;
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
@@ -19,6 +23,7 @@ class PoseSensor : public Sensor {
 
  private:
   SensorSpec spec_;
+  std::optional<LocalFrame> frame_;
   std::array<std::vector<Array>, slots_in_flight> arrays_;
 };
 

@@ -96,7 +96,7 @@ static_assert(every_kind_that_fires_has_a_maker());
 std::vector<RunSensor> make_sensors(const SensorParts& parts) {
   std::vector<RunSensor> sensors;
   sensors.push_back(
-      {std::make_unique<PoseSensor>(parts.experiment.scenario, parts.experiment.scene().origin), {}, {}});
+      {std::make_unique<PoseSensor>(parts.experiment.scenario, parts.experiment.scene()), {}, {}});
   Workshop shop{parts, {}};
   const std::vector<NodeConfig>& nodes = parts.experiment.scenario.nodes;
   for (uint32_t node = 0; node < nodes.size(); ++node)

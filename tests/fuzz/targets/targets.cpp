@@ -13,6 +13,7 @@
 #include "io/formats/hdf5_records.h"
 #include "io/formats/npy.h"
 #include "scene/files/picture.h"
+#include "scene/georeference/georeference.h"
 #include "scene/gltf/model.h"
 #include "scene/import/mitsuba.h"
 #include "scene/import/ply_mesh.h"
@@ -23,6 +24,7 @@
 #include "sim/scenario/parse/receiver_list.h"
 #include "sim/scenario/parse/shot_csv.h"
 #include "sim/scenario/parse/trajectory_csv.h"
+#include "sim/scenario/parse/trajectory_gpx.h"
 
 namespace greatx::fuzz {
 
@@ -63,6 +65,10 @@ void read_gltf(const uint8_t* data, size_t size) {
   else
     (void)scene::load_model(written("input.gltf", data, size), {});
 }
+void read_georeference(const uint8_t* data, size_t size) {
+  const bool binary = size >= 4 && std::string(reinterpret_cast<const char*>(data), 4) == "glTF";
+  (void)scene::georeference_of_file(written(binary ? "place.glb" : "place.gltf", data, size));
+}
 void read_scenario(const uint8_t* data, size_t size) {
   (void)sim::parse_scenario(std::string(reinterpret_cast<const char*>(data), size), "input.yaml", scratch());
 }
@@ -81,11 +87,20 @@ void read_antenna_ffd(const uint8_t* data, size_t size) {
   (void)sim::load_pattern_file(written("pattern.ffd", data, size), {});
 }
 void read_shots(const uint8_t* data, size_t size) { (void)sim::load_shots(written("shots.csv", data, size)); }
+/// A place for tables and tracks in latitude and longitude.
+sim::EarthPositions somewhere() {
+  sim::SceneConfig scene;
+  scene.georeference = Georeference{{52.0116, 4.3571, 45.0}, 43.4, "NAP"};
+  return sim::EarthPositions(scene);
+}
 void read_trajectory(const uint8_t* data, size_t size) {
-  (void)sim::load_way_points(written("way.csv", data, size));
+  (void)sim::load_way_points(written("way.csv", data, size), {somewhere(), {}});
+}
+void read_gpx(const uint8_t* data, size_t size) {
+  (void)sim::load_gpx(written("way.gpx", data, size), {somewhere(), {}});
 }
 void read_receivers(const uint8_t* data, size_t size) {
-  (void)sim::load_receiver_list(written("receivers.csv", data, size));
+  (void)sim::load_receiver_list(written("receivers.csv", data, size), somewhere());
 }
 void read_ply(const uint8_t* data, size_t size) { (void)scene::read_ply_mesh({data, size}, "input.ply"); }
 void read_mitsuba(const uint8_t* data, size_t size) {
@@ -147,6 +162,8 @@ constexpr Target list[] = {
     {"packed", read_packed},
     {"antenna_msi", read_antenna_msi},
     {"antenna_ffd", read_antenna_ffd},
+    {"gpx", read_gpx},
+    {"georeference", read_georeference},
 };
 
 }  // namespace
