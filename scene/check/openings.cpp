@@ -240,7 +240,8 @@ Closing close_by_others(const Soup& soup, Topology& topology, const SoupTree& tr
   constexpr size_t block = 64;
   parallel_for((edges.size() + block - 1) / block, options.threads, [&](size_t number) {
     for (size_t e = number * block; e < std::min(edges.size(), (number + 1) * block); ++e)
-      closed[e] = close_edge(edges[e], soup, topology, tree, options.weld_m);
+      if (edges[e].shared_with == nothing)
+        closed[e] = close_edge(edges[e], soup, topology, tree, options.weld_m);
   });
   Closing closing;
   closing.group.resize(topology.parts.size());
@@ -251,15 +252,14 @@ Closing close_by_others(const Soup& soup, Topology& topology, const SoupTree& tr
   };
   std::vector<std::pair<dvec3, uint32_t>> junctions;
   for (size_t e = 0; e < edges.size(); ++e) {
-    edges[e].closed = edges[e].shared || closed[e].open_m == 0.0;
+    if (edges[e].shared_with != nothing) closed[e].parts = {edges[e].shared_with};
+    edges[e].closed = closed[e].open_m == 0.0;
     edges[e].open_m = edges[e].closed ? 0.0 : closed[e].open_m;
     for (const uint32_t other : closed[e].parts) {
       const uint32_t a = root(topology.part[edges[e].triangle]), b = root(other);
       closing.group[std::max(a, b)] = std::min(a, b);
     }
-    if (!edges[e].shared)
-      for (const dvec3& corner : closed[e].junctions)
-        junctions.emplace_back(corner, static_cast<uint32_t>(e));
+    for (const dvec3& corner : closed[e].junctions) junctions.emplace_back(corner, static_cast<uint32_t>(e));
   }
   for (uint32_t p = 0; p < closing.group.size(); ++p) closing.group[p] = root(p);
   add_junctions(junctions, options.weld_m, soup, topology, faults);

@@ -23,6 +23,8 @@ constexpr FaultList::Kind close_faces{FaultSeverity::doubt, "close_faces",
                                       "pairs of triangles with a gap so small that they flicker", "m2"};
 /// Planes at a larger angle are no layers of one surface.
 constexpr double least_cosine = 0.995;
+/// Pairs of one triangle with later ones that are counted: a heap of n copies makes no n * n pairs.
+constexpr size_t most_of_one = 64;
 
 /// A convex polygon in a plane: a triangle cut by up to three lines has at most six corners.
 struct Polygon {
@@ -129,20 +131,20 @@ void find_overlaps(const Soup& soup, const SoupTree& tree, const CheckOptions& o
   const size_t blocks = (soup.triangles.size() + block - 1) / block;
   std::vector<std::vector<Found>> found(blocks);
   parallel_for(blocks, options.threads, [&](size_t number) {
-    std::vector<uint32_t> near;
     for (size_t i = number * block; i < std::min(soup.triangles.size(), (number + 1) * block); ++i) {
       Bounds box;
       for (const dvec3& corner : soup.triangles[i].corners) box.add(corner);
       box.min -= options.gap_m, box.max += options.gap_m;
-      near.clear();
-      tree.boxes().gather(
+      const size_t before = found[number].size();
+      tree.boxes().visit_until(
           [&](const Bounds& other) {
             return glm::any(glm::lessThan(box.max, other.min)) ||
                    glm::any(glm::greaterThan(box.min, other.max));
           },
-          near);
-      for (const uint32_t j : near)
-        if (j > i) compare(soup, static_cast<uint32_t>(i), j, options, found[number]);
+          [&](uint32_t j) {
+            if (j > i) compare(soup, static_cast<uint32_t>(i), j, options, found[number]);
+            return found[number].size() - before >= most_of_one;
+          });
     }
   });
   for (const std::vector<Found>& list : found)

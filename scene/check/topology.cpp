@@ -185,9 +185,11 @@ class Maker {
             edge, [&](const Side& other) { return result_.part[other.side / 3] == part; });
         if (same != 1) continue;
         const uint32_t end = next_of(side.side);
-        edges[part - first_part].push_back({side.side / 3, place(side.side), place(end),
-                                            result_.corners[side.side], result_.corners[end], edge.size() > 1,
-                                            false, 0.0});
+        OpenEdge open{side.side / 3, place(side.side), place(end), result_.corners[side.side],
+                      result_.corners[end]};
+        for (const Side& other : edge)
+          if (result_.part[other.side / 3] != part) open.shared_with = result_.part[other.side / 3];
+        edges[part - first_part].push_back(open);
       }
     });
     for (size_t i = 0; i < edges.size(); ++i) {

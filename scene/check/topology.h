@@ -15,11 +15,11 @@ namespace greatx::scene::check {
 /// An edge that exactly one triangle of its part has.
 struct OpenEdge {
   uint32_t triangle = 0;
-  dvec3 a{0.0}, b{0.0};       ///< in the order of the triangle's winding
-  uint32_t from = 0, to = 0;  ///< Topology::corners of a and b
-  bool shared = false;        ///< other parts of the same object have the same edge
-  bool closed = false;        ///< set by close_by_others(): surfaces lie along the whole edge
-  double open_m = 0.0;        ///< set by close_by_others(): length that no surface closes
+  dvec3 a{0.0}, b{0.0};            ///< in the order of the triangle's winding
+  uint32_t from = 0, to = 0;       ///< Topology::corners of a and b
+  uint32_t shared_with = nothing;  ///< another part of the same object that has the same edge
+  bool closed = false;             ///< set by close_by_others(): surfaces lie along the whole edge
+  double open_m = 0.0;             ///< set by close_by_others(): length that no surface closes
 };
 
 /// Where openings would have caps: the open edges of a part that hang together.

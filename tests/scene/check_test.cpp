@@ -264,6 +264,15 @@ TEST(SceneCheckOverlaps, APlateThinnerThanTheGapIsNone) {
   EXPECT_EQ(kinds_of(scene.check(options)), "");
 }
 
+TEST(SceneCheckOverlaps, AHeapOfCopiesIsCountedWithABound) {
+  SceneWriter scene;
+  Shape heap;
+  for (int i = 0; i < 100; ++i) heap.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  scene.add("ground", heap);
+  // 36 triangles have more than 64 later ones: 36 * 64 + (63 + 62 + ... + 1).
+  EXPECT_EQ(kinds_of(scene.check()), "duplicate 4320");
+}
+
 TEST(SceneCheckJunctions, ACornerOnAnEdge) {
   SceneWriter scene;
   Shape shape = box({0, 0, 0}, {10, 8, 6}, all_faces & ~top);
