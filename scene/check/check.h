@@ -15,7 +15,7 @@
 //
 // A part is a set of triangles of one object (a node with a mesh) that hang together by edges that exactly
 // two of them share. A part is closed if it has no other edges, nearly closed if caps over its openings would
-// have at most a quarter of its area, and otherwise a sheet. Closed and nearly closed parts claim to be
+// have at most 45 % of its area, and otherwise a sheet. Closed and nearly closed parts claim to be
 // solids.
 #pragma once
 

@@ -61,8 +61,9 @@ struct Topology {
   }
 };
 
-/// Caps may have this part of the area of a part that is nearly closed: a cube without one face has 1/5.
-inline constexpr double most_cap_share = 0.25;
+/// Caps may have this part of the area of a part that is nearly closed. A cube without one face has 1/5, half
+/// a sphere 1/2, and a hall of 20 x 20 x 6.5 m without its floor 0.43.
+inline constexpr double most_cap_share = 0.45;
 /// A cap of a part that is nearly closed is at most this many times as large as the surfaces that face the
 /// cap's direction or the opposite one, projected and halved. A box without one face has 2. A tube has no
 /// surface across it and is a sheet.

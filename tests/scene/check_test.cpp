@@ -198,6 +198,16 @@ TEST(SceneCheckHoles, FoliageClaimsToBeASolid) {
   EXPECT_EQ(kinds_of(scene.check()), "hole 1");
 }
 
+TEST(SceneCheckHoles, AHallClaimsToBeASolidAndABasinDoesNot) {
+  for (const double height : {6.5, 5.0}) {
+    SceneWriter scene;
+    scene.add("hall", box({0, 0, 0}, {20, 20, height}, all_faces & ~bottom));
+    CheckOptions options;
+    options.rays = 0;
+    EXPECT_EQ(kinds_of(scene.check(options)), height > 6.0 ? "hole 1" : "open_sheet 1") << height;
+  }
+}
+
 TEST(SceneCheckHoles, ATubeIsASheet) {
   SceneWriter scene;
   scene.add("pipe", box({0, 0, 0}, {1, 1, 20}, west | east | south | north));
