@@ -71,6 +71,7 @@ struct CheckFigures {
   uint64_t closed_parts = 0, nearly_closed_parts = 0, sheets = 0;
   uint64_t open_edges = 0, closed_by_others = 0;  ///< edges with one triangle; those that other parts close
   uint64_t rays = 0, rays_out = 0;
+  uint64_t crowds = 0;  ///< triangles and edges of whose many neighbours only 1024 were looked at
   Bounds bounds;
 };
 

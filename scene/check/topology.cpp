@@ -64,7 +64,7 @@ class Welder {
 
   /// Returns the number of the first corner within the distance, or `number` if there is none before it.
   uint32_t weld(const dvec3& p, uint32_t number) {
-    const Cell cell{index(p.x), index(p.y), index(p.z)};
+    const Cell cell{cell_of(p.x, distance_), cell_of(p.y, distance_), cell_of(p.z, distance_)};
     uint32_t found = number;
     double nearest = distance_;
     for (int64_t x = -1; x <= 1; ++x)
@@ -81,7 +81,6 @@ class Welder {
   }
 
  private:
-  int64_t index(double x) const { return static_cast<int64_t>(std::floor(x / distance_)); }
   double distance_;
   std::unordered_map<Cell, std::vector<std::pair<dvec3, uint32_t>>, CellHash> cells_;
 };
@@ -178,18 +177,21 @@ class Maker {
 
   void find_open_edges(const SoupObject& range, size_t first_part) {
     std::vector<std::vector<OpenEdge>> edges(result_.parts.size() - first_part);
+    std::vector<std::pair<uint32_t, uint32_t>> by_part;  // part, side
     for_each_edge(result_.corners, range.first, range.count, [&](std::span<const Side> edge) {
-      for (const Side& side : edge) {
-        const uint32_t part = result_.part[side.side / 3];
-        const auto same = std::ranges::count_if(
-            edge, [&](const Side& other) { return result_.part[other.side / 3] == part; });
-        if (same != 1) continue;
-        const uint32_t end = next_of(side.side);
-        OpenEdge open{side.side / 3, place(side.side), place(end), result_.corners[side.side],
-                      result_.corners[end]};
-        for (const Side& other : edge)
-          if (result_.part[other.side / 3] != part) open.shared_with = result_.part[other.side / 3];
-        edges[part - first_part].push_back(open);
+      // The sides by part: most edges have one or two, but a fan has thousands about one edge.
+      by_part.clear();
+      for (const Side& side : edge) by_part.emplace_back(result_.part[side.side / 3], side.side);
+      std::ranges::sort(by_part);
+      for (size_t i = 0; i < by_part.size(); ++i) {
+        const auto [part, side] = by_part[i];
+        const bool alone = (i == 0 || by_part[i - 1].first != part) &&
+                           (i + 1 == by_part.size() || by_part[i + 1].first != part);
+        if (!alone) continue;
+        const uint32_t end = next_of(side);
+        const uint32_t other = by_part.size() == 1 ? nothing : by_part[i > 0 ? i - 1 : 1].first;
+        edges[part - first_part].push_back(
+            {side / 3, place(side), place(end), result_.corners[side], result_.corners[end], other});
       }
     });
     for (size_t i = 0; i < edges.size(); ++i) {

@@ -279,8 +279,8 @@ TEST(SceneCheckOverlaps, AHeapOfCopiesIsCountedWithABound) {
   Shape heap;
   for (int i = 0; i < 100; ++i) heap.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   scene.add("ground", heap);
-  // 36 triangles have more than 64 later ones: 36 * 64 + (63 + 62 + ... + 1).
-  EXPECT_EQ(kinds_of(scene.check()), "duplicate 4320");
+  // 84 triangles have at least 16 later ones: 84 * 16 + (15 + 14 + ... + 1).
+  EXPECT_EQ(kinds_of(scene.check()), "duplicate 1464");
 }
 
 TEST(SceneCheckJunctions, ACornerOnAnEdge) {
@@ -419,6 +419,16 @@ TEST(SceneCheckSizes, NotFiniteAndNoArea) {
   scene.add("house", shape);
   EXPECT_EQ(kinds_of(scene.check()), "not_finite 1, no_area 1");
   expect_user_error([&] { scene.load(); }, {"vertex 37 is not finite"});
+}
+
+TEST(SceneCheckSizes, CoordinatesOfAnySizeEnd) {
+  for (const double size : {1e-30, 1e15, 1e30}) {
+    SceneWriter scene;
+    scene.add("thing", box({0, 0, 0}, {size, size, size}, all_faces & ~top));
+    const SceneFaults faults = scene.check();
+    EXPECT_NE(faults.find("scene_size"), nullptr) << size << ": " << kinds_of(faults);
+    EXPECT_NE(faults.find("hole"), nullptr) << size << ": " << kinds_of(faults);
+  }
 }
 
 TEST(SceneCheckSizes, AnObjectFarAway) {
