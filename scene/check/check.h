@@ -28,8 +28,8 @@
 namespace greatx::scene {
 
 struct CheckOptions {
-  /// Corners of one object this close together are welded, if their edges are open otherwise. An open edge is
-  /// closed by a surface that is this close, or nearer than a tenth of the edge's length if that is less.
+  /// Corners of one object this close together are welded, if their edges are open otherwise, and an open
+  /// edge is closed by a surface that is this close; or a tenth of the edge's length, if that is less.
   double weld_m = 1e-3;
   double gap_m = 1e-3;        ///< faces that overlap with a smaller gap are reported
   double overlap_m2 = 1e-4;   ///< overlaps of a smaller area are not

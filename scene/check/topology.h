@@ -70,7 +70,8 @@ inline constexpr double most_cap_share = 0.45;
 inline constexpr double most_cap_by_shadow = 3.0;
 
 /// Corners at exactly the same place are one. Where edges then are open, their ends are welded within
-/// `weld_m` (each to the first one near enough), so that a mesh of details smaller than that keeps its form.
+/// `weld_m`, or a tenth of the shortest open edge at either if that is less (each to the nearest one before
+/// it), so that a mesh of details smaller than that keeps its form.
 /// Triangles that welding leaves without area belong to no edge and are parts of their own.
 Topology make_topology(const Soup& soup, double weld_m);
 
