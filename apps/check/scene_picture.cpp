@@ -108,6 +108,8 @@ Array draw_faults(const scene::Model& model, const scene::SceneFaults& faults, i
     for (const scene::FaultPlace& place : fault->places) {
       if (place.object.empty()) continue;
       const dvec2 at = view.pixel(place.at) + dvec2(margin);
+      // A place of a corner that is not finite may lie anywhere.
+      if (!(at.x >= 0.0 && at.y >= 0.0 && at.x <= canvas.width() && at.y <= canvas.height())) continue;
       const bool is_fault = fault->severity == scene::FaultSeverity::fault;
       canvas.circle(at.x, at.y, is_fault ? 6.0 : 4.0, is_fault ? 2.0 : 1.2, is_fault ? red : orange);
     }

@@ -44,6 +44,9 @@ std::string figures_words(const scene::CheckFigures& figures) {
                       figures.closed_by_others, figures.open_edges);
   if (figures.rays > 0)
     text += fmt::format("  {} of {} rays from inside met nothing\n", figures.rays_out, figures.rays);
+  if (figures.crowds > 0)
+    text += fmt::format("  {} triangles and edges have so many neighbours that only 1024 were looked at\n",
+                        figures.crowds);
   if (figures.bounds.empty()) return text;
   const dvec3 size = figures.bounds.size(), center = figures.bounds.center();
   return text + fmt::format("  {:.2f} x {:.2f} x {:.2f} m around ({:.2f}, {:.2f}, {:.2f})\n", size.x, size.y,
@@ -88,6 +91,7 @@ nlohmann::json scene_check_json(const std::string& file, const scene::SceneFault
               {"closed_by_others", figures.closed_by_others},
               {"rays", figures.rays},
               {"rays_out", figures.rays_out},
+              {"crowds", figures.crowds},
               {"findings", json::array()}};
   if (!figures.bounds.empty()) {
     result["min_m"] = vector(figures.bounds.min);

@@ -40,7 +40,7 @@ SceneFaults check_scene(const Model& model, const CheckOptions& options) {
   find_wrong_sides(soup, topology, list);
   find_wrong_normals(model, list);
   const RayCount rays = find_leaks_by_rays(soup, topology, closing, tree, options, list);
-  find_overlaps(soup, tree, options, list);
+  figures.crowds = closing.crowds + find_overlaps(soup, tree, options, list);
   figures.facets = find_small_faces(soup, topology, options, list);
   find_strange_sizes(soup, options, list);
 

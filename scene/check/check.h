@@ -15,7 +15,7 @@
 //
 // A part is a set of triangles of one object (a node with a mesh) that hang together by edges that exactly
 // two of them share. A part is closed if it has no other edges, nearly closed if caps over its openings would
-// have at most a quarter of its area, and otherwise a sheet. Closed and nearly closed parts claim to be
+// have at most 45 % of its area, and otherwise a sheet. Closed and nearly closed parts claim to be
 // solids.
 #pragma once
 
@@ -28,8 +28,8 @@
 namespace greatx::scene {
 
 struct CheckOptions {
-  /// Corners of one object this close together are welded, if their edges are open otherwise. An open edge is
-  /// closed by a surface that is this close, or nearer than a tenth of the edge's length if that is less.
+  /// Corners of one object this close together are welded, if their edges are open otherwise, and an open
+  /// edge is closed by a surface that is this close; or a tenth of the edge's length, if that is less.
   double weld_m = 1e-3;
   double gap_m = 1e-3;        ///< faces that overlap with a smaller gap are reported
   double overlap_m2 = 1e-4;   ///< overlaps of a smaller area are not
@@ -71,6 +71,7 @@ struct CheckFigures {
   uint64_t closed_parts = 0, nearly_closed_parts = 0, sheets = 0;
   uint64_t open_edges = 0, closed_by_others = 0;  ///< edges with one triangle; those that other parts close
   uint64_t rays = 0, rays_out = 0;
+  uint64_t crowds = 0;  ///< triangles and edges of whose many neighbours only 1024 were looked at
   Bounds bounds;
 };
 

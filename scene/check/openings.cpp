@@ -3,6 +3,7 @@
 #include "scene/check/openings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -71,6 +72,7 @@ double uncovered(std::vector<Interval>& intervals) {
 /// What the surfaces around one open edge do to it.
 struct Closed {
   double open_m = 0.0;
+  bool crowd = false;            ///< not all neighbours were looked at
   std::vector<uint32_t> parts;   ///< whose triangles lie along the edge
   std::vector<dvec3> junctions;  ///< corners on the inside of the edge
 };
@@ -81,13 +83,12 @@ Closed close_edge(const OpenEdge& edge, const Soup& soup, const Topology& topolo
   const dvec3 along = edge.b - edge.a;
   const double length = glm::length(along);
   const double tolerance = std::min(weld_m, 0.1 * length);
-  std::vector<uint32_t> near;
-  tree.near_segment(edge.a, edge.b, tolerance, near);
   std::vector<Interval> intervals;
-  for (const uint32_t t : near) {
-    if (t == edge.triangle) continue;
+  size_t seen = 0;
+  const auto look_at = [&](uint32_t t) {
+    if (t == edge.triangle) return;
     const auto interval = in_slab(edge, soup.triangles[t], soup.normals[t], tolerance);
-    if (!interval) continue;
+    if (!interval) return;
     intervals.push_back(*interval);
     // Triangles that touch an end of the edge alone do not close it.
     if ((interval->to - interval->from) * length > 4.0 * tolerance) result.parts.push_back(topology.part[t]);
@@ -97,7 +98,13 @@ Closed close_edge(const OpenEdge& edge, const Soup& soup, const Topology& topolo
       const bool on_edge = glm::distance(corner, edge.a + t_corner * along) <= tolerance;
       if (on_edge && from_end > 2.0 * tolerance) result.junctions.push_back(corner);
     }
-  }
+  };
+  result.crowd = tree.boxes().visit_until(
+      [&](const Bounds& box) { return !ray_meets(box, edge.a, along, 1.0, tolerance); },
+      [&](uint32_t t) {
+        if (ray_meets(tree.box(t), edge.a, along, 1.0, tolerance)) look_at(t), ++seen;
+        return seen > most_neighbors;
+      });
   // Surfaces that touch the ends alone leave the whole edge open.
   const double open = result.parts.empty() ? length : uncovered(intervals) * length;
   result.open_m = open > std::max(2.0 * tolerance, 1e-9 * length) ? open : 0.0;
@@ -107,21 +114,35 @@ Closed close_edge(const OpenEdge& edge, const Soup& soup, const Topology& topolo
 }
 
 /// Adds each junction once: edges of several triangles end in one corner.
-void add_junctions(std::vector<std::pair<dvec3, uint32_t>>& junctions, double tolerance, const Soup& soup,
-                   const Topology& topology, FaultList& faults) {
-  const auto order = [](const auto& j) { return std::tie(j.first.x, j.first.y, j.first.z, j.second); };
-  std::ranges::sort(junctions, [&](const auto& a, const auto& b) { return order(a) < order(b); });
-  std::vector<dvec3> kept;
-  for (const auto& [corner, e] : junctions) {
-    bool known = false;
-    for (size_t i = kept.size(); i-- > 0 && corner.x - kept[i].x <= tolerance && !known;)
-      known = glm::distance(kept[i], corner) <= tolerance;
-    if (known) continue;
-    kept.push_back(corner);
-    const uint32_t t = topology.open_edges[e].triangle;
-    faults.add(t_junction, {corner, soup.object[t], nothing, soup.material[t], 0.0});
+class Junctions {
+ public:
+  Junctions(double tolerance, const Soup& soup, FaultList& faults)
+      : tolerance_(tolerance), soup_(soup), faults_(faults) {}
+
+  void add(const dvec3& corner, uint32_t triangle) {
+    std::array<int64_t, 3> cell;
+    for (size_t axis = 0; axis < 3; ++axis) cell[axis] = cell_of(corner[static_cast<int>(axis)], tolerance_);
+    if (is_known(corner, cell)) return;
+    kept_[cell].push_back(corner);
+    faults_.add(t_junction, {corner, soup_.object[triangle], nothing, soup_.material[triangle], 0.0});
   }
-}
+
+ private:
+  bool is_known(const dvec3& corner, const std::array<int64_t, 3>& cell) const {
+    for (int i = 0; i < 27; ++i)
+      if (const auto found = kept_.find({cell[0] + i % 3 - 1, cell[1] + i / 3 % 3 - 1, cell[2] + i / 9 - 1});
+          found != kept_.end())
+        for (const dvec3& other : found->second)
+          if (glm::distance(other, corner) <= tolerance_) return true;
+    return false;
+  }
+
+  double tolerance_;
+  const Soup& soup_;
+  FaultList& faults_;
+  /// Corners by cells as wide as the tolerance: those near a corner are in its cell or in one beside it.
+  std::map<std::array<int64_t, 3>, std::vector<dvec3>> kept_;
+};
 
 bool lies_on_ground(SemanticClass semantic_class) {
   return semantic_class == SemanticClass::ground || semantic_class == SemanticClass::road ||
@@ -236,12 +257,6 @@ std::vector<Opening> openings_of(const Loop& loop, const Topology& topology) {
 Closing close_by_others(const Soup& soup, Topology& topology, const SoupTree& tree,
                         const CheckOptions& options, FaultList& faults) {
   std::vector<OpenEdge>& edges = topology.open_edges;
-  std::vector<Closed> closed(edges.size());
-  constexpr size_t block = 64;
-  parallel_for((edges.size() + block - 1) / block, options.threads, [&](size_t number) {
-    for (size_t e = number * block; e < std::min(edges.size(), (number + 1) * block); ++e)
-      closed[e] = close_edge(edges[e], soup, topology, tree, options.weld_m);
-  });
   Closing closing;
   closing.group.resize(topology.parts.size());
   std::iota(closing.group.begin(), closing.group.end(), 0u);
@@ -249,20 +264,31 @@ Closing close_by_others(const Soup& soup, Topology& topology, const SoupTree& tr
     while (closing.group[p] != p) p = closing.group[p] = closing.group[closing.group[p]];
     return p;
   };
-  std::vector<std::pair<dvec3, uint32_t>> junctions;
-  for (size_t e = 0; e < edges.size(); ++e) {
-    edges[e].closed = edges[e].shared || closed[e].open_m == 0.0;
-    edges[e].open_m = edges[e].closed ? 0.0 : closed[e].open_m;
-    for (const uint32_t other : closed[e].parts) {
-      const uint32_t a = root(topology.part[edges[e].triangle]), b = root(other);
-      closing.group[std::max(a, b)] = std::min(a, b);
+  Junctions junctions(std::max(options.weld_m, 1e-9), soup, faults);
+  // What is found along a few hundred edges is taken in before the next ones, since it may be much.
+  constexpr size_t block = 512;
+  std::vector<Closed> closed;
+  for (size_t first = 0; first < edges.size(); first += block) {
+    closed.assign(std::min(block, edges.size() - first), {});
+    parallel_for(closed.size(), options.threads, [&](size_t i) {
+      if (edges[first + i].shared_with == nothing)
+        closed[i] = close_edge(edges[first + i], soup, topology, tree, options.weld_m);
+      else
+        closed[i].parts = {edges[first + i].shared_with};
+    });
+    for (size_t i = 0; i < closed.size(); ++i) {
+      OpenEdge& edge = edges[first + i];
+      closing.crowds += closed[i].crowd ? 1 : 0;
+      edge.closed = closed[i].open_m == 0.0;
+      edge.open_m = closed[i].open_m;
+      for (const uint32_t other : closed[i].parts) {
+        const uint32_t a = root(topology.part[edge.triangle]), b = root(other);
+        closing.group[std::max(a, b)] = std::min(a, b);
+      }
+      for (const dvec3& corner : closed[i].junctions) junctions.add(corner, edge.triangle);
     }
-    if (!edges[e].shared)
-      for (const dvec3& corner : closed[e].junctions)
-        junctions.emplace_back(corner, static_cast<uint32_t>(e));
   }
   for (uint32_t p = 0; p < closing.group.size(); ++p) closing.group[p] = root(p);
-  add_junctions(junctions, options.weld_m, soup, topology, faults);
   return closing;
 }
 

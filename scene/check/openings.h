@@ -20,6 +20,7 @@ namespace greatx::scene::check {
 struct Closing {
   /// [parts] Parts of the same group close edges of each other.
   std::vector<uint32_t> group;
+  uint64_t crowds = 0;  ///< edges with more than most_neighbors; those that were left out close nothing
 };
 
 /// Sets `closed` and `open_m` of all open edges, and adds T-junctions to `faults`: corners of the closing

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "core/parallel.h"
@@ -23,6 +24,8 @@ constexpr FaultList::Kind close_faces{FaultSeverity::doubt, "close_faces",
                                       "pairs of triangles with a gap so small that they flicker", "m2"};
 /// Planes at a larger angle are no layers of one surface.
 constexpr double least_cosine = 0.995;
+/// Pairs of one triangle with larger ones that are counted: a heap of n copies makes no n * n pairs.
+constexpr size_t most_of_one = 16;
 
 /// A convex polygon in a plane: a triangle cut by up to three lines has at most six corners.
 struct Polygon {
@@ -124,29 +127,35 @@ void compare(const Soup& soup, uint32_t i, uint32_t j, const CheckOptions& optio
 
 }  // namespace
 
-void find_overlaps(const Soup& soup, const SoupTree& tree, const CheckOptions& options, FaultList& faults) {
+uint64_t find_overlaps(const Soup& soup, const SoupTree& tree, const CheckOptions& options,
+                       FaultList& faults) {
   constexpr size_t block = 1024;
   const size_t blocks = (soup.triangles.size() + block - 1) / block;
   std::vector<std::vector<Found>> found(blocks);
+  std::vector<uint64_t> crowds(blocks);
   parallel_for(blocks, options.threads, [&](size_t number) {
-    std::vector<uint32_t> near;
-    for (size_t i = number * block; i < std::min(soup.triangles.size(), (number + 1) * block); ++i) {
-      Bounds box;
-      for (const dvec3& corner : soup.triangles[i].corners) box.add(corner);
+    for (size_t at = number * block; at < std::min(soup.triangles.size(), (number + 1) * block); ++at) {
+      const auto i = static_cast<uint32_t>(at);
+      Bounds box = tree.box(i);
       box.min -= options.gap_m, box.max += options.gap_m;
-      near.clear();
-      tree.boxes().gather(
-          [&](const Bounds& other) {
-            return glm::any(glm::lessThan(box.max, other.min)) ||
-                   glm::any(glm::greaterThan(box.min, other.max));
-          },
-          near);
-      for (const uint32_t j : near)
-        if (j > i) compare(soup, static_cast<uint32_t>(i), j, options, found[number]);
+      const auto outside = [&](const Bounds& other) {
+        return glm::any(glm::lessThan(box.max, other.min)) || glm::any(glm::greaterThan(box.min, other.max));
+      };
+      const size_t before = found[number].size();
+      size_t seen = 0;
+      tree.boxes().visit_until(outside, [&](uint32_t j) {
+        // The smaller one of a pair looks for the larger one, since a ground has thousands of neighbours.
+        const bool mine = soup.areas[j] > soup.areas[i] || (soup.areas[j] == soup.areas[i] && j > i);
+        if (!mine || outside(tree.box(j))) return false;
+        compare(soup, std::min(i, j), std::max(i, j), options, found[number]);
+        crowds[number] += ++seen == most_neighbors ? 1 : 0;
+        return seen == most_neighbors || found[number].size() - before >= most_of_one;
+      });
     }
   });
   for (const std::vector<Found>& list : found)
     for (const Found& one : list) faults.add(*one.kind, one.place);
+  return std::accumulate(crowds.begin(), crowds.end(), uint64_t{0});
 }
 
 }  // namespace greatx::scene::check

@@ -19,7 +19,12 @@ namespace greatx::scene::check {
 ///                     duplicates included: solids that touch, or a party wall that both have (a doubt)
 ///   close_faces       faces that look the same way with a gap below gap_m, which flicker in pictures (a
 ///                     doubt)
+/// Of one triangle, at most 16 pairs with larger triangles are counted (of triangles of one size: with
+/// later ones).
 /// Opposite faces of one object with a gap, such as the two sides of a plate, are none of these.
-void find_overlaps(const Soup& soup, const SoupTree& tree, const CheckOptions& options, FaultList& faults);
+/// Returns the number of triangles with more than most_neighbors larger neighbours, of which some were left
+/// out.
+uint64_t find_overlaps(const Soup& soup, const SoupTree& tree, const CheckOptions& options,
+                       FaultList& faults);
 
 }  // namespace greatx::scene::check

@@ -88,15 +88,19 @@ Soup make_soup(const Model& model, FaultList& faults) {
 }
 
 SoupTree::SoupTree(const Soup& soup) {
-  std::vector<Bounds> boxes(soup.triangles.size());
-  for (size_t t = 0; t < boxes.size(); ++t)
-    for (const dvec3& corner : soup.triangles[t].corners) boxes[t].add(corner);
-  boxes_ = BoxTree(boxes);
+  bounds_.resize(soup.triangles.size());
+  for (size_t t = 0; t < bounds_.size(); ++t)
+    for (const dvec3& corner : soup.triangles[t].corners) bounds_[t].add(corner);
+  boxes_ = BoxTree(bounds_);
 }
 
 void SoupTree::near_segment(const dvec3& a, const dvec3& b, double distance_m,
                             std::vector<uint32_t>& found) const {
   boxes_.gather([&](const Bounds& box) { return !ray_meets(box, a, b - a, 1.0, distance_m); }, found);
+}
+
+int64_t cell_of(double x, double width) {
+  return static_cast<int64_t>(std::clamp(std::floor(x / width), -9e18, 9e18));
 }
 
 bool ray_meets(const Bounds& box, const dvec3& origin, const dvec3& direction, double most, double distance) {
@@ -115,21 +119,21 @@ bool ray_meets(const Bounds& box, const dvec3& origin, const dvec3& direction, d
   return enter <= leave;
 }
 
-std::vector<SceneFault> FaultList::finish(const Model& model, size_t most_places) const {
+std::vector<SceneFault> FaultList::finish(const Model& model, size_t most_places) {
   std::vector<SceneFault> list;
-  for (const auto& [name, entry] : entries_) {
+  for (auto& [name, entry] : entries_) {
     SceneFault fault;
     fault.severity = entry.kind.severity;
     fault.kind = name;
     fault.text = entry.kind.text;
     fault.unit = entry.kind.unit;
     fault.count = entry.places.size();
-    std::vector<Place> places = entry.places;
+    for (const Place& place : entry.places) fault.total += place.size;
+    std::vector<Place>& places = entry.places;
     std::ranges::stable_sort(places, [&](const Place& a, const Place& b) {
       return entry.kind.small_is_worst ? a.size < b.size : a.size > b.size;
     });
     fault.worst = places.front().size;
-    for (const Place& place : entry.places) fault.total += place.size;
     for (size_t i = 0; i < std::min(places.size(), most_places); ++i) {
       const Place& place = places[i];
       const auto object_name = [&](uint32_t object) {

@@ -46,16 +46,25 @@ class SoupTree {
  public:
   explicit SoupTree(const Soup& soup);
   const BoxTree& boxes() const { return boxes_; }
+  const Bounds& box(uint32_t triangle) const { return bounds_[triangle]; }
   /// Appends, ascending, the triangles whose box comes within `distance_m` of the segment.
   void near_segment(const dvec3& a, const dvec3& b, double distance_m, std::vector<uint32_t>& found) const;
 
  private:
+  std::vector<Bounds> bounds_;
   BoxTree boxes_;
 };
+
+/// Returns the number of the cell of width `width` in which x is; cells beyond the range of integers are one.
+int64_t cell_of(double x, double width);
 
 /// Returns whether origin + t * direction is in the box, grown by `distance`, for a t in [0, most] (the
 /// method of slabs).
 bool ray_meets(const Bounds& box, const dvec3& origin, const dvec3& direction, double most, double distance);
+
+/// Of one triangle or edge, at most this many neighbours are looked at. More are counted as a crowd
+/// (CheckFigures::crowds): a fan of n triangles about one edge has n * n pairs of neighbours.
+inline constexpr size_t most_neighbors = 1024;
 
 /// A place with indices instead of names.
 struct Place {
@@ -79,7 +88,7 @@ class FaultList {
     entry.places.push_back(place);
   }
   /// Returns the kinds, faults first and by name, with names in place of indices.
-  std::vector<SceneFault> finish(const Model& model, size_t most_places) const;
+  std::vector<SceneFault> finish(const Model& model, size_t most_places);
 
  private:
   struct Entry {

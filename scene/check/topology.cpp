@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <unordered_map>
 
@@ -57,33 +58,40 @@ void for_each_edge(const std::vector<uint32_t>& corners, uint32_t first, uint32_
   }
 }
 
+/// An end of open edges.
+struct End {
+  dvec3 place;
+  uint32_t corner = 0;
+  double reach = 0.0;  ///< how far away a corner may be that it is welded to
+};
+
 /// Welds the ends of open edges of one object.
 class Welder {
  public:
-  explicit Welder(double distance) : distance_(distance) {}
+  explicit Welder(double most) : most_(most) {}
 
-  /// Returns the number of the first corner within the distance, or `number` if there is none before it.
-  uint32_t weld(const dvec3& p, uint32_t number) {
-    const Cell cell{index(p.x), index(p.y), index(p.z)};
-    uint32_t found = number;
-    double nearest = distance_;
-    for (int64_t x = -1; x <= 1; ++x)
-      for (int64_t y = -1; y <= 1; ++y)
-        for (int64_t z = -1; z <= 1; ++z) {
-          const auto at = cells_.find({cell.x + x, cell.y + y, cell.z + z});
-          if (at == cells_.end()) continue;
-          for (const auto& [place, other] : at->second)
-            if (const double d = glm::distance(place, p); d <= nearest && (d < nearest || found == number))
-              nearest = d, found = other;
-        }
-    if (found == number) cells_[cell].push_back({p, number});
+  /// Returns the nearest of the ends before it that are within both reaches, or the corner itself if there is
+  /// none.
+  uint32_t weld(const End& end) {
+    const Cell cell{cell_of(end.place.x, most_), cell_of(end.place.y, most_), cell_of(end.place.z, most_)};
+    uint32_t found = end.corner;
+    double nearest = end.reach;
+    for (int i = 0; i < 27; ++i) {
+      const auto at = cells_.find({cell.x + i % 3 - 1, cell.y + i / 3 % 3 - 1, cell.z + i / 9 - 1});
+      if (at == cells_.end()) continue;
+      for (const End& other : at->second) {
+        const double d = glm::distance(other.place, end.place);
+        if (d > std::min(nearest, other.reach) || (d == nearest && found != end.corner)) continue;
+        nearest = d, found = other.corner;
+      }
+    }
+    if (found == end.corner) cells_[cell].push_back(end);
     return found;
   }
 
  private:
-  int64_t index(double x) const { return static_cast<int64_t>(std::floor(x / distance_)); }
-  double distance_;
-  std::unordered_map<Cell, std::vector<std::pair<dvec3, uint32_t>>, CellHash> cells_;
+  double most_;
+  std::unordered_map<Cell, std::vector<End>, CellHash> cells_;
 };
 
 class Maker {
@@ -126,16 +134,21 @@ class Maker {
   }
 
   void weld_open_ends(const SoupObject& range) {
-    std::vector<uint32_t> ends;
+    std::map<uint32_t, double> shortest;  // of the open edges at a corner
     for_each_edge(result_.corners, range.first, range.count, [&](std::span<const Side> edge) {
-      if (edge.size() == 1) ends.insert(ends.end(), {edge[0].low, edge[0].high});
+      if (edge.size() != 1) return;
+      const double length = glm::distance(place(edge[0].low), place(edge[0].high));
+      for (const uint32_t end : {edge[0].low, edge[0].high}) {
+        double& least = shortest.try_emplace(end, length).first->second;
+        least = std::min(least, length);
+      }
     });
-    std::ranges::sort(ends);
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     Welder welder(weld_m_);
     std::unordered_map<uint32_t, uint32_t> moved;
-    for (const uint32_t end : ends)
-      if (const uint32_t other = welder.weld(place(end), end); other != end) moved.emplace(end, other);
+    for (const auto& [corner, length] : shortest) {
+      const End end{place(corner), corner, std::min(weld_m_, 0.1 * length)};
+      if (const uint32_t other = welder.weld(end); other != corner) moved.emplace(corner, other);
+    }
     if (moved.empty()) return;
     for (uint32_t side = 3 * range.first; side < 3 * (range.first + range.count); ++side)
       if (const auto found = moved.find(result_.corners[side]); found != moved.end())
@@ -178,16 +191,21 @@ class Maker {
 
   void find_open_edges(const SoupObject& range, size_t first_part) {
     std::vector<std::vector<OpenEdge>> edges(result_.parts.size() - first_part);
+    std::vector<std::pair<uint32_t, uint32_t>> by_part;  // part, side
     for_each_edge(result_.corners, range.first, range.count, [&](std::span<const Side> edge) {
-      for (const Side& side : edge) {
-        const uint32_t part = result_.part[side.side / 3];
-        const auto same = std::ranges::count_if(
-            edge, [&](const Side& other) { return result_.part[other.side / 3] == part; });
-        if (same != 1) continue;
-        const uint32_t end = next_of(side.side);
-        edges[part - first_part].push_back({side.side / 3, place(side.side), place(end),
-                                            result_.corners[side.side], result_.corners[end], edge.size() > 1,
-                                            false, 0.0});
+      // The sides by part: most edges have one or two, but a fan has thousands about one edge.
+      by_part.clear();
+      for (const Side& side : edge) by_part.emplace_back(result_.part[side.side / 3], side.side);
+      std::ranges::sort(by_part);
+      for (size_t i = 0; i < by_part.size(); ++i) {
+        const auto [part, side] = by_part[i];
+        const bool alone = (i == 0 || by_part[i - 1].first != part) &&
+                           (i + 1 == by_part.size() || by_part[i + 1].first != part);
+        if (!alone) continue;
+        const uint32_t end = next_of(side);
+        const uint32_t other = by_part.size() == 1 ? nothing : by_part[i > 0 ? i - 1 : 1].first;
+        edges[part - first_part].push_back(
+            {side / 3, place(side), place(end), result_.corners[side], result_.corners[end], other});
       }
     });
     for (size_t i = 0; i < edges.size(); ++i) {

@@ -15,11 +15,11 @@ namespace greatx::scene::check {
 /// An edge that exactly one triangle of its part has.
 struct OpenEdge {
   uint32_t triangle = 0;
-  dvec3 a{0.0}, b{0.0};       ///< in the order of the triangle's winding
-  uint32_t from = 0, to = 0;  ///< Topology::corners of a and b
-  bool shared = false;        ///< other parts of the same object have the same edge
-  bool closed = false;        ///< set by close_by_others(): surfaces lie along the whole edge
-  double open_m = 0.0;        ///< set by close_by_others(): length that no surface closes
+  dvec3 a{0.0}, b{0.0};            ///< in the order of the triangle's winding
+  uint32_t from = 0, to = 0;       ///< Topology::corners of a and b
+  uint32_t shared_with = nothing;  ///< another part of the same object that has the same edge
+  bool closed = false;             ///< set by close_by_others(): surfaces lie along the whole edge
+  double open_m = 0.0;             ///< set by close_by_others(): length that no surface closes
 };
 
 /// Where openings would have caps: the open edges of a part that hang together.
@@ -61,15 +61,17 @@ struct Topology {
   }
 };
 
-/// Caps may have this part of the area of a part that is nearly closed: a cube without one face has 1/5.
-inline constexpr double most_cap_share = 0.25;
+/// Caps may have this part of the area of a part that is nearly closed. A cube without one face has 1/5, half
+/// a sphere 1/2, and a hall of 20 x 20 x 6.5 m without its floor 0.43.
+inline constexpr double most_cap_share = 0.45;
 /// A cap of a part that is nearly closed is at most this many times as large as the surfaces that face the
 /// cap's direction or the opposite one, projected and halved. A box without one face has 2. A tube has no
 /// surface across it and is a sheet.
 inline constexpr double most_cap_by_shadow = 3.0;
 
 /// Corners at exactly the same place are one. Where edges then are open, their ends are welded within
-/// `weld_m` (each to the first one near enough), so that a mesh of details smaller than that keeps its form.
+/// `weld_m`, or a tenth of the shortest open edge at either if that is less (each to the nearest one before
+/// it), so that a mesh of details smaller than that keeps its form.
 /// Triangles that welding leaves without area belong to no edge and are parts of their own.
 Topology make_topology(const Soup& soup, double weld_m);
 

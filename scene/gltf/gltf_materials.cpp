@@ -136,6 +136,9 @@ std::optional<Field> radio_of_extras(const json& material, const std::string& wh
         continue;
       }
       const std::string text = value.get<std::string>();
+      constexpr size_t longest = 65536;
+      if (text.size() > longest)
+        throw_user_error("{}: {}: {} bytes, expected at most {}", what, path, text.size(), longest);
       const bool braces = text.find_first_not_of(" \t\n") != std::string::npos &&
                           text[text.find_first_not_of(" \t\n")] == '{';
       radio = Field::parse_yaml(braces ? text : "{" + text + "}", {what + ", " + path, {}, {}});

@@ -198,6 +198,16 @@ TEST(SceneCheckHoles, FoliageClaimsToBeASolid) {
   EXPECT_EQ(kinds_of(scene.check()), "hole 1");
 }
 
+TEST(SceneCheckHoles, AHallClaimsToBeASolidAndABasinDoesNot) {
+  for (const double height : {6.5, 5.0}) {
+    SceneWriter scene;
+    scene.add("hall", box({0, 0, 0}, {20, 20, height}, all_faces & ~bottom));
+    CheckOptions options;
+    options.rays = 0;
+    EXPECT_EQ(kinds_of(scene.check(options)), height > 6.0 ? "hole 1" : "open_sheet 1") << height;
+  }
+}
+
 TEST(SceneCheckHoles, ATubeIsASheet) {
   SceneWriter scene;
   scene.add("pipe", box({0, 0, 0}, {1, 1, 20}, west | east | south | north));
@@ -262,6 +272,15 @@ TEST(SceneCheckOverlaps, APlateThinnerThanTheGapIsNone) {
   CheckOptions options;
   options.sliver_m = options.facet_m = 0.0;
   EXPECT_EQ(kinds_of(scene.check(options)), "");
+}
+
+TEST(SceneCheckOverlaps, AHeapOfCopiesIsCountedWithABound) {
+  SceneWriter scene;
+  Shape heap;
+  for (int i = 0; i < 100; ++i) heap.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  scene.add("ground", heap);
+  // 84 triangles have at least 16 later ones: 84 * 16 + (15 + 14 + ... + 1).
+  EXPECT_EQ(kinds_of(scene.check()), "duplicate 1464");
 }
 
 TEST(SceneCheckJunctions, ACornerOnAnEdge) {
@@ -400,6 +419,16 @@ TEST(SceneCheckSizes, NotFiniteAndNoArea) {
   scene.add("house", shape);
   EXPECT_EQ(kinds_of(scene.check()), "not_finite 1, no_area 1");
   expect_user_error([&] { scene.load(); }, {"vertex 37 is not finite"});
+}
+
+TEST(SceneCheckSizes, CoordinatesOfAnySizeEnd) {
+  for (const double size : {1e-30, 1e15, 1e30}) {
+    SceneWriter scene;
+    scene.add("thing", box({0, 0, 0}, {size, size, size}, all_faces & ~top));
+    const SceneFaults faults = scene.check();
+    EXPECT_NE(faults.find("scene_size"), nullptr) << size << ": " << kinds_of(faults);
+    EXPECT_NE(faults.find("hole"), nullptr) << size << ": " << kinds_of(faults);
+  }
 }
 
 TEST(SceneCheckSizes, AnObjectFarAway) {

@@ -257,6 +257,58 @@ TEST(RadioMaterial, ExtensionErrorsNameFileMaterialAndField) {
   refuse(json::array(), {"expected a map"});
 }
 
+/// A material as Blender writes it: its custom properties are in the extras.
+json with_extras(const std::string& name, const json& extras) { return {{"name", name}, {"extras", extras}}; }
+
+TEST(RadioMaterial, ExtrasHoldAMapOrAText) {
+  for (const json& value :
+       {json({{"itu", "glass"}, {"thickness_m", 0.006}}), json("itu: glass, thickness_m: 0.006"),
+        json("  {itu: glass, thickness_m: 0.006}"), json("{\"itu\": \"glass\", \"thickness_m\": 0.006}")}) {
+    const Material material =
+        quad_with(with_extras("pane", {{"greatx_radio", value}})).load().materials.at(0);
+    ASSERT_TRUE(material.radio) << value.dump();
+    ASSERT_EQ(material.radio->layers.size(), 1u);
+    EXPECT_EQ(material.radio->layers[0].medium, *itu_medium("glass"));
+    EXPECT_EQ(material.radio->layers[0].thickness_m, 0.006);
+  }
+  const json layers =
+      "layers: [{itu: glass, thickness_m: 0.006}, {itu: vacuum, thickness_m: 0.012}], "
+      "reflectance_905nm: 0.1";
+  const Material pane = quad_with(with_extras("pane", {{"greatx_radio", layers}})).load().materials.at(0);
+  EXPECT_EQ(pane.radio->layers.size(), 2u);
+  EXPECT_EQ(pane.reflectance_905nm, 0.1f);
+}
+
+TEST(RadioMaterial, ExtrasLieBetweenTheExtensionAndTheSidecar) {
+  json material = with_extras("itu_concrete", {{"greatx_radio", "thickness_m: 0.2"}, {"other_tool", 7}});
+  const Material thick = quad_with(material).load().materials.at(0);
+  EXPECT_EQ(thick.radio->layers[0].medium, *itu_medium("concrete"));
+  EXPECT_EQ(thick.radio->layers[0].thickness_m, 0.2);
+  material["extensions"]["GREATX_radio_material"] = {{"itu", "brick"}, {"thickness_m", 0.1}};
+  EXPECT_EQ(quad_with(material).load().materials.at(0).radio->layers[0].medium, *itu_medium("brick"));
+  EXPECT_EQ(quad_with(material).load().materials.at(0).radio->layers[0].thickness_m, 0.2);
+  const TemporaryFolder folder;
+  LoadOptions options;
+  options.radio_materials =
+      folder.write("radio.yaml", std::string("materials: {itu_concrete: {thickness_m: 0.3}}"));
+  EXPECT_EQ(quad_with(material).load(options).materials.at(0).radio->layers[0].thickness_m, 0.3);
+}
+
+TEST(RadioMaterial, ExtrasErrorsNameFileMaterialAndField) {
+  const auto refuse = [](const json& extras, const std::vector<std::string>& parts) {
+    expect_user_error([&] { quad_with(with_extras("pane", extras)).load(); }, parts);
+  };
+  refuse({{"greatx_radio", "itu: glas"}}, {"test.glb", "pane", "extras.greatx_radio", "itu", "glas"});
+  refuse({{"greatx_radio", {{"itu", "glass"}, {"thikness_m", 0.1}}}},
+         {"test.glb", "pane", "extras.greatx_radio", "thikness_m"});
+  refuse({{"greatx_radio", "glass"}}, {"test.glb", "pane", "extras.greatx_radio", "glass"});
+  refuse({{"greatx_radio", 7}}, {"test.glb", "pane", "extras.greatx_radio", "7"});
+  refuse({{"greatx_radio", "itu: [glass"}}, {"test.glb", "pane", "extras.greatx_radio"});
+  refuse({{"greatx_radio", std::string(70000, 'x')}}, {"pane", "extras.greatx_radio", "70000 bytes"});
+  refuse({{"greatx_rado", "itu: glass"}}, {"test.glb", "pane", "greatx_rado", "greatx_radio"});
+  refuse({{"greatx_class", "window"}}, {"test.glb", "pane", "greatx_class", "greatx_radio"});
+}
+
 TEST(RadioMaterial, UsedMaterialsWithoutRadioAreListedInOneError) {
   GltfWriter writer;
   writer.add_triangles("house", test::unit_quad(), test::quad_indices(),

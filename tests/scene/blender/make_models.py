@@ -4,11 +4,11 @@
 
     blender -b --factory-startup --python tests/scene/blender/make_models.py -- FOLDER
 
-writes drone.glb and car.glb into FOLDER. The files beside this script were written by Blender 3.4.1 (Debian 12:
-blender, python3-numpy). This script is not part of ./test.sh; test_scene_blender loads the files.
+writes drone.glb and car.glb into FOLDER. The files beside this script were written by Blender 3.4.1 (Debian
+12: blender, python3-numpy). This script is not part of ./test.sh; test_scene_blender loads the files.
 
-Lengths are metres, x is forward, y left, z up. Everything is made of closed bodies. Rotors and wheels are objects
-of their own, with their origin on their axis.
+Lengths are metres, x is forward, y left, z up. Everything is made of closed bodies. Rotors and wheels are
+objects of their own, with their origin on their axis.
 """
 
 import math
@@ -56,8 +56,9 @@ class Builder:
         return self.materials.index(made)
 
     def loft(self, made, rings, closed=False):
-        """Joins rings of points, each a list of Vectors of equal length. The ends get caps, unless `closed`, when
-        the last ring joins the first one. Rings turn counter-clockwise about the direction of the loft."""
+        """Joins rings of points, each a list of Vectors of equal length. The ends get caps, unless
+        `closed`, when the last ring joins the first one. Rings turn counter-clockwise about the direction of
+        the loft."""
         index = self.index(made)
         rows = [[self.mesh.verts.new(p) for p in ring] for ring in rings]
         n = len(rows[0])
@@ -96,7 +97,7 @@ class Builder:
         self.append(part, index)
 
     def lathe(self, made, profile, sides, matrix=Matrix()):
-        """Turns (radius, height) points, from bottom to top, about z. The first and last radius make flat caps."""
+        """Turns (radius, height) points, from bottom to top, about z. Both ends get flat caps."""
         rings = []
         for radius, height in profile:
             ring = []
@@ -137,7 +138,7 @@ class Builder:
 
 
 def copy_or_make(mesh, builder, name, semantic_class, origin, parent, yaw=0.0):
-    """Makes an object, with the given mesh if there is one: the file then holds the mesh once. Returns the mesh."""
+    """Makes an object, with the given mesh if there is one, and returns its mesh."""
     if mesh is None:
         made = builder().object(name, semantic_class, origin, parent)
     else:
@@ -491,7 +492,7 @@ def half_width(x, z):
 def car_body(b, m):
     profile = car_profile()
     rings = []
-    # Rings of the outline from the right to the left; the outermost ones are smaller, so that edges are round.
+    # Rings of the outline from the right to the left; the outer ones are smaller: edges are round.
     for share, inset in (
         (-1.0, 0.030),
         (-0.985, 0.010),
