@@ -77,8 +77,10 @@ std::optional<DegreesArea> given_area(const PlaceConfig& config) {
 
 DegreesArea area_of_extent(const Box& extent, const std::string& where) {
   if (extent.empty()) throw_user_error("{}: no source has an object, so there is no area", where);
-  return area_of(
-      {{extent.low, {extent.high.x, extent.low.y}, extent.high, {extent.low.x, extent.high.y}}, {}}, where);
+  // A point on the edge counts as within, whatever the rounding.
+  constexpr double more = 1e-5;
+  const dvec2 low = extent.low - more, high = extent.high + more;
+  return area_of({{low, {high.x, low.y}, high, {low.x, high.y}}, {}}, where);
 }
 
 Polygon area_in_frame(const DegreesArea& area, const Placement& placement) {

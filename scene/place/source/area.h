@@ -19,7 +19,8 @@ struct DegreesArea {
 
 /// Returns the area that place.yaml gives, or nothing if it is the extent of sources.
 std::optional<DegreesArea> given_area(const PlaceConfig& config);
-/// Returns the rectangle of an extent. Throws UserError if it is wider than 10 degrees or empty.
+/// Returns the rectangle of an extent, 1e-5 degrees (1 m) larger on each side. Throws UserError if it is wider
+/// than 2 degrees or empty.
 DegreesArea area_of_extent(const Box& extent, const std::string& where);
 
 /// Returns the area in the frame. Parallels are curved there, so that edges get corners every 500 m, which

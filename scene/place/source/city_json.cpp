@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 using Kind = Finding::Kind;
 
 /// How far the attribute measuredHeight may be from the solid's own height and still be a height above ground.
-constexpr double height_agreement_m = 0.5;
+constexpr double height_agreement_m = 0.1;
 /// Surfaces whose normal is nearer to level than this are upright, and have no area in plan.
 constexpr double least_plan_area = 1e-6;
 
@@ -283,12 +283,16 @@ class CityJsonReader {
     if (const Json* parents = find(object, "parents");
         parents != nullptr && parents->is_array() && !parents->empty() && parents->front().is_string())
       feature.part_of = parents->front().get<std::string>();
+    feature.tags = city.tags;
+    add_attributes(attributes, feature);
+    if (city.shape == CityClass::Shape::point && make_tree_at_point(object, feature)) {
+      contents_.features.push_back(std::move(feature));
+      return;
+    }
     const Json* geometry = best_geometry(id, object);
     if (geometry == nullptr) return;
     Surfaces surfaces = surfaces_of(id, *geometry);
     if (surfaces.faces.empty()) return;
-    feature.tags = city.tags;
-    add_attributes(attributes, feature);
     const bool flat = lod_of(*geometry) < 1.0 && !surfaces.solid;
     if (city.shape == CityClass::Shape::solid && !flat) {
       check_height(id, attributes, surfaces, feature);
@@ -296,6 +300,12 @@ class CityJsonReader {
     } else if (city.shape == CityClass::Shape::point) {
       make_tree(surfaces, feature);
     } else {
+      if (city.shape == CityClass::Shape::solid && attributes.contains("measuredHeight") &&
+          !feature.tags.contains("height"))
+        notes_.add(
+            Kind::left_out, "measured_height_not_used", id,
+            "It has a footprint alone, and files differ in whether measuredHeight is above the ground or the "
+            "datum: say so by keys: {height: measuredHeight} and heights.");
       feature.polygons = plan_of(surfaces);
       if (feature.polygons.empty()) {
         notes_.add(Kind::left_out, "without_area", id, "All of its surfaces are upright.");
@@ -331,11 +341,30 @@ class CityJsonReader {
     if (given == attributes.end()) return;
     const auto measured = parse_length_m(given->second, source_.height_unit_m);
     if (measured && std::abs(*measured - (range.y - range.x)) > height_agreement_m)
-      notes_.add(
-          Kind::doubtful, "measured_height_disagrees", id,
-          fmt::format("measuredHeight is {} m, its solid is {:.2f} m high, from {:.2f} to {:.2f} m; the "
-                      "solid counts.",
-                      *measured, range.y - range.x, range.x, range.y));
+      notes_.add(Kind::doubtful, "measured_height_disagrees", id,
+                 fmt::format(
+                     "measuredHeight is {} m, its solid is {:.2f} m high, from {:.2f} to {:.2f} m{}; the "
+                     "solid counts.",
+                     *measured, range.y - range.x, range.x, range.y,
+                     std::abs(*measured - range.y) < height_agreement_m ? ": it seems to be the z of the roof"
+                                                                        : ""));
+  }
+
+  /// A tree may be a point, or a template at a place (CityJSON 2.0, section 3.4).
+  bool make_tree_at_point(const Json& object, Feature& feature) {
+    const Json* geometries = find(object, "geometry");
+    if (geometries == nullptr || !geometries->is_array()) return false;
+    for (const Json& geometry : *geometries) {
+      const Json* type = find(geometry, "type");
+      const std::string name = type != nullptr && type->is_string() ? type->get<std::string>() : "";
+      if (name != "GeometryInstance" && name != "MultiPoint") continue;
+      const std::string path = fmt::format("CityObjects.{}.geometry", feature.id);
+      const std::vector<size_t> points = ring_of(member(geometry, "boundaries", path), path + ".boundaries");
+      if (points.empty()) continue;
+      feature.point = dvec2(place(points.front()));
+      return true;
+    }
+    return false;
   }
 
   void make_tree(const Surfaces& surfaces, Feature& feature) const {

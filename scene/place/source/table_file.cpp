@@ -114,11 +114,11 @@ class TableReader {
     ++objects_;
     Translated translated = vocabulary_.translate(attributes);
     if (translated.id.empty()) translated.id = fmt::format("{}", feature.GetFID());
+    known_ += translated.left_out || has_known_key(translated.tags);
     if (translated.left_out) {
       notes_.add(Kind::left_out, "marked_as_not_built", translated.id, "Its shape is 'none'.");
       return;
     }
-    known_ = known_ || has_known_key(translated.tags);
     const OGRGeometry* geometry = feature.GetGeometryRef();
     if (geometry == nullptr || geometry->IsEmpty()) {
       notes_.add(Kind::left_out, "without_geometry", translated.id, "The object has no geometry.");
@@ -232,12 +232,18 @@ class TableReader {
     }
   }
 
-  void require_known_keys() const {
-    if (objects_ == 0 || known_ || contents_.features.empty()) return;
-    throw_user_error("{}: none of its {} objects says what it is; their attributes are {}: {}", where_,
-                     objects_,
-                     names_.empty() ? "none" : printable(fmt::format("{}", fmt::join(names_, ", "))),
-                     suggested_vocabulary(names_));
+  /// A file in another vocabulary may have a few names in common with OpenStreetMap.
+  void require_known_keys() {
+    if (objects_ == 0 || contents_.features.empty() || known_ == objects_) return;
+    const bool other = source_.vocabulary == "osm" && names_of_osm_buildings(names_) >= 2;
+    if (known_ == 0 || (other && 2 * known_ <= objects_))
+      throw_user_error("{}: {} of its {} objects says what it is; their attributes are {}: {}", where_,
+                       known_ == 0 ? "none" : fmt::format("only {}", known_), objects_,
+                       names_.empty() ? "none" : printable(fmt::format("{}", fmt::join(names_, ", "))),
+                       suggested_vocabulary(names_));
+    notes_.add(
+        Kind::left_out, "object_without_kind", "",
+        fmt::format("{} of {} objects have no tag that says what they are.", objects_ - known_, objects_));
   }
 
   /// A part without its building is a building of its own.
@@ -267,7 +273,7 @@ class TableReader {
   std::unordered_map<std::string, int> ids_;
   Spending corners_{map_corners};
   uint64_t objects_ = 0;
-  bool known_ = false;
+  uint64_t known_ = 0;  ///< objects that say what they are
 };
 
 }  // namespace

@@ -34,7 +34,6 @@ struct Translated {
 class Vocabulary {
  public:
   explicit Vocabulary(const MapSource& source);
-  /// `has_line` and so on are not needed: geometry decides later.
   Translated translate(const Attributes& attributes) const;
 
  private:
@@ -50,6 +49,9 @@ std::vector<std::string> lengths_to_metres(std::map<std::string, std::string, st
 
 /// Returns whether a tag is one of those that things are built of.
 bool has_known_key(const std::map<std::string, std::string, std::less<>>& tags);
+
+/// Counts the names that OSM Buildings has and OpenStreetMap has not.
+size_t names_of_osm_buildings(const std::set<std::string>& names);
 
 /// Returns the vocabulary that names like these belong to, with a reason, or an empty text.
 std::string suggested_vocabulary(const std::set<std::string>& names);

@@ -112,10 +112,11 @@ TEST(PlaceTable, OsmBuildingsVocabulary) {
 
 TEST(PlaceTable, AFileWithoutKnownKeysSuggestsAVocabulary) {
   const PlaceFolder folder;
-  folder.write("b.geojson", collection({feature_json(R"("height":22,"levels":5)", square_json(0))}));
+  folder.write("b.geojson",
+               collection({feature_json(R"("height":22,"levels":5,"roofShape":"flat")", square_json(0))}));
   EXPECT_THAT(message_of([&] { folder.read("maps: [{file: b.geojson}]\n"); }),
-              AllOf(HasSubstr("none of its 1 objects says what it is"), HasSubstr("height, levels"),
-                    HasSubstr("vocabulary: osm_buildings")));
+              AllOf(HasSubstr("none of its 1 objects says what it is"),
+                    HasSubstr("height, levels, roofShape"), HasSubstr("vocabulary: osm_buildings")));
   folder.write("h.geojson", collection({feature_json(R"("hoehe":22,"gebnr":"x")", square_json(0))}));
   EXPECT_THAT(message_of([&] { folder.read("maps: [{file: h.geojson}]\n"); }),
               AllOf(HasSubstr("gebnr, hoehe"), HasSubstr("as: building=yes"),
