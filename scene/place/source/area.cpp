@@ -53,6 +53,12 @@ std::string extent_text(const Box& degrees) {
                      longitude_near(degrees.low.x, 0.0), longitude_near(degrees.high.x, 0.0));
 }
 
+std::string swapped_hint(const Box& extent, const Box& area) {
+  if (extent.empty() || meets_turned(extent, area)) return {};
+  const Box swapped{{extent.low.y, extent.low.x}, {extent.high.y, extent.high.x}};
+  return meets_turned(swapped, area) ? "; latitude and longitude seem to be swapped" : "";
+}
+
 std::optional<DegreesArea> given_area(const PlaceConfig& config) {
   const std::string where = config.file.string() + ": area";
   if (config.area.bounds_deg) {

@@ -27,7 +27,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Kind = Finding::Kind;
 
-/// How far the attribute measuredHeight may be from the solid's own height and still be a height above ground.
+/// How far the attribute measuredHeight may be from the solid's own height and still be a height above
+/// ground.
 constexpr double height_agreement_m = 0.1;
 /// Surfaces whose normal is nearer to level than this are upright, and have no area in plan.
 constexpr double least_plan_area = 1e-6;
@@ -112,6 +113,8 @@ class CityJsonReader {
           contents_.licence = printable(licence->get<std::string>());
     }
     projection_ = std::make_unique<Projection>(where_, source_.crs, stated ? &of_file : nullptr);
+    if (const std::string grid = projection_->missing_grid(); !grid.empty())
+      notes_.add(Kind::doubtful, "datum_grid_missing", "", grid);
   }
 
   void read_vertices(const Json& root) {

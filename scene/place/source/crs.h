@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Converts between the coordinates of files and degrees of WGS 84, by PROJ through GDAL. Longitude and easting
-// come first everywhere ("traditional GIS order"), whatever the definition of a CRS says.
+// Converts between the coordinates of files and degrees of WGS 84, by PROJ through GDAL. Longitude and
+// easting come first everywhere ("traditional GIS order"), whatever the definition of a CRS says.
 #pragma once
 
 #include <memory>
@@ -48,6 +48,8 @@ class Projection {
   dvec2 to_degrees(const dvec2& point) const;
   /// Converts in place; a point without image becomes NaN.
   void from_degrees(std::span<dvec2> degrees) const;
+  /// Returns a sentence if PROJ has a more accurate conversion whose grid is not installed, or an empty text.
+  std::string missing_grid() const;
   bool same_crs(const Projection& other) const;
   bool geographic() const { return geographic_; }
 

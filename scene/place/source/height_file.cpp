@@ -73,6 +73,8 @@ HeightTile read_heights(const HeightSource& source, const Box& degrees, Notes& n
     throw_user_error("{}: expected one band of heights, found {} bands", raster.where(),
                      raster.dataset().GetRasterCount());
   const auto window = raster.window(degrees, 2);
+  if (const std::string grid = raster.projection()->missing_grid(); !grid.empty())
+    notes.add(Kind::doubtful, "datum_grid_missing", "", grid);
   if (!window || window->columns < 2 || window->rows < 2) return result;
   result.columns = static_cast<uint32_t>(window->columns);
   result.rows = static_cast<uint32_t>(window->rows);

@@ -130,10 +130,13 @@ class PlaceReader {
       Notes notes(source.name, input_.findings);
       tiles.push_back(read_heights(source, box, notes));
       add_licence(source.name, source.licence, tiles.back().licence);
+      height_extents_ +=
+          fmt::format("{}{} covers {}{}", height_extents_.empty() ? "" : "; ", printable(source.name),
+                      extent_text(tiles.back().extent), swapped_hint(tiles.back().extent, area_->box));
       if (tiles.back().columns == 0)
         notes.add(Kind::left_out, fmt::format("{}_outside", topic), "",
-                  fmt::format("The file covers {}, the area {}.", extent_text(tiles.back().extent),
-                              extent_text(area_->box)));
+                  fmt::format("The file covers {}, the area {}{}.", extent_text(tiles.back().extent),
+                              extent_text(area_->box), swapped_hint(tiles.back().extent, area_->box)));
     }
     std::vector<HeightSamples> samples;
     for (const HeightTile& tile : join_tiles(std::move(tiles))) samples.push_back(samples_of(tile));
@@ -173,8 +176,8 @@ class PlaceReader {
       return std::ranges::any_of(one.samples, [](const dvec3& sample) { return !std::isnan(sample.z); });
     });
     if (!config_.terrain.empty() && !any)
-      throw_user_error("{}: terrain: no file has a height in or around the area ({})", config_.file.string(),
-                       extent_text(area_->box));
+      throw_user_error("{}: terrain: no file has a height in or around the area ({}): {}",
+                       config_.file.string(), extent_text(area_->box), height_extents_);
     Geodetic origin = find_origin(samples);
     origin.height_m += config_.undulation_m;
     input_.reference = {origin, config_.undulation_m, config_.vertical_datum};
@@ -238,17 +241,15 @@ class PlaceReader {
     }
   }
 
-  /// Findings of single objects count whether or not the object is in the area: the reader cannot tell where an
-  /// object without corners lies.
+  /// Findings of single objects count whether or not the object is in the area: the reader cannot tell where
+  /// an object without corners lies.
   void drop_findings_elsewhere(MapContents& contents) {
     outside_.push_back(extent_text(contents.extent));
     std::ranges::move(contents.findings, std::back_inserter(input_.findings));
   }
 
   void report_outside(const MapSource& source, const MapContents& contents) {
-    const Box swapped{{contents.extent.low.y, contents.extent.low.x},
-                      {contents.extent.high.y, contents.extent.high.x}};
-    if (meets_turned(swapped, area_->box))
+    if (!swapped_hint(contents.extent, area_->box).empty())
       throw_user_error(
           "{}: all objects lie outside the area, and inside it if latitude and longitude change places: they "
           "seem "
@@ -300,13 +301,15 @@ class PlaceReader {
       PictureRead read =
           read_picture(source, widened(area_->box, config_.ground.margin_m), *placement_, spent);
       add_licence(source.name, source.licence, read.licence);
+      if (!read.missing_grid.empty())
+        Notes(source.name, input_.findings).add(Kind::doubtful, "datum_grid_missing", "", read.missing_grid);
       if (read.picture)
         input_.pictures.push_back(std::move(*read.picture));
       else
         Notes(source.name, input_.findings)
             .add(Kind::left_out, "picture_outside", "",
-                 fmt::format("The picture covers {}, the area {}.", extent_text(read.extent),
-                             extent_text(area_->box)));
+                 fmt::format("The picture covers {}, the area {}{}.", extent_text(read.extent),
+                             extent_text(area_->box), swapped_hint(read.extent, area_->box)));
     }
     if (config_.pictures.empty()) return;
     const double share = covered_share(input_.pictures, test);
@@ -321,6 +324,7 @@ class PlaceReader {
   std::optional<DegreesArea> area_;
   std::vector<MapContents> maps_;
   std::vector<std::string> outside_;
+  std::string height_extents_;  ///< for messages
   std::optional<Placement> placement_;
   PlaceInput input_;
 };

@@ -25,6 +25,10 @@ namespace {
 
 using Kind = Finding::Kind;
 
+/// The formats of docs/places_reference.md. Others are not opened: some name further files, or addresses.
+constexpr const char* table_drivers[] = {"GeoJSON",        "GeoJSONSeq", "GPKG",
+                                         "ESRI Shapefile", "FlatGeobuf", nullptr};
+
 struct CloseDataset {
   void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 };
@@ -41,10 +45,13 @@ class TableReader {
 
   void read() {
     prepare_gdal();
+    const std::string ending = source_.file.extension().string();
+    if (ending == ".json" || ending == ".geojson")  // GDAL holds the whole text
+      require_within(where_, std::filesystem::file_size(source_.file), map_file);
     const GdalMessages messages;
     const std::unique_ptr<GDALDataset, CloseDataset> dataset(
         GDALDataset::Open(source_.file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                          nullptr, nullptr, nullptr));
+                          table_drivers, nullptr, nullptr));
     if (!dataset)
       throw_user_error(
           "{}: expected OpenStreetMap (.osm, .pbf), CityJSON, GeoJSON, GeoPackage or Shapefile{}", where_,
@@ -69,6 +76,8 @@ class TableReader {
   void read_layer(OGRLayer& layer) {
     if (layer.GetGeomType() == wkbNone) return;  // a table of attributes alone, as GeoPackages have
     const Projection projection(where_, source_.crs, layer.GetSpatialRef());
+    if (const std::string grid = projection.missing_grid(); !grid.empty())
+      notes_.add(Kind::doubtful, "datum_grid_missing", printable(layer.GetName()), grid);
     OGREnvelope all;
     if (layer.GetExtent(&all, TRUE) == OGRERR_NONE && std::isfinite(all.MinX)) {
       std::vector<dvec2> corners{

@@ -42,8 +42,8 @@ class Vocabulary {
   const MapSource& source_;
 };
 
-/// Rewrites lengths whose numbers have no unit from the source's unit to metres ("height", "min_height", ...).
-/// Returns the keys whose text is no length.
+/// Rewrites lengths whose numbers have no unit from the source's unit to metres ("height", "min_height",
+/// ...). Returns the keys whose text is no length.
 std::vector<std::string> lengths_to_metres(std::map<std::string, std::string, std::less<>>& tags,
                                            double unit_m);
 

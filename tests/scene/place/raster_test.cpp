@@ -267,7 +267,8 @@ TEST(PlaceTerrain, WhatDoesNotFitIsNamed) {
   // Latitude first: the file lies at 10 N, 48 E.
   write_raster(folder.path("swapped.tif"), "GTiff", 1, 5, 10, 48.0, 10.01, 0.001, {}, flat);
   EXPECT_THAT(message_of([&] { folder.read(area + "terrain: [{file: swapped.tif}]\n"); }),
-              HasSubstr("no file has a height"));
+              AllOf(HasSubstr("no file has a height"), HasSubstr("swapped.tif covers latitude 10.00000"),
+                    HasSubstr("seem to be swapped")));
 }
 
 TEST(PlaceTerrain, SurfacesKeepTheirVoids) {
