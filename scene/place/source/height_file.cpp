@@ -312,6 +312,7 @@ HeightField join_samples(std::vector<HeightSamples> samples, const LocalFrame& f
                           empty_inside, inside, voids.size() - empty_inside, farthest));
   }
   if (!changed) return raw;
+  raw = {};  // the two at once would be the largest thing in memory
   HeightField joined;
   for (const HeightSamples& one : samples) joined.add(grid_in_frame(one, frame));
   return joined;

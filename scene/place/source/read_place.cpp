@@ -171,7 +171,7 @@ class PlaceReader {
   }
 
   void read_terrain() {
-    const auto samples = read_samples(config_.terrain, config_.ground.margin_m + terrain_margin_m, "terrain");
+    auto samples = read_samples(config_.terrain, config_.ground.margin_m + terrain_margin_m, "terrain");
     const bool any = std::ranges::any_of(samples, [](const HeightSamples& one) {
       return std::ranges::any_of(one.samples, [](const dvec3& sample) { return !std::isnan(sample.z); });
     });
@@ -183,7 +183,7 @@ class PlaceReader {
     input_.reference = {origin, config_.undulation_m, config_.vertical_datum};
     const Placement level(input_.reference, input_.terrain);
     const AreaTest test(area_in_frame(*area_, level));
-    input_.terrain = join_samples(samples, level.frame(), test, true, "terrain", input_.findings);
+    input_.terrain = join_samples(std::move(samples), level.frame(), test, true, "terrain", input_.findings);
     placement_.emplace(input_.reference, input_.terrain);
     if (!config_.terrain.empty()) report_cover(input_.terrain, test, "terrain");
   }
@@ -289,8 +289,9 @@ class PlaceReader {
 
   void read_surface(const AreaTest& test) {
     if (config_.surface.empty()) return;
-    const auto samples = read_samples(config_.surface, config_.ground.margin_m + terrain_margin_m, "surface");
-    input_.surface = join_samples(samples, placement_->frame(), test, false, "surface", input_.findings);
+    auto samples = read_samples(config_.surface, config_.ground.margin_m + terrain_margin_m, "surface");
+    input_.surface =
+        join_samples(std::move(samples), placement_->frame(), test, false, "surface", input_.findings);
     report_cover(input_.surface, test, "surface");
   }
 

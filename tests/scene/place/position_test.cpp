@@ -111,7 +111,8 @@ TEST(PlacePosition, ProjectedSystemsGoThroughProj) {
   const PlaceFolder folder;
   folder.write("house.geojson",
                R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"building":"yes"},
-"geometry":{"type":"Polygon","coordinates":[[[84616.468,447422.999],[84640,447422.999],[84640,447450],[84616.468,447422.999]]]}}]})");
+"geometry":{"type":"Polygon","coordinates":
+[[[84616.468,447422.999],[84640,447422.999],[84640,447450],[84616.468,447422.999]]]}}]})");
   const PlaceInput input = folder.read(
       "origin: {latitude_deg: 52.0, longitude_deg: 4.37, height_m: 0}\nundulation_m: 43\nmaps: [{file: "
       "house.geojson, "
