@@ -58,6 +58,8 @@ class CityJsonReader {
     if (!objects.is_object()) fail("CityObjects", "an object");
     for (const auto& [id, object] : objects.items()) read_object(id, object);
     join_parents();
+    if (const std::string use = projection_->outside_use(contents_.extent); !use.empty())
+      notes_.add(Kind::doubtful, "crs_outside_its_area", "", use);
     if (contents_.features.empty() && !objects.empty())
       throw_user_error(
           "{}: none of its {} city objects has a geometry that is used (level of detail below 3)", where_,

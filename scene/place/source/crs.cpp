@@ -144,6 +144,24 @@ Projection::Projection(std::string where, const std::string& given, const OGRSpa
                      messages.suffix());
 }
 
+std::string Projection::outside_use(const Box& degrees) const {
+  constexpr double slack_deg = 3.0;  // zones are used beyond their edges where a country extends over them
+  double west = 0.0, south = 0.0, east = 0.0, north = 0.0;
+  if (degrees.empty() || !crs_.GetAreaOfUse(&west, &south, &east, &north, nullptr) || west == -1000.0)
+    return {};
+  if (east < west) east += 360.0;
+  const dvec2 middle = (degrees.low + degrees.high) / 2.0;
+  const double longitude = longitude_near(middle.x, (west + east) / 2.0);
+  if (longitude >= west - slack_deg && longitude <= east + slack_deg && middle.y >= south - slack_deg &&
+      middle.y <= north + slack_deg)
+    return {};
+  return fmt::format(
+      "It lies at latitude {:.3f}, longitude {:.3f}, but '{}' is made for latitudes {:g} to {:g}, longitudes "
+      "{:g} to "
+      "{:g}: is its crs right, and are x and y in order?",
+      middle.y, longitude, printable(crs_.GetName()), south, north, west, east);
+}
+
 bool Projection::same_crs(const Projection& other) const { return crs_.IsSame(&other.crs_) != 0; }
 
 Projection::~Projection() = default;

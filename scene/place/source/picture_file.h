@@ -18,7 +18,7 @@ struct PictureRead {
   std::optional<GroundPicture> picture;  ///< nothing if file and area do not meet
   Box extent;                            ///< degrees, of the whole file
   std::string licence;
-  std::string missing_grid;  ///< see Projection
+  std::string missing_grid, outside_use;  ///< see Projection
 };
 
 /// Reads the part of a picture that covers the box. `spent` counts the bytes of all pictures. Throws

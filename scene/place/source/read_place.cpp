@@ -304,6 +304,8 @@ class PlaceReader {
       add_licence(source.name, source.licence, read.licence);
       if (!read.missing_grid.empty())
         Notes(source.name, input_.findings).add(Kind::doubtful, "datum_grid_missing", "", read.missing_grid);
+      if (!read.outside_use.empty())
+        Notes(source.name, input_.findings).add(Kind::doubtful, "crs_outside_its_area", "", read.outside_use);
       if (read.picture)
         input_.pictures.push_back(std::move(*read.picture));
       else

@@ -84,6 +84,8 @@ class TableReader {
           {all.MinX, all.MinY}, {all.MaxX, all.MinY}, {all.MaxX, all.MaxY}, {all.MinX, all.MaxY}};
       projection.to_degrees(corners);
       for (const dvec2& corner : corners) contents_.extent.add(corner);
+      if (const std::string use = projection.outside_use(box_of(corners)); !use.empty())
+        notes_.add(Kind::doubtful, "crs_outside_its_area", printable(layer.GetName()), use);
       filter(layer, projection, all);
     }
     for (const auto& feature : layer) read_feature(*feature, projection);

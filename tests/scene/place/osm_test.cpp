@@ -257,6 +257,18 @@ TEST(PlaceOsm, RingsThatTouchStayApart) {
   EXPECT_THAT(loop.open, ElementsAre(testing::UnorderedElementsAre(1, 2)));
 }
 
+TEST(PlaceOsm, WaysThatCarryTheirPlaces) {
+  const PlaceFolder folder;
+  folder.write("m.osm", R"(<osm version="0.6"><note>Overpass, out geom</note>
+<way id="1"><bounds minlat="48" minlon="10" maxlat="48.001" maxlon="10.001"/>
+<nd ref="1" lat="48" lon="10"/><nd ref="2" lat="48" lon="10.001"/><nd ref="3" lat="48.001" lon="10.001"/>
+<nd ref="1" lat="48" lon="10"/><tag k="building" v="yes"/></way></osm>)");
+  const PlaceInput input = folder.read("maps: [{file: m.osm}]\n");
+  ASSERT_EQ(input.features.size(), 1u);
+  EXPECT_NEAR(area_of(input.features[0].polygons.at(0).outer), 111.2 * 74.6 / 2.0, 10.0);
+  EXPECT_TRUE(input.findings.empty());
+}
+
 TEST(PlaceOsm, CutsToTheAreaAndKeepsBuildingsWhole) {
   Osm osm;
   osm.way(1, {1, 3, 203, 201, 1}, building)

@@ -215,6 +215,33 @@ TEST(PlaceTerrain, VoidsAndOutliersAreCountedAndFilled) {
     EXPECT_NEAR(frame.datum_place(sample).height_m, 50.0, 1e-3);
 }
 
+TEST(PlaceTerrain, SpikesAreNamedAndKept) {
+  const PlaceFolder folder;
+  // Cells of 74 x 111 m: a slope of 45 degrees is none, a tower of 300 m is one.
+  write_raster(
+      folder.path("t.tif"), "GTiff", 1, 10, 10, 10.0, 48.01, 0.001, {},
+      [](int, int column, int row) { return 100.0 * column + (column == 5 && row == 5 ? 300.0 : 0.0); });
+  const PlaceInput input = folder.read(area + "terrain: [{file: t.tif}]\n");
+  ASSERT_EQ(findings_of(input, "terrain_spike").size(), 1u);
+  EXPECT_THAT(findings_of(input, "terrain_spike")[0].detail,
+              AllOf(HasSubstr("1 samples"), HasSubstr("m at most")));
+  EXPECT_EQ(input.findings.size(), 1u);
+}
+
+TEST(PlaceTerrain, ACoordinateSystemFarFromItsAreaIsDoubtful) {
+  const PlaceFolder folder;
+  // Easting and northing of Berlin in the wrong order.
+  folder.write("s.asc", ascii_grid(20, 20, 5'820'000, 392'000, 10, [](int, int) { return "5"; }));
+  folder.write("g.asc", ascii_grid(20, 20, 392'000, 5'820'000, 10, [](int, int) { return "5"; }));
+  const auto count = [&](const char* file) {
+    const PlaceInput input = folder.read(
+        fmt::format("area: {{extent_of: {0}}}\nterrain: [{{file: {0}, crs: \"EPSG:25833\"}}]\n", file));
+    return findings_of(input, "crs_outside_its_area").size();
+  };
+  EXPECT_EQ(count("g.asc"), 0u);
+  EXPECT_EQ(count("s.asc"), 1u);
+}
+
 TEST(PlaceTerrain, UnitsOfTheFileAndOfTheSource) {
   const PlaceFolder folder;
   TiffOptions options;
