@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/units.h"
 
 namespace greatx::scene::place {
 
@@ -27,7 +28,7 @@ DegreesArea area_of(Polygon polygon, const std::string& where) {
   const dvec2 size = area.box.high - area.box.low;
   if (!(size.x > 0.0 && size.y > 0.0))
     throw_user_error("{}: the area is empty: {}", where, extent_text(area.box));
-  if (size.x * std::cos(area.centre().y * 3.14159265358979 / 180.0) > most_degrees || size.y > most_degrees)
+  if (size.x * std::cos(radians(area.centre().y)) > most_degrees || size.y > most_degrees)
     throw_user_error("{}: expected an area of {} degrees at most, found {}: give an area", where,
                      most_degrees, extent_text(area.box));
   return area;

@@ -51,8 +51,8 @@ class Projection {
   void from_degrees(std::span<dvec2> degrees) const;
   /// Returns a sentence if PROJ has a more accurate conversion whose grid is not installed, or an empty text.
   std::string missing_grid() const;
-  /// Returns a sentence if the middle of an extent lies more than 3 degrees outside the area for which the CRS
-  /// is made (EPSG's "area of use"), as it does if x and y are swapped, or an empty text.
+  /// Returns a sentence if the middle of an extent lies more than 3 degrees outside the area for which the
+  /// CRS is made (EPSG's "area of use"), as it does if x and y are swapped, or an empty text.
   std::string outside_use(const Box& degrees) const;
   bool same_crs(const Projection& other) const;
   bool geographic() const { return geographic_; }

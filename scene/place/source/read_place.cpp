@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/input_file.h"
 #include "core/text.h"
+#include "core/units.h"
 #include "scene/place/input/osm_values.h"
 #include "scene/place/source/area.h"
 #include "scene/place/source/city_json.h"
@@ -27,8 +28,7 @@ constexpr double metres_per_degree = 111'000.0;
 
 Box widened(const Box& box, double metres) {
   const double latitude = std::min(89.0, std::max(std::abs(box.low.y), std::abs(box.high.y)));
-  const dvec2 more(metres / (metres_per_degree * std::cos(latitude * 3.14159265358979 / 180.0)),
-                   metres / metres_per_degree);
+  const dvec2 more(metres / (metres_per_degree * std::cos(radians(latitude))), metres / metres_per_degree);
   return {box.low - more, {box.high + more}};
 }
 
