@@ -233,12 +233,7 @@ class CityJsonReader {
     for (size_t i = 0; i < contents_.features.size(); ++i) by_id.emplace(contents_.features[i].id, i);
     for (Feature& feature : contents_.features) {
       if (feature.part_of.empty() || by_id.contains(feature.part_of)) continue;
-      feature.part_of.clear();
-      if (const auto part = feature.tags.find("building:part");
-          part != feature.tags.end() && part->second == "yes") {
-        feature.tags.erase(part);
-        feature.tags["building"] = "yes";
-      }
+      become_building(feature);
     }
   }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 #include <utility>
 
 #include "core/error.h"
@@ -151,22 +153,26 @@ class PlaceReader {
     if (samples.empty()) return origin;
     const LocalFrame level({origin, 0.0, ""});
     HeightField field;
-    double sum = 0.0;
-    size_t known = 0;
     for (const HeightSamples& one : samples) field.add(grid_in_frame(one, level));
     if (const auto z = field.at(dvec2(0.0))) {
       origin.height_m = std::round(*z * 10.0) / 10.0;
       return origin;
     }
-    for (const HeightSamples& one : samples)
-      for (const dvec3& sample : one.samples)
-        if (!std::isnan(sample.z)) sum += sample.z, ++known;
-    if (known > 0) origin.height_m = std::round(sum / static_cast<double>(known) * 10.0) / 10.0;
-    Notes("terrain", input_.findings)
-        .add(Kind::assumed, "origin_height", "",
-             fmt::format(
-                 "The terrain has no height at the origin; the origin is at the mean of its samples, {} m.",
-                 origin.height_m));
+    // The middle may lie in a void, below a building for example.
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const HeightGrid& grid : field.grids())
+      for (const dvec3& sample : grid.samples)
+        if (!std::isnan(sample.z) && glm::length(dvec2(sample)) < nearest) {
+          nearest = glm::length(dvec2(sample));
+          origin.height_m = std::round(level.datum_place(sample).height_m * 10.0) / 10.0;
+        }
+    if (std::isfinite(nearest))
+      Notes("terrain", input_.findings)
+          .add(
+              Kind::assumed, "origin_height", "",
+              fmt::format(
+                  "The terrain has no height at the origin; the nearest sample, {:.1f} m away, is {} m high.",
+                  nearest, origin.height_m));
     return origin;
   }
 
@@ -215,7 +221,6 @@ class PlaceReader {
       const size_t before = kept;
       read += maps_[i].features.size();
       size_t in_area = 0;
-      std::vector<std::string> kept_ids;
       for (Feature& feature : maps_[i].features) {
         if (!meets_turned(box_of(feature), widened(area_->box, 1.0))) continue;
         feature.source = source.name;
@@ -223,10 +228,10 @@ class PlaceReader {
         if (!test.meets(feature)) continue;
         ++in_area;
         translate_heights(source, feature);
-        kept_ids.push_back(feature.id);
         input_.features.push_back(std::move(feature));
       }
       kept += in_area;
+      join_parts(source, input_.features.size() - in_area);
       drop_findings_elsewhere(maps_[i]);
       if (kept == before && !maps_[i].features.empty()) report_outside(source, maps_[i]);
       maps_[i] = {};
@@ -238,6 +243,21 @@ class PlaceReader {
             fmt::format("{}{} covers {}", i > 0 ? "; " : "", printable(config_.maps[i].name), outside_[i]);
       throw_user_error("{}: none of {} objects of the maps lies in the area ({}): {}", config_.file.string(),
                        read, extent_text(area_->box), extents);
+    }
+  }
+
+  /// A part in the area whose building is outside of it is a building of its own.
+  void join_parts(const MapSource& source, size_t first) {
+    std::set<std::string_view> ids;
+    for (size_t i = first; i < input_.features.size(); ++i) ids.insert(input_.features[i].id);
+    for (size_t i = first; i < input_.features.size(); ++i) {
+      Feature& part = input_.features[i];
+      if (part.part_of.empty() || ids.contains(part.part_of)) continue;
+      Notes(source.name, input_.findings)
+          .add(Kind::doubtful, "part_without_building", part.id,
+               fmt::format("It is a part of '{}', which is not in the area; it counts as a building.",
+                           printable(part.part_of)));
+      become_building(part);
     }
   }
 

@@ -266,11 +266,7 @@ class TableReader {
       notes_.add(Kind::doubtful, "part_without_building", feature.id,
                  fmt::format("It is a part of '{}', which is not in the file; it counts as a building.",
                              printable(feature.part_of)));
-      feature.part_of.clear();
-      if (const auto part = feature.tags.find("building:part"); part != feature.tags.end()) {
-        feature.tags["building"] = part->second;
-        feature.tags.erase("building:part");
-      }
+      become_building(feature);
     }
   }
 
@@ -288,6 +284,14 @@ class TableReader {
 };
 
 }  // namespace
+
+void become_building(Feature& part) {
+  part.part_of.clear();
+  const auto tag = part.tags.find("building:part");
+  if (tag == part.tags.end()) return;
+  part.tags["building"] = tag->second;
+  part.tags.erase("building:part");
+}
 
 MapContents read_table(const MapSource& source, const DegreesBox& part) {
   MapContents contents;

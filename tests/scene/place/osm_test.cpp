@@ -165,6 +165,18 @@ TEST(PlaceOsm, PartsOfABuildingRelation) {
   EXPECT_EQ(find_feature(input, "way/2")->polygons.size(), 1u);
 }
 
+TEST(PlaceOsm, APartWhoseBuildingIsNotInTheAreaIsABuilding) {
+  const PlaceInput input = Osm()
+                               .way(1, {505, 509, 909, 905, 505}, building)
+                               .way(2, {1, 3, 203, 1}, tag("building:part", "roof"))
+                               .relation(3, {{1, "outline"}, {2, "part"}}, tag("type", "building"))
+                               .read("area: {bounds_deg: [47.9999, 9.9999, 48.0003, 10.0003]}\n");
+  ASSERT_EQ(input.features.size(), 1u);
+  EXPECT_EQ(input.features[0].part_of, "");
+  EXPECT_EQ(*input.features[0].tag("building"), "roof");
+  EXPECT_EQ(findings_of(input, "part_without_building").size(), 1u);
+}
+
 TEST(PlaceOsm, FaultsAreFindings) {
   const PlaceInput input =
       Osm()

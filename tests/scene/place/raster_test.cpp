@@ -200,6 +200,20 @@ TEST(PlaceTerrain, ACoordinateSystemFarFromItsAreaIsDoubtful) {
   EXPECT_EQ(count("s.asc"), 1u);
 }
 
+TEST(PlaceTerrain, AnOriginInAVoidTakesTheNearestSample) {
+  const PlaceFolder folder;
+  folder.write(
+      "t.asc", ascii_grid(9, 9, 10.0, 48.0, 0.001, [](int column, int row) {
+        return std::abs(column - 4) < 2 && std::abs(row - 4) < 2 ? "-9999" : column < 4 ? "70" : "80";
+      }));
+  const PlaceInput input = folder.read(
+      "area: {bounds_deg: [48.0, 10.0, 48.009, 10.009]}\nterrain: [{file: t.asc, crs: \"EPSG:4326\"}]\n");
+  ASSERT_EQ(findings_of(input, "origin_height").size(), 1u);
+  // Two columns are 149 m away, one of 70 and one of 80 m.
+  EXPECT_THAT(findings_of(input, "origin_height")[0].detail, HasSubstr("149."));
+  EXPECT_TRUE(input.reference.origin.height_m == 70.0 || input.reference.origin.height_m == 80.0);
+}
+
 TEST(PlaceTerrain, UnitsOfTheFileAndOfTheSource) {
   const PlaceFolder folder;
   TiffOptions options;
