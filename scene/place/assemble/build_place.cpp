@@ -15,6 +15,7 @@
 #include "scene/generator/objects/objects.h"
 #include "scene/generator/objects/street_furniture.h"
 #include "scene/generator/objects/trees.h"
+#include "scene/georeference/georeference.h"
 #include "scene/place/assemble/building_mesh.h"
 #include "scene/place/assemble/picture_cover.h"
 #include "scene/place/buildings/complex.h"
@@ -207,7 +208,7 @@ class Assembly {
             member("source", objects_.hedges[i].source) + "," + member("source_id", objects_.hedges[i].id),
             "objects");
     write_objects(writer);
-    out_.glb = writer.finish(config_.name, georeference_json(input_.reference));
+    out_.glb = writer.finish(config_.name, georeference_extras(input_.reference));
   }
 
   /// Returns a name that no other node has.
@@ -431,16 +432,6 @@ class Assembly {
       ++out_.report.objects[name_of(object.kind)];
       count("objects", entry.triangles);
     }
-  }
-
-  static std::string georeference_json(const Georeference& reference) {
-    return nlohmann::json{{"greatx_georeference",
-                           {{"latitude_deg", reference.origin.latitude_deg},
-                            {"longitude_deg", reference.origin.longitude_deg},
-                            {"height_m", reference.origin.height_m},
-                            {"undulation_m", reference.undulation_m},
-                            {"vertical_datum", reference.vertical_datum}}}}
-        .dump();
   }
 
   const PlaceInput& input_;

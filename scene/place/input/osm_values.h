@@ -14,8 +14,8 @@
 namespace greatx::scene::place {
 
 /// Returns a length in metres: "12.5", "12 m", "12,5 m", "1.2 km", "40 ft", "40'", "5'6\"", "66\"", "3 in"
-/// (OpenStreetMap wiki, "Map features/Units"). A number without a unit counts `unit_m` metres. The sign may be
-/// negative.
+/// (OpenStreetMap wiki, "Map features/Units"). A number without a unit counts `unit_m` metres. The sign may
+/// be negative.
 std::optional<double> parse_length_m(std::string_view text, double unit_m = 1.0);
 
 /// Returns a number of storeys: "3", "2.5". A list, "1;2" or "0-3", is no number.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/units.h"
 
 namespace greatx::scene::place {
 
@@ -27,7 +28,7 @@ DegreesArea area_of(Polygon polygon, const std::string& where) {
   const dvec2 size = area.box.high - area.box.low;
   if (!(size.x > 0.0 && size.y > 0.0))
     throw_user_error("{}: the area is empty: {}", where, extent_text(area.box));
-  if (size.x * std::cos(area.centre().y * 3.14159265358979 / 180.0) > most_degrees || size.y > most_degrees)
+  if (size.x * std::cos(radians(area.centre().y)) > most_degrees || size.y > most_degrees)
     throw_user_error("{}: expected an area of {} degrees at most, found {}: give an area", where,
                      most_degrees, extent_text(area.box));
   return area;
@@ -51,6 +52,12 @@ std::string extent_text(const Box& degrees) {
   if (degrees.empty()) return "nowhere";
   return fmt::format("latitude {:.5f} to {:.5f}, longitude {:.5f} to {:.5f}", degrees.low.y, degrees.high.y,
                      longitude_near(degrees.low.x, 0.0), longitude_near(degrees.high.x, 0.0));
+}
+
+std::string swapped_hint(const Box& extent, const Box& area) {
+  if (extent.empty() || meets_turned(extent, area)) return {};
+  const Box swapped{{extent.low.y, extent.low.x}, {extent.high.y, extent.high.x}};
+  return meets_turned(swapped, area) ? "; latitude and longitude seem to be swapped" : "";
 }
 
 std::optional<DegreesArea> given_area(const PlaceConfig& config) {
@@ -77,8 +84,10 @@ std::optional<DegreesArea> given_area(const PlaceConfig& config) {
 
 DegreesArea area_of_extent(const Box& extent, const std::string& where) {
   if (extent.empty()) throw_user_error("{}: no source has an object, so there is no area", where);
-  return area_of(
-      {{extent.low, {extent.high.x, extent.low.y}, extent.high, {extent.low.x, extent.high.y}}, {}}, where);
+  // A point on the edge counts as within, whatever the rounding.
+  constexpr double more = 1e-5;
+  const dvec2 low = extent.low - more, high = extent.high + more;
+  return area_of({{low, {high.x, low.y}, high, {low.x, high.y}}, {}}, where);
 }
 
 Polygon area_in_frame(const DegreesArea& area, const Placement& placement) {

@@ -3,10 +3,10 @@
 //
 // Reads CityJSON 1.0, 1.1 and 2.0 (https://www.cityjson.org/specs/2.0.1/).
 //
-// Buildings, their parts and installations become solids: SolidFaces of the highest level of detail below 3, in
-// the boundary's own orientation. Everything that lies on the ground (roads, land use, water, plants, bridges)
-// becomes an area in plan: the union of its surfaces, without the upright ones. Objects of other kinds are
-// left out and counted.
+// Buildings, their parts and installations become solids: SolidFaces of the highest level of detail below 3,
+// in the boundary's own orientation. Everything that lies on the ground (roads, land use, water, plants,
+// bridges) becomes an area in plan: the union of its surfaces, without the upright ones. Objects of other
+// kinds are left out and counted.
 #pragma once
 
 #include <string>

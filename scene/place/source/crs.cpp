@@ -9,6 +9,7 @@
 #include <limits>
 #include <mutex>
 #include <ogr_srs_api.h>
+#include <proj.h>
 #include <utility>
 
 #include "core/error.h"
@@ -25,6 +26,63 @@ void CPL_STDCALL take_message(CPLErr kind, CPLErrorNum, const char* message) {
 }
 
 }  // namespace
+
+namespace {
+
+struct EndProj {
+  void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
+  void operator()(PJ* object) const { proj_destroy(object); }
+  void operator()(PJ_OBJ_LIST* list) const { proj_list_destroy(list); }
+  void operator()(PJ_OPERATION_FACTORY_CONTEXT* factory) const {
+    proj_operation_factory_context_destroy(factory);
+  }
+};
+
+struct Accuracy {
+  std::string name;
+  double metres = std::numeric_limits<double>::infinity();
+};
+
+/// Returns the most accurate of PROJ's conversions, with those whose grids are missing or without.
+Accuracy best_conversion(PJ_CONTEXT* context, const PJ* from, const PJ* to,
+                         PROJ_GRID_AVAILABILITY_USE grids) {
+  const std::unique_ptr<PJ_OPERATION_FACTORY_CONTEXT, EndProj> factory(
+      proj_create_operation_factory_context(context, nullptr));
+  proj_operation_factory_context_set_spatial_criterion(context, factory.get(),
+                                                       PROJ_SPATIAL_CRITERION_PARTIAL_INTERSECTION);
+  proj_operation_factory_context_set_grid_availability_use(context, factory.get(), grids);
+  const std::unique_ptr<PJ_OBJ_LIST, EndProj> list(proj_create_operations(context, from, to, factory.get()));
+  Accuracy best;
+  for (int i = 0; list && i < proj_list_get_count(list.get()); ++i) {
+    const std::unique_ptr<PJ, EndProj> operation(proj_list_get(context, list.get(), i));
+    const double metres = proj_coordoperation_get_accuracy(context, operation.get());
+    if (metres >= 0.0 && metres < best.metres) best = {proj_get_name(operation.get()), metres};
+  }
+  return best;
+}
+
+}  // namespace
+
+std::string Projection::missing_grid() const {
+  const std::unique_ptr<PJ_CONTEXT, EndProj> context(proj_context_create());
+  proj_log_level(context.get(), PJ_LOG_NONE);
+  proj_context_set_enable_network(context.get(), 0);
+  char* wkt = nullptr;
+  const char* const options[] = {"FORMAT=WKT2_2018", nullptr};
+  const bool written = crs_.exportToWkt(&wkt, options) == OGRERR_NONE;
+  const std::unique_ptr<PJ, EndProj> from(written ? proj_create(context.get(), wkt) : nullptr),
+      to(proj_create(context.get(), "EPSG:4326"));
+  CPLFree(wkt);
+  if (!from || !to) return {};
+  const Accuracy here = best_conversion(context.get(), from.get(), to.get(),
+                                        PROJ_GRID_AVAILABILITY_DISCARD_OPERATION_IF_MISSING_GRID),
+                 best = best_conversion(context.get(), from.get(), to.get(), PROJ_GRID_AVAILABILITY_IGNORED);
+  if (!(best.metres < here.metres)) return {};
+  return fmt::format(
+      "PROJ converts '{}' by '{}', to {:g} m; '{}', to {:g} m, needs a grid that is not installed "
+      "(projsync).",
+      printable(crs_.GetName()), here.name, here.metres, best.name, best.metres);
+}
 
 void prepare_gdal() {
   static std::once_flag once;
@@ -84,6 +142,24 @@ Projection::Projection(std::string where, const std::string& given, const OGRSpa
   if (!to_ || !from_)
     throw_user_error("{}: crs: PROJ knows no way from '{}' to WGS 84{}", where_, printable(crs_.GetName()),
                      messages.suffix());
+}
+
+std::string Projection::outside_use(const Box& degrees) const {
+  constexpr double slack_deg = 3.0;  // zones are used beyond their edges where a country extends over them
+  double west = 0.0, south = 0.0, east = 0.0, north = 0.0;
+  if (degrees.empty() || !crs_.GetAreaOfUse(&west, &south, &east, &north, nullptr) || west == -1000.0)
+    return {};
+  if (east < west) east += 360.0;
+  const dvec2 middle = (degrees.low + degrees.high) / 2.0;
+  const double longitude = longitude_near(middle.x, (west + east) / 2.0);
+  if (longitude >= west - slack_deg && longitude <= east + slack_deg && middle.y >= south - slack_deg &&
+      middle.y <= north + slack_deg)
+    return {};
+  return fmt::format(
+      "It lies at latitude {:.3f}, longitude {:.3f}, but '{}' is made for latitudes {:g} to {:g}, longitudes "
+      "{:g} to "
+      "{:g}: is its crs right, and are x and y in order?",
+      middle.y, longitude, printable(crs_.GetName()), south, north, west, east);
 }
 
 bool Projection::same_crs(const Projection& other) const { return crs_.IsSame(&other.crs_) != 0; }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Converts between the coordinates of files and degrees of WGS 84, by PROJ through GDAL. Longitude and easting
-// come first everywhere ("traditional GIS order"), whatever the definition of a CRS says.
+// Converts between the coordinates of files and degrees of WGS 84, by PROJ through GDAL. Longitude and
+// easting come first everywhere ("traditional GIS order"), whatever the definition of a CRS says.
 #pragma once
 
 #include <memory>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "scene/place/input/area_test.h"
 
 namespace greatx::scene::place {
 
@@ -48,6 +49,11 @@ class Projection {
   dvec2 to_degrees(const dvec2& point) const;
   /// Converts in place; a point without image becomes NaN.
   void from_degrees(std::span<dvec2> degrees) const;
+  /// Returns a sentence if PROJ has a more accurate conversion whose grid is not installed, or an empty text.
+  std::string missing_grid() const;
+  /// Returns a sentence if the middle of an extent lies more than 3 degrees outside the area for which the
+  /// CRS is made (EPSG's "area of use"), as it does if x and y are swapped, or an empty text.
+  std::string outside_use(const Box& degrees) const;
   bool same_crs(const Projection& other) const;
   bool geographic() const { return geographic_; }
 

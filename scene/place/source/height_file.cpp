@@ -73,6 +73,10 @@ HeightTile read_heights(const HeightSource& source, const Box& degrees, Notes& n
     throw_user_error("{}: expected one band of heights, found {} bands", raster.where(),
                      raster.dataset().GetRasterCount());
   const auto window = raster.window(degrees, 2);
+  if (const std::string grid = raster.projection()->missing_grid(); !grid.empty())
+    notes.add(Kind::doubtful, "datum_grid_missing", "", grid);
+  if (const std::string use = raster.projection()->outside_use(result.extent); !use.empty())
+    notes.add(Kind::doubtful, "crs_outside_its_area", "", use);
   if (!window || window->columns < 2 || window->rows < 2) return result;
   result.columns = static_cast<uint32_t>(window->columns);
   result.rows = static_cast<uint32_t>(window->rows);
@@ -272,6 +276,47 @@ std::vector<uint32_t> steps_to_data(const HeightSamples& grid) {
 
 }  // namespace
 
+namespace {
+
+/// How far a sample may be from the median of its neighbours, by their mean distance: a slope of 56 degrees.
+constexpr double most_spike = 1.5;
+
+/// Says how many samples of the area stand out of their neighbours so far that they are hardly ground.
+void report_spikes(const HeightGrid& grid, const AreaTest& area, const std::string& what, Notes& notes) {
+  size_t spikes = 0;
+  double worst = 0.0;
+  for (uint32_t row = 1; row + 1 < grid.rows; ++row)
+    for (uint32_t column = 1; column + 1 < grid.columns; ++column) {
+      const dvec3& sample = grid.samples[static_cast<size_t>(row) * grid.columns + column];
+      if (std::isnan(sample.z) || !area.contains(dvec2(sample))) continue;
+      std::array<double, 8> heights{};
+      size_t known = 0;
+      double distance = 0.0;
+      for (uint32_t r = row - 1; r <= row + 1; ++r)
+        for (uint32_t c = column - 1; c <= column + 1; ++c) {
+          const dvec3& other = grid.samples[static_cast<size_t>(r) * grid.columns + c];
+          if ((r == row && c == column) || std::isnan(other.z)) continue;
+          heights[known++] = other.z;
+          distance += glm::distance(dvec2(sample), dvec2(other));
+        }
+      if (known < 5) continue;
+      const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(known / 2);
+      std::nth_element(heights.begin(), middle, heights.begin() + static_cast<std::ptrdiff_t>(known));
+      const double height = std::abs(sample.z - *middle);
+      if (height <= most_spike * distance / static_cast<double>(known)) continue;
+      ++spikes;
+      worst = std::max(worst, height);
+    }
+  if (spikes > 0)
+    notes.add(Kind::doubtful, what + "_spike", "",
+              fmt::format(
+                  "{} samples within the area are farther from the median of their neighbours than {} times "
+                  "their distance, {:.1f} m at most; they are kept (valid_m takes such out).",
+                  spikes, most_spike, worst));
+}
+
+}  // namespace
+
 HeightField join_samples(std::vector<HeightSamples> samples, const LocalFrame& frame, const AreaTest& area,
                          bool fill, const std::string& what, std::vector<Finding>& findings) {
   HeightField raw;
@@ -288,8 +333,9 @@ HeightField join_samples(std::vector<HeightSamples> samples, const LocalFrame& f
       voids.push_back(i);
       empty_inside += in_area;
     }
-    if (voids.empty()) continue;
     Notes notes(grid.source, findings);
+    if (fill) report_spikes(grid, area, what, notes);
+    if (voids.empty()) continue;
     const std::vector<double> heights = fill ? interpolated(samples[g]) : std::vector<double>();
     if (heights.empty()) {
       if (empty_inside > 0)
@@ -310,6 +356,7 @@ HeightField join_samples(std::vector<HeightSamples> samples, const LocalFrame& f
                           empty_inside, inside, voids.size() - empty_inside, farthest));
   }
   if (!changed) return raw;
+  raw = {};  // the two at once would be the largest thing in memory
   HeightField joined;
   for (const HeightSamples& one : samples) joined.add(grid_in_frame(one, frame));
   return joined;

@@ -29,12 +29,12 @@ struct HeightTile {
   std::string licence;
 };
 
-/// Reads the pixels of a box and two around it. Counts values outside `valid_m` as a finding. Throws UserError
-/// if the file cannot be read, or if its unit is another than that of the source.
+/// Reads the pixels of a box and two around it. Counts values outside `valid_m` as a finding. Throws
+/// UserError if the file cannot be read, or if its unit is another than that of the source.
 HeightTile read_heights(const HeightSource& source, const Box& degrees, Notes& notes);
 
-/// Joins tiles of the same CRS whose pixels have the same size and lie on one lattice to 1 % of a pixel. Where
-/// two have data, the earlier one counts.
+/// Joins tiles of the same CRS whose pixels have the same size and lie on one lattice to 1 % of a pixel.
+/// Where two have data, the earlier one counts.
 std::vector<HeightTile> join_tiles(std::vector<HeightTile> tiles);
 
 /// Samples at the centres of pixels.
@@ -48,9 +48,9 @@ HeightSamples samples_of(const HeightTile& tile);
 /// Puts samples into the frame.
 HeightGrid grid_in_frame(const HeightSamples& samples, const LocalFrame& frame);
 
-/// Puts all samples into the frame. Counts the samples within `area` at which no grid has data and, if `fill`,
-/// gives them heights: GDAL's interpolation by inverse distances (GDALFillNodata) from the data around the
-/// void in the same file. Says so as findings, whose topics `what` begins.
+/// Puts all samples into the frame. Counts the samples within `area` at which no grid has data and, if
+/// `fill`, gives them heights: GDAL's interpolation by inverse distances (GDALFillNodata) from the data
+/// around the void in the same file. Says so as findings, whose topics `what` begins.
 HeightField join_samples(std::vector<HeightSamples> samples, const LocalFrame& frame, const AreaTest& area,
                          bool fill, const std::string& what, std::vector<Finding>& findings);
 

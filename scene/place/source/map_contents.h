@@ -57,6 +57,9 @@ double longitude_near(double longitude_deg, double near_deg);
 /// Returns whether two boxes in degrees meet, whatever full turns lie between their longitudes.
 bool meets_turned(const Box& a, const Box& b);
 
+/// Makes a part a building of its own.
+void become_building(Feature& part);
+
 /// Each reader throws UserError "file: ..." if it cannot read the file.
 MapContents read_osm_file(const MapSource& source);
 MapContents read_city_json(const MapSource& source);

@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/geodesy.h"
 #include "scene/place/input/osm_values.h"
 #include "scene/place/source/osm_data.h"

@@ -95,11 +95,15 @@ class OsmReader {
           std::abs(at.y()) > 900'000'000 && std::abs(at.x()) <= 900'000'000
               ? ": latitude and longitude seem to be swapped"
               : "");
-    nodes_.plan(where_, 1);
-    data_.nodes.emplace_back(node.id(), dvec2(at.lon(), at.lat()));
+    add_node(node.id(), at);
     if (node.tags().empty()) return;
     if (Tags tags = tags_of(node.tags(), where_, node.id()); says_anything(tags))
       data_.tagged_nodes.emplace_back(node.id(), std::move(tags));
+  }
+
+  void add_node(int64_t id, const osmium::Location& at) {
+    nodes_.plan(where_, 1);
+    data_.nodes.emplace_back(id, dvec2(at.lon(), at.lat()));
   }
 
   void way(const osmium::Way& way) {
@@ -107,7 +111,11 @@ class OsmReader {
     if (!says_anything(tags) && !members_.contains(way.id())) return;
     corners_.plan(where_, way.nodes().size());
     OsmWay kept{way.id(), {}, std::move(tags)};
-    for (const osmium::NodeRef& node : way.nodes()) kept.nodes.push_back(node.ref());
+    for (const osmium::NodeRef& node : way.nodes()) {
+      kept.nodes.push_back(node.ref());
+      // Overpass' "out geom" and osmium's "locations on ways" give places here, and perhaps no nodes.
+      if (node.location().valid()) add_node(node.ref(), node.location());
+    }
     data_.ways.push_back(std::move(kept));
   }
 

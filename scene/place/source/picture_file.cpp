@@ -175,7 +175,8 @@ GroundPicture resampled(const Raster& raster, const PixelWindow& window, const P
 PictureRead read_picture(const PictureSource& source, const Box& degrees, const Placement& placement,
                          Spending& spent) {
   const Raster raster(source.file, source.crs);
-  PictureRead result{std::nullopt, raster.extent(), raster.licence()};
+  PictureRead result{std::nullopt, raster.extent(), raster.licence(), raster.projection()->missing_grid(),
+                     raster.projection()->outside_use(raster.extent())};
   const auto window = raster.window(degrees, 1);
   if (!window) return result;
   spent.plan(raster.where(), saturating_product({static_cast<uint64_t>(window->columns),

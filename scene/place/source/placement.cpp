@@ -5,8 +5,8 @@
 namespace greatx::scene::place {
 
 namespace {
-/// Each step makes the error of x and y smaller by the terrain's slope times distance over the Earth's radius,
-/// below 0.003 at 20 km and 45 degrees. The first step is wrong by some 3 m per km of height there.
+/// Each step makes the error of x and y smaller by the terrain's slope times distance over the Earth's
+/// radius, below 0.003 at 20 km and 45 degrees. The first step is wrong by some 3 m per km of height there.
 constexpr int height_steps = 3;
 /// The mean radius of WGS 84; a height that is wrong by 1 m at 20 km moves x and y by 3 mm.
 constexpr double earth_radius_m = 6'371'009.0;

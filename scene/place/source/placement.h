@@ -9,16 +9,17 @@
 
 namespace greatx::scene::place {
 
-/// A point of a map has no height of its own, but its x and y depend on it: at 10 km from the origin they move
-/// 1.6 mm per metre of height. Points of maps therefore take the terrain's height.
+/// A point of a map has no height of its own, but its x and y depend on it: at 10 km from the origin they
+/// move 1.6 mm per metre of height. Points of maps therefore take the terrain's height.
 class Placement {
  public:
   /// `terrain` may be empty, or grow later; it outlives this.
   Placement(const Georeference& reference, const HeightField& terrain);
   const LocalFrame& frame() const { return frame_; }
 
-  /// Returns the place of (longitude, latitude) in degrees on the terrain, or at the height of the origin where
-  /// there is none. x and y are those of the terrain's point to 1 mm up to slopes of 45 degrees and 20 km.
+  /// Returns the place of (longitude, latitude) in degrees on the terrain, or at the height of the origin
+  /// where there is none. x and y are those of the terrain's point to 1 mm up to slopes of 45 degrees and 20
+  /// km.
   dvec2 on_ground(const dvec2& degrees) const;
   /// Returns the inverse: (longitude, latitude) of the ground at x and y.
   dvec2 degrees_of(const dvec2& local) const;

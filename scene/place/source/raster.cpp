@@ -10,9 +10,16 @@
 
 namespace greatx::scene::place {
 
+namespace {
+/// The formats of docs/places_reference.md. Others are not opened: some name further files, or addresses.
+constexpr const char* raster_drivers[] = {"GTiff", "SRTMHGT", "AAIGrid", "EHdr",        "XYZ",
+                                          "DTED",  "PNG",     "JPEG",    "JP2OpenJPEG", nullptr};
+}  // namespace
+
 Raster::Raster(const std::filesystem::path& file, const std::string& crs) : where_(file.string()) {
   prepare_gdal();
-  dataset_.reset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  dataset_.reset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                   raster_drivers));
   if (!dataset_ || dataset_->GetRasterCount() == 0)
     throw_user_error("{}: expected a raster (GeoTIFF, HGT, ESRI ASCII grid, PNG, JPEG){}", where_,
                      messages_.suffix());

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 #include <utility>
 
 #include "core/error.h"
 #include "core/input_file.h"
 #include "core/text.h"
+#include "core/units.h"
 #include "scene/place/input/osm_values.h"
 #include "scene/place/source/area.h"
 #include "scene/place/source/city_json.h"
@@ -27,8 +30,7 @@ constexpr double metres_per_degree = 111'000.0;
 
 Box widened(const Box& box, double metres) {
   const double latitude = std::min(89.0, std::max(std::abs(box.low.y), std::abs(box.high.y)));
-  const dvec2 more(metres / (metres_per_degree * std::cos(latitude * 3.14159265358979 / 180.0)),
-                   metres / metres_per_degree);
+  const dvec2 more(metres / (metres_per_degree * std::cos(radians(latitude))), metres / metres_per_degree);
   return {box.low - more, {box.high + more}};
 }
 
@@ -130,10 +132,13 @@ class PlaceReader {
       Notes notes(source.name, input_.findings);
       tiles.push_back(read_heights(source, box, notes));
       add_licence(source.name, source.licence, tiles.back().licence);
+      height_extents_ +=
+          fmt::format("{}{} covers {}{}", height_extents_.empty() ? "" : "; ", printable(source.name),
+                      extent_text(tiles.back().extent), swapped_hint(tiles.back().extent, area_->box));
       if (tiles.back().columns == 0)
         notes.add(Kind::left_out, fmt::format("{}_outside", topic), "",
-                  fmt::format("The file covers {}, the area {}.", extent_text(tiles.back().extent),
-                              extent_text(area_->box)));
+                  fmt::format("The file covers {}, the area {}{}.", extent_text(tiles.back().extent),
+                              extent_text(area_->box), swapped_hint(tiles.back().extent, area_->box)));
     }
     std::vector<HeightSamples> samples;
     for (const HeightTile& tile : join_tiles(std::move(tiles))) samples.push_back(samples_of(tile));
@@ -148,39 +153,43 @@ class PlaceReader {
     if (samples.empty()) return origin;
     const LocalFrame level({origin, 0.0, ""});
     HeightField field;
-    double sum = 0.0;
-    size_t known = 0;
     for (const HeightSamples& one : samples) field.add(grid_in_frame(one, level));
     if (const auto z = field.at(dvec2(0.0))) {
       origin.height_m = std::round(*z * 10.0) / 10.0;
       return origin;
     }
-    for (const HeightSamples& one : samples)
-      for (const dvec3& sample : one.samples)
-        if (!std::isnan(sample.z)) sum += sample.z, ++known;
-    if (known > 0) origin.height_m = std::round(sum / static_cast<double>(known) * 10.0) / 10.0;
-    Notes("terrain", input_.findings)
-        .add(Kind::assumed, "origin_height", "",
-             fmt::format(
-                 "The terrain has no height at the origin; the origin is at the mean of its samples, {} m.",
-                 origin.height_m));
+    // The middle may lie in a void, below a building for example.
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const HeightGrid& grid : field.grids())
+      for (const dvec3& sample : grid.samples)
+        if (!std::isnan(sample.z) && glm::length(dvec2(sample)) < nearest) {
+          nearest = glm::length(dvec2(sample));
+          origin.height_m = std::round(level.datum_place(sample).height_m * 10.0) / 10.0;
+        }
+    if (std::isfinite(nearest))
+      Notes("terrain", input_.findings)
+          .add(
+              Kind::assumed, "origin_height", "",
+              fmt::format(
+                  "The terrain has no height at the origin; the nearest sample, {:.1f} m away, is {} m high.",
+                  nearest, origin.height_m));
     return origin;
   }
 
   void read_terrain() {
-    const auto samples = read_samples(config_.terrain, config_.ground.margin_m + terrain_margin_m, "terrain");
+    auto samples = read_samples(config_.terrain, config_.ground.margin_m + terrain_margin_m, "terrain");
     const bool any = std::ranges::any_of(samples, [](const HeightSamples& one) {
       return std::ranges::any_of(one.samples, [](const dvec3& sample) { return !std::isnan(sample.z); });
     });
     if (!config_.terrain.empty() && !any)
-      throw_user_error("{}: terrain: no file has a height in or around the area ({})", config_.file.string(),
-                       extent_text(area_->box));
+      throw_user_error("{}: terrain: no file has a height in or around the area ({}): {}",
+                       config_.file.string(), extent_text(area_->box), height_extents_);
     Geodetic origin = find_origin(samples);
     origin.height_m += config_.undulation_m;
     input_.reference = {origin, config_.undulation_m, config_.vertical_datum};
     const Placement level(input_.reference, input_.terrain);
     const AreaTest test(area_in_frame(*area_, level));
-    input_.terrain = join_samples(samples, level.frame(), test, true, "terrain", input_.findings);
+    input_.terrain = join_samples(std::move(samples), level.frame(), test, true, "terrain", input_.findings);
     placement_.emplace(input_.reference, input_.terrain);
     if (!config_.terrain.empty()) report_cover(input_.terrain, test, "terrain");
   }
@@ -212,7 +221,6 @@ class PlaceReader {
       const size_t before = kept;
       read += maps_[i].features.size();
       size_t in_area = 0;
-      std::vector<std::string> kept_ids;
       for (Feature& feature : maps_[i].features) {
         if (!meets_turned(box_of(feature), widened(area_->box, 1.0))) continue;
         feature.source = source.name;
@@ -220,10 +228,10 @@ class PlaceReader {
         if (!test.meets(feature)) continue;
         ++in_area;
         translate_heights(source, feature);
-        kept_ids.push_back(feature.id);
         input_.features.push_back(std::move(feature));
       }
       kept += in_area;
+      join_parts(source, input_.features.size() - in_area);
       drop_findings_elsewhere(maps_[i]);
       if (kept == before && !maps_[i].features.empty()) report_outside(source, maps_[i]);
       maps_[i] = {};
@@ -238,17 +246,30 @@ class PlaceReader {
     }
   }
 
-  /// Findings of single objects count whether or not the object is in the area: the reader cannot tell where an
-  /// object without corners lies.
+  /// A part in the area whose building is outside of it is a building of its own.
+  void join_parts(const MapSource& source, size_t first) {
+    std::set<std::string_view> ids;
+    for (size_t i = first; i < input_.features.size(); ++i) ids.insert(input_.features[i].id);
+    for (size_t i = first; i < input_.features.size(); ++i) {
+      Feature& part = input_.features[i];
+      if (part.part_of.empty() || ids.contains(part.part_of)) continue;
+      Notes(source.name, input_.findings)
+          .add(Kind::doubtful, "part_without_building", part.id,
+               fmt::format("It is a part of '{}', which is not in the area; it counts as a building.",
+                           printable(part.part_of)));
+      become_building(part);
+    }
+  }
+
+  /// Findings of single objects count whether or not the object is in the area: the reader cannot tell where
+  /// an object without corners lies.
   void drop_findings_elsewhere(MapContents& contents) {
     outside_.push_back(extent_text(contents.extent));
     std::ranges::move(contents.findings, std::back_inserter(input_.findings));
   }
 
   void report_outside(const MapSource& source, const MapContents& contents) {
-    const Box swapped{{contents.extent.low.y, contents.extent.low.x},
-                      {contents.extent.high.y, contents.extent.high.x}};
-    if (meets_turned(swapped, area_->box))
+    if (!swapped_hint(contents.extent, area_->box).empty())
       throw_user_error(
           "{}: all objects lie outside the area, and inside it if latitude and longitude change places: they "
           "seem "
@@ -288,8 +309,9 @@ class PlaceReader {
 
   void read_surface(const AreaTest& test) {
     if (config_.surface.empty()) return;
-    const auto samples = read_samples(config_.surface, config_.ground.margin_m + terrain_margin_m, "surface");
-    input_.surface = join_samples(samples, placement_->frame(), test, false, "surface", input_.findings);
+    auto samples = read_samples(config_.surface, config_.ground.margin_m + terrain_margin_m, "surface");
+    input_.surface =
+        join_samples(std::move(samples), placement_->frame(), test, false, "surface", input_.findings);
     report_cover(input_.surface, test, "surface");
   }
 
@@ -300,13 +322,17 @@ class PlaceReader {
       PictureRead read =
           read_picture(source, widened(area_->box, config_.ground.margin_m), *placement_, spent);
       add_licence(source.name, source.licence, read.licence);
+      if (!read.missing_grid.empty())
+        Notes(source.name, input_.findings).add(Kind::doubtful, "datum_grid_missing", "", read.missing_grid);
+      if (!read.outside_use.empty())
+        Notes(source.name, input_.findings).add(Kind::doubtful, "crs_outside_its_area", "", read.outside_use);
       if (read.picture)
         input_.pictures.push_back(std::move(*read.picture));
       else
         Notes(source.name, input_.findings)
             .add(Kind::left_out, "picture_outside", "",
-                 fmt::format("The picture covers {}, the area {}.", extent_text(read.extent),
-                             extent_text(area_->box)));
+                 fmt::format("The picture covers {}, the area {}{}.", extent_text(read.extent),
+                             extent_text(area_->box), swapped_hint(read.extent, area_->box)));
     }
     if (config_.pictures.empty()) return;
     const double share = covered_share(input_.pictures, test);
@@ -321,6 +347,7 @@ class PlaceReader {
   std::optional<DegreesArea> area_;
   std::vector<MapContents> maps_;
   std::vector<std::string> outside_;
+  std::string height_extents_;  ///< for messages
   std::optional<Placement> placement_;
   PlaceInput input_;
 };

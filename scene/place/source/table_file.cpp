@@ -25,6 +25,10 @@ namespace {
 
 using Kind = Finding::Kind;
 
+/// The formats of docs/places_reference.md. Others are not opened: some name further files, or addresses.
+constexpr const char* table_drivers[] = {"GeoJSON",        "GeoJSONSeq", "GPKG",
+                                         "ESRI Shapefile", "FlatGeobuf", nullptr};
+
 struct CloseDataset {
   void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 };
@@ -41,10 +45,13 @@ class TableReader {
 
   void read() {
     prepare_gdal();
+    const std::string ending = source_.file.extension().string();
+    if (ending == ".json" || ending == ".geojson")  // GDAL holds the whole text
+      require_within(where_, std::filesystem::file_size(source_.file), map_file);
     const GdalMessages messages;
     const std::unique_ptr<GDALDataset, CloseDataset> dataset(
         GDALDataset::Open(source_.file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                          nullptr, nullptr, nullptr));
+                          table_drivers, nullptr, nullptr));
     if (!dataset)
       throw_user_error(
           "{}: expected OpenStreetMap (.osm, .pbf), CityJSON, GeoJSON, GeoPackage or Shapefile{}", where_,
@@ -69,12 +76,16 @@ class TableReader {
   void read_layer(OGRLayer& layer) {
     if (layer.GetGeomType() == wkbNone) return;  // a table of attributes alone, as GeoPackages have
     const Projection projection(where_, source_.crs, layer.GetSpatialRef());
+    if (const std::string grid = projection.missing_grid(); !grid.empty())
+      notes_.add(Kind::doubtful, "datum_grid_missing", printable(layer.GetName()), grid);
     OGREnvelope all;
     if (layer.GetExtent(&all, TRUE) == OGRERR_NONE && std::isfinite(all.MinX)) {
       std::vector<dvec2> corners{
           {all.MinX, all.MinY}, {all.MaxX, all.MinY}, {all.MaxX, all.MaxY}, {all.MinX, all.MaxY}};
       projection.to_degrees(corners);
       for (const dvec2& corner : corners) contents_.extent.add(corner);
+      if (const std::string use = projection.outside_use(box_of(corners)); !use.empty())
+        notes_.add(Kind::doubtful, "crs_outside_its_area", printable(layer.GetName()), use);
       filter(layer, projection, all);
     }
     for (const auto& feature : layer) read_feature(*feature, projection);
@@ -114,11 +125,11 @@ class TableReader {
     ++objects_;
     Translated translated = vocabulary_.translate(attributes);
     if (translated.id.empty()) translated.id = fmt::format("{}", feature.GetFID());
+    known_ += translated.left_out || has_known_key(translated.tags);
     if (translated.left_out) {
       notes_.add(Kind::left_out, "marked_as_not_built", translated.id, "Its shape is 'none'.");
       return;
     }
-    known_ = known_ || has_known_key(translated.tags);
     const OGRGeometry* geometry = feature.GetGeometryRef();
     if (geometry == nullptr || geometry->IsEmpty()) {
       notes_.add(Kind::left_out, "without_geometry", translated.id, "The object has no geometry.");
@@ -232,12 +243,18 @@ class TableReader {
     }
   }
 
-  void require_known_keys() const {
-    if (objects_ == 0 || known_ || contents_.features.empty()) return;
-    throw_user_error("{}: none of its {} objects says what it is; their attributes are {}: {}", where_,
-                     objects_,
-                     names_.empty() ? "none" : printable(fmt::format("{}", fmt::join(names_, ", "))),
-                     suggested_vocabulary(names_));
+  /// A file in another vocabulary may have a few names in common with OpenStreetMap.
+  void require_known_keys() {
+    if (objects_ == 0 || contents_.features.empty() || known_ == objects_) return;
+    const bool other = source_.vocabulary == "osm" && names_of_osm_buildings(names_) >= 2;
+    if (known_ == 0 || (other && 2 * known_ <= objects_))
+      throw_user_error("{}: {} of its {} objects says what it is; their attributes are {}: {}", where_,
+                       known_ == 0 ? "none" : fmt::format("only {}", known_), objects_,
+                       names_.empty() ? "none" : printable(fmt::format("{}", fmt::join(names_, ", "))),
+                       suggested_vocabulary(names_));
+    notes_.add(
+        Kind::left_out, "object_without_kind", "",
+        fmt::format("{} of {} objects have no tag that says what they are.", objects_ - known_, objects_));
   }
 
   /// A part without its building is a building of its own.
@@ -249,11 +266,7 @@ class TableReader {
       notes_.add(Kind::doubtful, "part_without_building", feature.id,
                  fmt::format("It is a part of '{}', which is not in the file; it counts as a building.",
                              printable(feature.part_of)));
-      feature.part_of.clear();
-      if (const auto part = feature.tags.find("building:part"); part != feature.tags.end()) {
-        feature.tags["building"] = part->second;
-        feature.tags.erase("building:part");
-      }
+      become_building(feature);
     }
   }
 
@@ -267,10 +280,18 @@ class TableReader {
   std::unordered_map<std::string, int> ids_;
   Spending corners_{map_corners};
   uint64_t objects_ = 0;
-  bool known_ = false;
+  uint64_t known_ = 0;  ///< objects that say what they are
 };
 
 }  // namespace
+
+void become_building(Feature& part) {
+  part.part_of.clear();
+  const auto tag = part.tags.find("building:part");
+  if (tag == part.tags.end()) return;
+  part.tags["building"] = tag->second;
+  part.tags.erase("building:part");
+}
 
 MapContents read_table(const MapSource& source, const DegreesBox& part) {
   MapContents contents;

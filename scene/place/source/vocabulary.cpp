@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/text.h"
@@ -197,11 +199,17 @@ bool has_known_key(const std::map<std::string, std::string, std::less<>>& tags) 
                              [&](const char* key) { return tags.contains(std::string_view(key)); });
 }
 
-std::string suggested_vocabulary(const std::set<std::string>& names) {
+size_t names_of_osm_buildings(const std::set<std::string>& names) {
   size_t alike = 0;
   for (const auto& [name, key] : osm_buildings_names)
-    if (name != "name" && names.contains(std::string(name))) ++alike;
-  if (alike >= 2) return "they look like those of OSM Buildings: add vocabulary: osm_buildings";
+    if (name != key && name != "material" && name != "color" && name != "colour" && name != "min_height")
+      alike += names.contains(std::string(name));
+  return alike;
+}
+
+std::string suggested_vocabulary(const std::set<std::string>& names) {
+  if (names_of_osm_buildings(names) > 0)
+    return "they look like those of OSM Buildings: add vocabulary: osm_buildings";
   for (const auto& [name, key] : city_json_names)
     if (name != "name" && names.contains(std::string(name)))
       return "they look like those of CityJSON: add vocabulary: cityjson and as: building=yes";

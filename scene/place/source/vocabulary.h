@@ -34,7 +34,6 @@ struct Translated {
 class Vocabulary {
  public:
   explicit Vocabulary(const MapSource& source);
-  /// `has_line` and so on are not needed: geometry decides later.
   Translated translate(const Attributes& attributes) const;
 
  private:
@@ -43,13 +42,16 @@ class Vocabulary {
   const MapSource& source_;
 };
 
-/// Rewrites lengths whose numbers have no unit from the source's unit to metres ("height", "min_height", ...).
-/// Returns the keys whose text is no length.
+/// Rewrites lengths whose numbers have no unit from the source's unit to metres ("height", "min_height",
+/// ...). Returns the keys whose text is no length.
 std::vector<std::string> lengths_to_metres(std::map<std::string, std::string, std::less<>>& tags,
                                            double unit_m);
 
 /// Returns whether a tag is one of those that things are built of.
 bool has_known_key(const std::map<std::string, std::string, std::less<>>& tags);
+
+/// Counts the names that OSM Buildings has and OpenStreetMap has not.
+size_t names_of_osm_buildings(const std::set<std::string>& names);
 
 /// Returns the vocabulary that names like these belong to, with a reason, or an empty text.
 std::string suggested_vocabulary(const std::set<std::string>& names);

@@ -165,6 +165,18 @@ TEST(PlaceOsm, PartsOfABuildingRelation) {
   EXPECT_EQ(find_feature(input, "way/2")->polygons.size(), 1u);
 }
 
+TEST(PlaceOsm, APartWhoseBuildingIsNotInTheAreaIsABuilding) {
+  const PlaceInput input = Osm()
+                               .way(1, {505, 509, 909, 905, 505}, building)
+                               .way(2, {1, 3, 203, 1}, tag("building:part", "roof"))
+                               .relation(3, {{1, "outline"}, {2, "part"}}, tag("type", "building"))
+                               .read("area: {bounds_deg: [47.9999, 9.9999, 48.0003, 10.0003]}\n");
+  ASSERT_EQ(input.features.size(), 1u);
+  EXPECT_EQ(input.features[0].part_of, "");
+  EXPECT_EQ(*input.features[0].tag("building"), "roof");
+  EXPECT_EQ(findings_of(input, "part_without_building").size(), 1u);
+}
+
 TEST(PlaceOsm, FaultsAreFindings) {
   const PlaceInput input =
       Osm()
@@ -255,6 +267,18 @@ TEST(PlaceOsm, RingsThatTouchStayApart) {
   ASSERT_EQ(loop.closed.size(), 1u);
   EXPECT_THAT(loop.closed[0], ElementsAre(2, 3, 4));
   EXPECT_THAT(loop.open, ElementsAre(testing::UnorderedElementsAre(1, 2)));
+}
+
+TEST(PlaceOsm, WaysThatCarryTheirPlaces) {
+  const PlaceFolder folder;
+  folder.write("m.osm", R"(<osm version="0.6"><note>Overpass, out geom</note>
+<way id="1"><bounds minlat="48" minlon="10" maxlat="48.001" maxlon="10.001"/>
+<nd ref="1" lat="48" lon="10"/><nd ref="2" lat="48" lon="10.001"/><nd ref="3" lat="48.001" lon="10.001"/>
+<nd ref="1" lat="48" lon="10"/><tag k="building" v="yes"/></way></osm>)");
+  const PlaceInput input = folder.read("maps: [{file: m.osm}]\n");
+  ASSERT_EQ(input.features.size(), 1u);
+  EXPECT_NEAR(area_of(input.features[0].polygons.at(0).outer), 111.2 * 74.6 / 2.0, 10.0);
+  EXPECT_TRUE(input.findings.empty());
 }
 
 TEST(PlaceOsm, CutsToTheAreaAndKeepsBuildingsWhole) {

@@ -52,8 +52,8 @@ Proj topocentric(const Geodetic& origin) {
 
 std::string square(double longitude, double latitude) {
   return fmt::format(
-      R"({{"type":"FeatureCollection","features":[{{"type":"Feature","properties":{{"building":"yes"}},"geometry":
-{{"type":"Polygon","coordinates":[[[{0},{1}],[{2},{1}],[{2},{3}],[{0},{3}],[{0},{1}]]]}}}}]}})",
+      R"({{"type":"FeatureCollection","features":[{{"type":"Feature","properties":{{"building":"yes"}},
+"geometry":{{"type":"Polygon","coordinates":[[[{0},{1}],[{2},{1}],[{2},{3}],[{0},{3}],[{0},{1}]]]}}}}]}})",
       longitude, latitude, longitude + 1e-4, latitude + 1e-4);
 }
 
@@ -109,10 +109,10 @@ TEST(PlacePosition, HardCaseAgreesWithProjAtTenKilometres) {
 /// Coordinates of a projected system go through PROJ's transformation between the datums.
 TEST(PlacePosition, ProjectedSystemsGoThroughProj) {
   const PlaceFolder folder;
-  folder.write(
-      "house.geojson",
-      R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"building":"yes"},"geometry":
-{"type":"Polygon","coordinates":[[[84616.468,447422.999],[84640,447422.999],[84640,447450],[84616.468,447422.999]]]}}]})");
+  folder.write("house.geojson",
+               R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"building":"yes"},
+"geometry":{"type":"Polygon","coordinates":
+[[[84616.468,447422.999],[84640,447422.999],[84640,447450],[84616.468,447422.999]]]}}]})");
   const PlaceInput input = folder.read(
       "origin: {latitude_deg: 52.0, longitude_deg: 4.37, height_m: 0}\nundulation_m: 43\nmaps: [{file: "
       "house.geojson, "
@@ -131,6 +131,23 @@ TEST(PlacePosition, ProjectedSystemsGoThroughProj) {
   proj_destroy(to_degrees);
   proj_destroy(raw);
   proj_context_destroy(context);
+}
+
+/// OSGB36 has a conversion by a grid, which the package proj-data brings, and worse ones without.
+TEST(PlacePosition, AMissingGridIsAFinding) {
+  const PlaceFolder folder;
+  folder.write("t.asc", ascii_grid(20, 20, 530'000, 180'000, 50, [](int, int) { return "5"; }));
+  const PlaceInput input =
+      folder.read("area: {extent_of: t.asc}\nterrain: [{file: t.asc, crs: \"EPSG:27700\"}]\n");
+  PJ_CONTEXT* context = proj_context_create();
+  const bool installed = proj_grid_info("OSTN15_NTv2_OSGBtoETRS.gsb").n_lon > 0 ||
+                         proj_grid_info("uk_os_OSTN15_NTv2_OSGBtoETRS.tif").n_lon > 0;
+  proj_context_destroy(context);
+  EXPECT_EQ(test::findings_of(input, "datum_grid_missing").size(), installed ? 0u : 1u);
+  folder.write("u.asc", ascii_grid(20, 20, 530'000, 5'500'000, 50, [](int, int) { return "5"; }));
+  const PlaceInput exact =
+      folder.read("area: {extent_of: u.asc}\nterrain: [{file: u.asc, crs: \"EPSG:25832\"}]\n");
+  EXPECT_TRUE(test::findings_of(exact, "datum_grid_missing").empty());
 }
 
 TEST(PlacePosition, TheOriginIsTheMiddleOfTheAreaAtItsGround) {

@@ -1,16 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Checks terrain and pictures: formats, voids, tiles, units, world files, and what does not fit.
-#include <array>
+// Checks terrain and surfaces: formats, voids, tiles, units, and what does not fit.
 #include <cmath>
-#include <gdal_priv.h>
-#include <memory>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/scene/place/place_folder.h"
+#include "tests/scene/place/raster_writer.h"
 
 namespace greatx::scene::place {
 namespace {
@@ -19,50 +17,10 @@ using test::ascii_grid;
 using test::findings_of;
 using test::message_of;
 using test::PlaceFolder;
+using test::TiffOptions;
+using test::write_raster;
 using testing::AllOf;
 using testing::HasSubstr;
-
-struct TiffOptions {
-  int epsg = 4326;  ///< 0: none
-  std::optional<double> no_data;
-  std::string unit;
-  bool pixel_is_point = false;
-  std::vector<GDALColorInterp> meanings;
-  GDALDataType type = GDT_Float32;
-};
-
-/// Writes a raster whose upper left corner is at (left, top). Bands have `value(band, column, row)`.
-void write_raster(const std::filesystem::path& file, const char* driver, int bands, int columns, int rows,
-                  double left, double top, double cell, const TiffOptions& options,
-                  const std::function<double(int, int, int)>& value) {
-  GDALAllRegister();
-  const bool tiff = std::string(driver) == "GTiff";
-  std::unique_ptr<GDALDataset> memory(GetGDALDriverManager()->GetDriverByName("MEM")->Create(
-      "", columns, rows, bands, options.type, nullptr));
-  std::array<double, 6> transform{left, cell, 0.0, top, 0.0, -cell};
-  if (tiff) memory->SetGeoTransform(transform.data());
-  if (options.epsg != 0) {
-    OGRSpatialReference crs;
-    crs.importFromEPSG(options.epsg);
-    memory->SetSpatialRef(&crs);
-  }
-  if (options.pixel_is_point) memory->SetMetadataItem("AREA_OR_POINT", "Point");
-  for (int band = 0; band < bands; ++band) {
-    GDALRasterBand& target = *memory->GetRasterBand(band + 1);
-    if (options.no_data) target.SetNoDataValue(*options.no_data);
-    if (!options.unit.empty()) target.SetUnitType(options.unit.c_str());
-    if (static_cast<size_t>(band) < options.meanings.size())
-      target.SetColorInterpretation(options.meanings[band]);
-    std::vector<double> values;
-    for (int row = 0; row < rows; ++row)
-      for (int column = 0; column < columns; ++column) values.push_back(value(band, column, row));
-    ASSERT_EQ(target.RasterIO(GF_Write, 0, 0, columns, rows, values.data(), columns, rows, GDT_Float64, 0, 0),
-              CE_None);
-  }
-  std::unique_ptr<GDALDataset> written(GetGDALDriverManager()->GetDriverByName(driver)->CreateCopy(
-      file.c_str(), memory.get(), FALSE, nullptr, nullptr, nullptr));
-  ASSERT_TRUE(written);
-}
 
 /// A slope: 10 m plus 2 m per 0.001 degrees east and 3 m per 0.001 degrees north of (10, 48).
 double slope(double longitude, double latitude) {
@@ -82,7 +40,7 @@ void expect_slope(const PlaceInput& input, double tolerance = 0.01) {
   }
 }
 
-const std::string area = "area: {bounds_deg: [48.002, 10.002, 48.008, 10.008]}\n";
+const std::string terrain_area = "area: {bounds_deg: [48.002, 10.002, 48.008, 10.008]}\n";
 
 TEST(PlaceTerrain, EveryFormatGivesTheSameHeights) {
   const PlaceFolder folder;
@@ -97,7 +55,7 @@ TEST(PlaceTerrain, EveryFormatGivesTheSameHeights) {
                  return fmt::format("{:.6f}", centre_value(0, column, row));
                }));
   for (const char* file : {"{file: t.tif}", "{file: p.tif}", "{file: t.asc, crs: \"EPSG:4326\"}"}) {
-    const PlaceInput input = folder.read(area + "terrain: [" + file + "]\n");
+    const PlaceInput input = folder.read(terrain_area + "terrain: [" + file + "]\n");
     ASSERT_EQ(input.terrain.grids().size(), 1u);
     expect_slope(input, 0.001);
     EXPECT_TRUE(input.findings.empty()) << input.findings[0].topic << ": " << input.findings[0].detail;
@@ -149,14 +107,14 @@ TEST(PlaceTerrain, TilesSideBySideHaveNoGap) {
   };
   tile("west.tif", 10.0, 5, false);
   tile("east.tif", 10.005, 5, false);
-  PlaceInput input = folder.read(area + "terrain: [{file: west.tif}, {file: east.tif}]\n");
+  PlaceInput input = folder.read(terrain_area + "terrain: [{file: west.tif}, {file: east.tif}]\n");
   EXPECT_EQ(input.terrain.grids().size(), 1u);
   EXPECT_EQ(input.terrain.grids()[0].source, "west.tif + east.tif");
   expect_slope(input, 0.001);
   EXPECT_TRUE(input.findings.empty());
   // They overlap in one column, which has no data in the first one.
   tile("west.tif", 10.0, 6, true);
-  input = folder.read(area + "terrain: [{file: west.tif}, {file: east.tif}]\n");
+  input = folder.read(terrain_area + "terrain: [{file: west.tif}, {file: east.tif}]\n");
   expect_slope(input, 0.001);
   EXPECT_TRUE(input.findings.empty());
   // Tiles whose pixels do not lie on one lattice stay apart, and meet within half a pixel.
@@ -164,7 +122,7 @@ TEST(PlaceTerrain, TilesSideBySideHaveNoGap) {
                [](int, int column, int row) {
                  return slope(10.0045 + (column + 0.5) * 0.0006, 48.01 - (row + 0.5) * 0.0006);
                });
-  input = folder.read(area + "terrain: [{file: west.tif}, {file: east.tif}]\n");
+  input = folder.read(terrain_area + "terrain: [{file: west.tif}, {file: east.tif}]\n");
   EXPECT_EQ(input.terrain.grids().size(), 2u);
   expect_slope(input, 1.01);  // half a cell of the slope, 0.0005 degrees
 }
@@ -203,7 +161,7 @@ TEST(PlaceTerrain, VoidsAndOutliersAreCountedAndFilled) {
                  return 50.0;
                });
   const PlaceInput input =
-      folder.read(area + "terrain: [{file: t.tif, name: dgm, valid_m: [-20, 500], no_data: -77}]\n");
+      folder.read(terrain_area + "terrain: [{file: t.tif, name: dgm, valid_m: [-20, 500], no_data: -77}]\n");
   ASSERT_EQ(findings_of(input, "heights_not_valid").size(), 1u);
   EXPECT_THAT(findings_of(input, "heights_not_valid")[0].detail,
               AllOf(HasSubstr("1 of 100"), HasSubstr("2000 m")));
@@ -213,6 +171,47 @@ TEST(PlaceTerrain, VoidsAndOutliersAreCountedAndFilled) {
   const LocalFrame frame(input.reference);
   for (const dvec3& sample : input.terrain.grids()[0].samples)
     EXPECT_NEAR(frame.datum_place(sample).height_m, 50.0, 1e-3);
+}
+
+TEST(PlaceTerrain, SpikesAreNamedAndKept) {
+  const PlaceFolder folder;
+  // Cells of 74 x 111 m: a slope of 45 degrees is none, a tower of 300 m is one.
+  write_raster(
+      folder.path("t.tif"), "GTiff", 1, 10, 10, 10.0, 48.01, 0.001, {},
+      [](int, int column, int row) { return 100.0 * column + (column == 5 && row == 5 ? 300.0 : 0.0); });
+  const PlaceInput input = folder.read(terrain_area + "terrain: [{file: t.tif}]\n");
+  ASSERT_EQ(findings_of(input, "terrain_spike").size(), 1u);
+  EXPECT_THAT(findings_of(input, "terrain_spike")[0].detail,
+              AllOf(HasSubstr("1 samples"), HasSubstr("m at most")));
+  EXPECT_EQ(input.findings.size(), 1u);
+}
+
+TEST(PlaceTerrain, ACoordinateSystemFarFromItsAreaIsDoubtful) {
+  const PlaceFolder folder;
+  // Easting and northing of Berlin in the wrong order.
+  folder.write("s.asc", ascii_grid(20, 20, 5'820'000, 392'000, 10, [](int, int) { return "5"; }));
+  folder.write("g.asc", ascii_grid(20, 20, 392'000, 5'820'000, 10, [](int, int) { return "5"; }));
+  const auto count = [&](const char* file) {
+    const PlaceInput input = folder.read(
+        fmt::format("area: {{extent_of: {0}}}\nterrain: [{{file: {0}, crs: \"EPSG:25833\"}}]\n", file));
+    return findings_of(input, "crs_outside_its_area").size();
+  };
+  EXPECT_EQ(count("g.asc"), 0u);
+  EXPECT_EQ(count("s.asc"), 1u);
+}
+
+TEST(PlaceTerrain, AnOriginInAVoidTakesTheNearestSample) {
+  const PlaceFolder folder;
+  folder.write(
+      "t.asc", ascii_grid(9, 9, 10.0, 48.0, 0.001, [](int column, int row) {
+        return std::abs(column - 4) < 2 && std::abs(row - 4) < 2 ? "-9999" : column < 4 ? "70" : "80";
+      }));
+  const PlaceInput input = folder.read(
+      "area: {bounds_deg: [48.0, 10.0, 48.009, 10.009]}\nterrain: [{file: t.asc, crs: \"EPSG:4326\"}]\n");
+  ASSERT_EQ(findings_of(input, "origin_height").size(), 1u);
+  // Two columns are 149 m away, one of 70 and one of 80 m.
+  EXPECT_THAT(findings_of(input, "origin_height")[0].detail, HasSubstr("149."));
+  EXPECT_TRUE(input.reference.origin.height_m == 70.0 || input.reference.origin.height_m == 80.0);
 }
 
 TEST(PlaceTerrain, UnitsOfTheFileAndOfTheSource) {
@@ -227,7 +226,7 @@ TEST(PlaceTerrain, UnitsOfTheFileAndOfTheSource) {
   write("ft.tif", "ft");
   write("odd.tif", "fathom");
   const auto height = [&](const std::string& terrain) {
-    const PlaceInput input = folder.read(area + "terrain: [" + terrain + "]\n");
+    const PlaceInput input = folder.read(terrain_area + "terrain: [" + terrain + "]\n");
     return LocalFrame(input.reference).datum_place({0.0, 0.0, input.terrain.at({0.0, 0.0}).value()}).height_m;
   };
   EXPECT_NEAR(height("{file: none.tif}"), 100.0, 1e-3);
@@ -245,29 +244,31 @@ TEST(PlaceTerrain, WhatDoesNotFitIsNamed) {
   const auto flat = [](int, int, int) { return 5.0; };
   write_raster(folder.path("half.tif"), "GTiff", 1, 5, 10, 10.0, 48.01, 0.001, {}, flat);
   write_raster(folder.path("far.tif"), "GTiff", 1, 5, 10, 20.0, 48.01, 0.001, {}, flat);
-  const PlaceInput input = folder.read(area + "terrain: [{file: half.tif}, {file: far.tif}]\n");
+  const PlaceInput input = folder.read(terrain_area + "terrain: [{file: half.tif}, {file: far.tif}]\n");
   ASSERT_EQ(findings_of(input, "terrain_does_not_cover").size(), 1u);
   EXPECT_THAT(findings_of(input, "terrain_does_not_cover")[0].detail, HasSubstr("50.0 %"));
   EXPECT_EQ(findings_of(input, "terrain_outside").size(), 1u);
-  EXPECT_THAT(message_of([&] { folder.read(area + "terrain: [{file: far.tif}]\n"); }),
+  EXPECT_THAT(message_of([&] { folder.read(terrain_area + "terrain: [{file: far.tif}]\n"); }),
               HasSubstr("no file has a height"));
   folder.write("n.asc", ascii_grid(5, 5, 10.0, 48.0, 0.002, [](int, int) { return "1"; }));
-  EXPECT_THAT(message_of([&] { folder.read(area + "terrain: [{file: n.asc}]\n"); }),
+  EXPECT_THAT(message_of([&] { folder.read(terrain_area + "terrain: [{file: n.asc}]\n"); }),
               AllOf(HasSubstr("n.asc"), HasSubstr("no coordinate system"), HasSubstr("crs")));
-  EXPECT_THAT(message_of([&] { folder.read(area + "terrain: [{file: n.asc, crs: EPSG:99999999}]\n"); }),
-              HasSubstr("EPSG:99999999"));
+  EXPECT_THAT(
+      message_of([&] { folder.read(terrain_area + "terrain: [{file: n.asc, crs: EPSG:99999999}]\n"); }),
+      HasSubstr("EPSG:99999999"));
   TiffOptions plain;
   plain.type = GDT_Byte;
   write_raster(folder.path("rgb.tif"), "GTiff", 3, 10, 10, 10.0, 48.01, 0.001, plain, flat);
-  EXPECT_THAT(message_of([&] { folder.read(area + "terrain: [{file: rgb.tif}]\n"); }),
+  EXPECT_THAT(message_of([&] { folder.read(terrain_area + "terrain: [{file: rgb.tif}]\n"); }),
               HasSubstr("found 3 bands"));
   folder.write("x.tif", "no raster");
-  EXPECT_THAT(message_of([&] { folder.read(area + "terrain: [{file: x.tif}]\n"); }),
+  EXPECT_THAT(message_of([&] { folder.read(terrain_area + "terrain: [{file: x.tif}]\n"); }),
               HasSubstr("expected a raster"));
   // Latitude first: the file lies at 10 N, 48 E.
   write_raster(folder.path("swapped.tif"), "GTiff", 1, 5, 10, 48.0, 10.01, 0.001, {}, flat);
-  EXPECT_THAT(message_of([&] { folder.read(area + "terrain: [{file: swapped.tif}]\n"); }),
-              HasSubstr("no file has a height"));
+  EXPECT_THAT(message_of([&] { folder.read(terrain_area + "terrain: [{file: swapped.tif}]\n"); }),
+              AllOf(HasSubstr("no file has a height"), HasSubstr("swapped.tif covers latitude 10.00000"),
+                    HasSubstr("seem to be swapped")));
 }
 
 TEST(PlaceTerrain, SurfacesKeepTheirVoids) {
@@ -278,134 +279,13 @@ TEST(PlaceTerrain, SurfacesKeepTheirVoids) {
                [](int, int, int) { return 50.0; });
   write_raster(folder.path("s.tif"), "GTiff", 1, 10, 10, 10.0, 48.01, 0.001, options,
                [](int, int column, int row) { return column == 5 && row == 5 ? 0.0 : 60.0; });
-  const PlaceInput input = folder.read(area + "terrain: [{file: t.tif}]\nsurface: [{file: s.tif}]\n");
+  const PlaceInput input = folder.read(terrain_area + "terrain: [{file: t.tif}]\nsurface: [{file: s.tif}]\n");
   EXPECT_EQ(findings_of(input, "surface_void").size(), 1u);
   size_t voids = 0;
   for (const dvec3& sample : input.surface.grids().at(0).samples) voids += std::isnan(sample.z);
   EXPECT_EQ(voids, 1u);
   EXPECT_NEAR(input.surface.at({-100.0, 100.0}).value() - input.terrain.at({-100.0, 100.0}).value(), 10.0,
               1e-3);
-}
-
-/// Returns the colour at a place, or nothing where the picture has none.
-std::optional<std::array<int, 3>> colour(const GroundPicture& picture, const dvec2& local) {
-  const dvec2 pixel = picture.pixel_from_local * dvec3(local, 1.0);
-  if (!(pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < picture.width && pixel.y < picture.height))
-    return std::nullopt;
-  const size_t at = static_cast<size_t>(pixel.y) * picture.width + static_cast<size_t>(pixel.x);
-  if (!picture.known.empty() && picture.known[at] == 0) return std::nullopt;
-  return std::array<int, 3>{picture.rgb[3 * at], picture.rgb[3 * at + 1], picture.rgb[3 * at + 2]};
-}
-
-/// Column and row of a picture as colours, so that places can be read off it.
-double ramp(int band, int column, int row) {
-  return band == 0 ? column : band == 1 ? row : band == 2 ? 7 : 255;
-}
-
-/// Expects that the colours at places are those of (column, row) of a picture of 200 x 200 pixels of 5e-5
-/// degrees from (10.0, 48.01).
-void expect_ramp(const PlaceInput& input, bool grey = false) {
-  ASSERT_EQ(input.pictures.size(), 1u);
-  const LocalFrame frame(input.reference);
-  for (const dvec2 place : {dvec2(0.3, 0.4), dvec2(-151.0, 88.0), dvec2(133.0, -144.0), dvec2(20.0, 199.0)}) {
-    const Geodetic at = frame.datum_place({place, 0.0});
-    const double column = (at.longitude_deg - 10.0) / 5e-5 - 0.5,
-                 row = (48.01 - at.latitude_deg) / 5e-5 - 0.5;
-    const auto found = colour(input.pictures[0], place);
-    ASSERT_TRUE(found);
-    EXPECT_NEAR((*found)[0], column, 1.01);
-    EXPECT_NEAR((*found)[1], grey ? column : row, 1.01);
-    EXPECT_EQ((*found)[2], grey ? (*found)[0] : 7);
-  }
-}
-
-TEST(PlacePicture, GeoTiffAndWorldFiles) {
-  const PlaceFolder folder;
-  TiffOptions options;
-  options.type = GDT_Byte;
-  options.meanings = {GCI_RedBand, GCI_GreenBand, GCI_BlueBand, GCI_AlphaBand};
-  write_raster(folder.path("rgb.tif"), "GTiff", 3, 200, 200, 10.0, 48.01, 5e-5, options, ramp);
-  write_raster(folder.path("rgba.tif"), "GTiff", 4, 200, 200, 10.0, 48.01, 5e-5, options, ramp);
-  write_raster(folder.path("p.png"), "PNG", 3, 200, 200, 0, 0, 1, options, ramp);
-  options.meanings = {GCI_GrayIndex};
-  write_raster(folder.path("grey.tif"), "GTiff", 1, 200, 200, 10.0, 48.01, 5e-5, options, ramp);
-  // A world file gives the centre of the upper left pixel.
-  folder.write("p.pgw", "0.00005\n0\n0\n-0.00005\n10.000025\n48.009975\n");
-  std::filesystem::remove(folder.path("p.png.aux.xml"));
-  for (const char* file : {"rgb.tif", "rgba.tif", "grey.tif", "p.png"}) {
-    const PlaceInput input =
-        folder.read(area + fmt::format("pictures: [{{file: {}, crs: \"EPSG:4326\"}}]\n", file));
-    expect_ramp(input, std::string(file) == "grey.tif");
-    EXPECT_TRUE(input.findings.empty()) << file;
-  }
-  EXPECT_THAT(message_of([&] { folder.read(area + "pictures: [{file: p.png}]\n"); }),
-              HasSubstr("no coordinate system"));
-  std::filesystem::remove(folder.path("p.pgw"));
-  EXPECT_THAT(message_of([&] { folder.read(area + "pictures: [{file: p.png, crs: \"EPSG:4326\"}]\n"); }),
-              HasSubstr("world file"));
-}
-
-TEST(PlacePicture, PalettesAndUnknownPixels) {
-  const PlaceFolder folder;
-  TiffOptions options;
-  options.type = GDT_Byte;
-  options.meanings = {GCI_RedBand, GCI_GreenBand, GCI_BlueBand, GCI_AlphaBand};
-  write_raster(folder.path("rgba.tif"), "GTiff", 4, 200, 200, 10.0, 48.01, 5e-5, options,
-               [](int band, int column, int row) {
-                 return band < 3 ? ramp(band, column, row) : column < 100 ? 0 : 255;
-               });
-  const PlaceInput input = folder.read(area + "pictures: [{file: rgba.tif}]\n");
-  EXPECT_FALSE(colour(input.pictures.at(0), {-50.0, 0.0}));
-  EXPECT_TRUE(colour(input.pictures[0], {50.0, 0.0}));
-  ASSERT_EQ(findings_of(input, "pictures_do_not_cover").size(), 1u);
-  EXPECT_THAT(findings_of(input, "pictures_do_not_cover")[0].detail, HasSubstr("50.0 %"));
-
-  GDALAllRegister();
-  std::unique_ptr<GDALDataset> tiff(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-      folder.path("p.tif").c_str(), 200, 200, 1, GDT_Byte, nullptr));
-  std::array<double, 6> transform{10.0, 5e-5, 0.0, 48.01, 0.0, -5e-5};
-  tiff->SetGeoTransform(transform.data());
-  OGRSpatialReference crs;
-  crs.importFromEPSG(4326);
-  tiff->SetSpatialRef(&crs);
-  GDALColorTable table;
-  const GDALColorEntry green{10, 200, 30, 255};
-  table.SetColorEntry(3, &green);
-  tiff->GetRasterBand(1)->SetColorTable(&table);
-  tiff->GetRasterBand(1)->Fill(3);
-  tiff.reset();
-  const PlaceInput paletted = folder.read(area + "pictures: [{file: p.tif}]\n");
-  EXPECT_EQ(colour(paletted.pictures.at(0), {1.0, 1.0}).value(), (std::array<int, 3>{10, 200, 30}));
-
-  options.type = GDT_UInt16;
-  write_raster(folder.path("deep.tif"), "GTiff", 3, 20, 20, 10.0, 48.01, 5e-4, options, ramp);
-  EXPECT_THAT(message_of([&] { folder.read(area + "pictures: [{file: deep.tif}]\n"); }), HasSubstr("8 bits"));
-}
-
-/// Meridians converge: a large picture in degrees is no affine map of the frame.
-TEST(PlacePicture, BentPicturesAreResampled) {
-  const PlaceFolder folder;
-  TiffOptions options;
-  options.type = GDT_Byte;
-  options.meanings = {GCI_RedBand, GCI_GreenBand, GCI_BlueBand};
-  // 45 km by 134 km at 70 N; the upper edge is 2.6 km shorter than the lower one, and a pixel is 228 m wide.
-  constexpr double left = 10.0, top = 70.6, cell = 0.006;
-  write_raster(folder.path("p.tif"), "GTiff", 3, 200, 200, left, top, cell, options, ramp);
-  const PlaceInput input = folder.read("area: {extent_of: p.tif}\npictures: [{file: p.tif}]\n");
-  const GroundPicture& picture = input.pictures.at(0);
-  EXPECT_FALSE(picture.known.empty());
-  EXPECT_EQ(picture.pixel_from_local[0].y, 0.0);
-  const LocalFrame frame(input.reference);
-  for (const dvec2 local :
-       {dvec2(0, 0), dvec2(-19'000, 60'000), dvec2(18'000, -60'000), dvec2(20'000, 40'000)}) {
-    // The ground at the datum's zero: the plane of x and y lies above it by the Earth's curve.
-    const double fall = glm::dot(local, local) / (2.0 * 6.371e6);
-    const Geodetic at = frame.place({local, -fall});
-    const auto found = colour(picture, local);
-    ASSERT_TRUE(found) << local.x;
-    EXPECT_NEAR((*found)[0], (at.longitude_deg - left) / cell - 0.5, 1.01);
-    EXPECT_NEAR((*found)[1], (top - at.latitude_deg) / cell - 0.5, 1.01);
-  }
 }
 
 }  // namespace

@@ -57,11 +57,10 @@ TEST(PlaceTable, OverpassAndQgisFormsOfTags) {
   folder.write("tags.geojson",
                collection({feature_json(R"("type":"way","id":17,"tags":{"building":"house","height":"7 m"})",
                                         square_json(0))}));
-  folder.write(
-      "qgis.geojson",
-      collection({feature_json(
-          R"("osm_id":null,"osm_way_id":"17","building":"house","other_tags":"\"height\"=>\"7 m\",\"note\"=>\"a \\\"b\\\"\"")",
-          square_json(0))}));
+  folder.write("qgis.geojson",
+               collection({feature_json(R"("osm_id":null,"osm_way_id":"17","building":"house",)"
+                                        R"("other_tags":"\"height\"=>\"7 m\",\"note\"=>\"a \\\"b\\\"\"")",
+                                        square_json(0))}));
   const PlaceInput flat = folder.read("maps: [{file: flat.geojson}]\n");
   ASSERT_EQ(flat.features.size(), 3u);
   const Feature* house = find_feature(flat, "way/17");
@@ -85,15 +84,13 @@ TEST(PlaceTable, OverpassAndQgisFormsOfTags) {
 
 TEST(PlaceTable, OsmBuildingsVocabulary) {
   const PlaceFolder folder;
-  folder.write(
-      "b.geojson",
-      collection(
-          {feature_json(
-               R"("height":22,"levels":5,"roofShape":"gabled","roofLevels":1,"type":"apartments","roofColor":"#aabbcc")",
-               square_json(0), "\"a1\""),
-           feature_json(R"("levels":2,"building":"a1")", square_json(1), "\"a2\""),
-           feature_json(R"("levels":3,"building":"gone")", square_json(2), "\"a3\""),
-           feature_json(R"("shape":"none")", square_json(3), "\"a4\"")}));
+  folder.write("b.geojson",
+               collection({feature_json(R"("height":22,"levels":5,"roofShape":"gabled","roofLevels":1,)"
+                                        R"("type":"apartments","roofColor":"#aabbcc")",
+                                        square_json(0), "\"a1\""),
+                           feature_json(R"("levels":2,"building":"a1")", square_json(1), "\"a2\""),
+                           feature_json(R"("levels":3,"building":"gone")", square_json(2), "\"a3\""),
+                           feature_json(R"("shape":"none")", square_json(3), "\"a4\"")}));
   const PlaceInput input = folder.read("maps: [{file: b.geojson, vocabulary: osm_buildings}]\n");
   ASSERT_EQ(input.features.size(), 3u);
   const Feature& block = *find_feature(input, "a1");
@@ -112,10 +109,11 @@ TEST(PlaceTable, OsmBuildingsVocabulary) {
 
 TEST(PlaceTable, AFileWithoutKnownKeysSuggestsAVocabulary) {
   const PlaceFolder folder;
-  folder.write("b.geojson", collection({feature_json(R"("height":22,"levels":5)", square_json(0))}));
+  folder.write("b.geojson",
+               collection({feature_json(R"("height":22,"levels":5,"roofShape":"flat")", square_json(0))}));
   EXPECT_THAT(message_of([&] { folder.read("maps: [{file: b.geojson}]\n"); }),
-              AllOf(HasSubstr("none of its 1 objects says what it is"), HasSubstr("height, levels"),
-                    HasSubstr("vocabulary: osm_buildings")));
+              AllOf(HasSubstr("none of its 1 objects says what it is"),
+                    HasSubstr("height, levels, roofShape"), HasSubstr("vocabulary: osm_buildings")));
   folder.write("h.geojson", collection({feature_json(R"("hoehe":22,"gebnr":"x")", square_json(0))}));
   EXPECT_THAT(message_of([&] { folder.read("maps: [{file: h.geojson}]\n"); }),
               AllOf(HasSubstr("gebnr, hoehe"), HasSubstr("as: building=yes"),
@@ -149,23 +147,23 @@ TEST(PlaceTable, GeometryOfOtherKindsAndFaultyRings) {
   const PlaceFolder folder;
   folder.write(
       "g.geojson",
-      collection(
-          {feature_json(
-               R"("building":"a")",
-               R"({"type":"MultiPolygon","coordinates":[[[[10,48],[10.001,48],[10.001,48.001],[10,48]]],[[[10.002,48],[10.003,48],[10.003,48.001],[10.002,48]]]]})"),
-           feature_json(R"("building":"b")",
-                        R"({"type":"Polygon","coordinates":[[[10,48],[10.001,48],[10.001,48.001]]]})"),
-           feature_json(R"("building":"c")",
-                        R"({"type":"Polygon","coordinates":[[[10,48],[10.001,48],[10,48]]]})"),
-           feature_json(
-               R"("highway":"path")",
-               R"({"type":"MultiLineString","coordinates":[[[10,48],[10.001,48]],[[10.002,48],[10.003,48]]]})"),
-           feature_json(R"("natural":"tree")",
-                        R"({"type":"MultiPoint","coordinates":[[10,48],[10.001,48]]})"),
-           feature_json(
-               R"("building":"d")",
-               R"({"type":"LineString","coordinates":[[10,48],[10.001,48],[10.001,48.001],[10,48]]})"),
-           feature_json(R"("building":"e")", "null")}));
+      collection({feature_json(R"("building":"a")",
+                               R"({"type":"MultiPolygon","coordinates":[[[[10,48],[10.001,48],[10.001,)"
+                               R"(48.001],[10,48]]],[[[10.002,48],[10.003,48],[10.003,48.001],[10.002,)"
+                               R"(48]]]]})"),
+                  feature_json(R"("building":"b")",
+                               R"({"type":"Polygon","coordinates":[[[10,48],[10.001,48],[10.001,48.001]]]})"),
+                  feature_json(R"("building":"c")",
+                               R"({"type":"Polygon","coordinates":[[[10,48],[10.001,48],[10,48]]]})"),
+                  feature_json(R"("highway":"path")",
+                               R"({"type":"MultiLineString","coordinates":[[[10,48],[10.001,48]],)"
+                               R"([[10.002,48],[10.003,48]]]})"),
+                  feature_json(R"("natural":"tree")",
+                               R"({"type":"MultiPoint","coordinates":[[10,48],[10.001,48]]})"),
+                  feature_json(
+                      R"("building":"d")",
+                      R"({"type":"LineString","coordinates":[[10,48],[10.001,48],[10.001,48.001],[10,48]]})"),
+                  feature_json(R"("building":"e")", "null")}));
   const PlaceInput input = folder.read("maps: [{file: g.geojson}]\n");
   const auto of = [&](const std::string& value) -> const Feature* {
     for (const Feature& feature : input.features)
@@ -188,16 +186,16 @@ TEST(PlaceTable, SwappedAndProjectedCoordinates) {
   const PlaceFolder folder;
   folder.write(
       "s.geojson",
-      collection({feature_json(
-          R"("building":"a")",
-          R"({"type":"Polygon","coordinates":[[[37.8,-122.4],[37.8,-122.5],[37.9,-122.4],[37.8,-122.4]]]})")}));
+      collection({feature_json(R"("building":"a")",
+                               R"({"type":"Polygon","coordinates":[[[37.8,-122.4],[37.8,-122.5],[37.9,)"
+                               R"(-122.4],[37.8,-122.4]]]})")}));
   EXPECT_THAT(message_of([&] { folder.read("maps: [{file: s.geojson}]\n"); }),
               AllOf(HasSubstr("s.geojson"), HasSubstr("the latitude -122."), HasSubstr("swapped")));
   folder.write(
       "p.geojson",
-      collection({feature_json(
-          R"("building":"a")",
-          R"({"type":"Polygon","coordinates":[[[392000,5820000],[392010,5820000],[392010,5820010],[392000,5820000]]]})")}));
+      collection({feature_json(R"("building":"a")",
+                               R"({"type":"Polygon","coordinates":[[[392000,5820000],[392010,5820000],)"
+                               R"([392010,5820010],[392000,5820000]]]})")}));
   EXPECT_THAT(message_of([&] { folder.read("maps: [{file: p.geojson}]\n"); }),
               AllOf(HasSubstr("(392000, 5820000) has no place"), HasSubstr("is its crs right")));
   const PlaceInput input = folder.read("maps: [{file: p.geojson, crs: \"EPSG:25833\"}]\n");
@@ -275,9 +273,10 @@ TEST(PlaceTable, AreasOfPolygons) {
                                         feature_json(R"("building":"c")", square_json(2))}));
   folder.write(
       "area.geojson",
-      collection({feature_json(
-          "",
-          R"({"type":"Polygon","coordinates":[[[9.9999,47.999],[10.0012,47.999],[10.0012,48.001],[9.9999,48.001],[9.9999,47.999]],[[10.0009,47.9999],[10.0011,47.9999],[10.00115,48.0002],[10.0009,48.0002],[10.0009,47.9999]]]})")}));
+      collection({feature_json("", R"({"type":"Polygon","coordinates":[[[9.9999,47.999],[10.0012,47.999],)"
+                                   R"([10.0012,48.001],[9.9999,48.001],[9.9999,47.999]],[[10.0009,47.9999],)"
+                                   R"([10.0011,47.9999],[10.00115,48.0002],[10.0009,48.0002],[10.0009,)"
+                                   R"(47.9999]]]})")}));
   const PlaceInput file = folder.read("area: {polygon_file: area.geojson}\nmaps: [{file: a.geojson}]\n");
   EXPECT_EQ(file.features.size(), 1u);  // b lies in its hole
   EXPECT_EQ(file.area.holes.size(), 1u);
