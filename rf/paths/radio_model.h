@@ -41,9 +41,9 @@ bool penetrable(const scene::RadioMaterial& material);
 /// of metal takes thousands of dB). At other angles the way through is longer.
 inline constexpr double dark_wall_db = 100.0;
 
-/// Returns the loss of a wall at normal incidence, -20 lg |T|, dB; inf if nothing is left. For a wall with
-/// windows it is the least that it can be, with the fields of both in phase, so that no chance cancellation
-/// makes the wall opaque. The material must be penetrable. Throws UserError if the frequency is outside the material's range.
+/// Returns the loss of a wall at normal incidence, -20 lg |T|, dB; inf if nothing is left. With windows the
+/// fields add in phase, so that no chance cancellation makes a wall opaque. The material must be penetrable.
+/// Throws UserError if the frequency is outside the material's range.
 double wall_loss_db(const scene::Material& material, double frequency_hz);
 
 /// Returns the kind of each facet. It depends on the materials and the effects, and is the same for every

@@ -11,8 +11,8 @@
 // that of an infinite wall or pane, and its mean is what goes on in the specular direction. The outer faces
 // of wall and windows lie in one plane, and each part keeps its own thickness. What the windows' grid sends
 // elsewhere, its side lobes, is left out. Its power is p(1 - p)(|R_wall - R_windows|^2 + |T_wall -
-// T_windows|^2) of the incident power, so that |R|^2 + |T|^2 never exceeds 1. docs/materials.md says where the
-// mean holds and gives its error, which tests/rf/windows_test.cpp measures.
+// T_windows|^2) of the incident power, so that |R|^2 + |T|^2 never exceeds 1. docs/materials.md says where
+// the mean holds and gives its error, which tests/rf/windows_test.cpp measures.
 //
 // Data flow: scene::RadioMaterial -> radio_surface() -> RadioSurface -> RadioSurfaces::reflect(), transmit().
 #pragma once

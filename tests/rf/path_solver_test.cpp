@@ -139,7 +139,7 @@ TEST(PathSolver, WindowsLetWavesThroughAHalfSpace) {
   const Complex t = 0.25 * slab(pane, wavelength_m, 1.0).t_te * sheet_phase(0.006, wavelength_m, 1.0);
   EXPECT_LT(std::abs(through.paths[0].transfer[0] - t / 10.0), 1e-12);
   const Solved reflected = solve(scene, tx, beside, with_walls(), {});
-  ASSERT_THAT(reflected.chains(), ElementsAre("0", "R"));
+  ASSERT_THAT(reflected.chains(), ElementsAre("", "R"));
   const double cosine = 4.0 / std::hypot(4.0, 1.5), length_m = 2.0 * std::hypot(4.0, 1.5);
   const Complex eta = scene::relative_permittivity(*scene::itu_medium("concrete"), carrier_hz, "concrete");
   const Complex r = 0.75 * half_space(eta, cosine).r_te + 0.25 * slab(pane, wavelength_m, cosine).r_te;

@@ -3,6 +3,7 @@
 //
 // Checks walls with windows (rf/surface/surfaces.h): the mean of the fields of two stacks of layers, what it
 // keeps of the energy, and its error beside a wall with every window in its place.
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -236,7 +237,7 @@ TEST(Windows, APathThroughThemHasTheirFieldBothWays) {
   const dvec3 outside(30, 4, 6), inside(-6, -1, 2), at = outside + (inside - outside) * (30.0 / 36.0);
   const auto through = [&](const dvec3& from, const dvec3& to) {
     return path_field({{{InteractionType::transmission, facet}}, {from, at, to}, glm::length(to - from)},
-                      {&world, &surfaces});
+                      {&world, &surfaces}, dvec3(0.0), dvec3(0.0));
   };
   const Path in = through(outside, inside), out = through(inside, outside);
   const double cosine = 36.0 / glm::length(inside - outside);
@@ -247,6 +248,37 @@ TEST(Windows, APathThroughThemHasTheirFieldBothWays) {
               1.0, 1e-9);
   for (const auto& [a, b] : {std::pair(0, 0), std::pair(1, 2), std::pair(2, 1), std::pair(3, 3)})
     EXPECT_LT(std::abs(in.transfer[a] - out.transfer[b]), 1e-9 * std::sqrt(power));
+}
+
+double decibels(double power) { return 10.0 * std::log10(power); }
+
+/// The examples of docs/materials.md: p = 0.22, glazing of 6/16/6 mm, normal incidence.
+TEST(Windows, ExamplesOfTheDocumentation) {
+  constexpr double p = 0.22;
+  const Layers glazing{layer("glass", 0.006), air(0.016), layer("glass", 0.006)};
+  const auto examples = [&](const Layers& wall, double hz) {
+    const RadioSurfaces s =
+        surfaces_at(hz, {wall_of(wall), wall_of(glazing), with_windows(wall, p, glazing)});
+    const auto r = [&](uint32_t i) { return s.reflect(i, true, 1.0).r_te; };
+    const auto t = [&](uint32_t i) { return s.penetrable(i) ? s.transmit(i, true, 1.0).te : Complex(0.0); };
+    const auto by_powers = [&](const auto& of) { return (1 - p) * std::norm(of(0)) + p * std::norm(of(1)); };
+    return std::array{std::sqrt(p * (1 - p)) * std::abs(r(0) - r(1)) / std::abs(r(2)),
+                      decibels(by_powers(r) / std::norm(r(2))), -decibels(std::norm(t(2))),
+                      -decibels(by_powers(t))};
+  };
+  const Layers brick{layer("brick", 0.3)};
+  const auto at_1 = examples(brick, 1e9), at_3 = examples(brick, 3.5e9), at_28 = examples(brick, 28e9),
+             thick = examples({layer("concrete", 0.0)}, 3.5e9);
+  EXPECT_NEAR(at_1[0], 0.39, 0.005);
+  EXPECT_NEAR(at_3[0], 0.74, 0.005);
+  EXPECT_NEAR(at_28[0], 0.28, 0.005);
+  EXPECT_NEAR(at_1[1], 0.6, 0.05);
+  EXPECT_NEAR(at_3[1], 1.9, 0.05);
+  EXPECT_NEAR(at_28[1], 0.3, 0.05);
+  EXPECT_NEAR(at_3[2], 8.2, 0.05);
+  EXPECT_NEAR(at_3[3], 7.8, 0.05);
+  EXPECT_NEAR(thick[2], 20.1, 0.05);
+  EXPECT_NEAR(thick[3], 13.5, 0.05);
 }
 
 /// A wall with every window in its place: windows of 1.5 m x 1.3 m, one in each field of 3 m x 3 m.
@@ -294,7 +326,7 @@ std::pair<Complex, Complex> kirchhoff(const Facade& facade, const Ends& ends, do
 /// Returns the rms difference between the field of the windows in their places and that of their mean, over
 /// |R_wall - R_windows|, as the specular point moves over one period in the middle of the wall.
 double rms_error(const Facade& facade, const Ends& ends) {
-  constexpr int places = 4;
+  constexpr int places = 8;
   const auto middle = [](double size) {
     return Facade::period_m * std::floor(0.5 * size / Facade::period_m);
   };
@@ -324,36 +356,36 @@ TEST(Windows, ErrorBesideAWallWithEveryWindowInItsPlace) {
   const double wavelength_m = speed_of_light / 3.5e9;
   const Facade tower{30, 15}, house{15, 9};
   const Row rows[] = {
-      {tower, 50, 1.0, 0.49, 0.0},   {tower, 200, 1.0, 0.98, 0.0},  {tower, 400, 1.0, 1.38, 0.0},
-      {tower, 800, 1.0, 1.95, 0.0},  {tower, 1600, 1.0, 2.76, 0.0}, {house, 50, 1.0, 0.49, 0.0},
-      {house, 200, 1.0, 0.98, 0.0},  {house, 400, 1.0, 1.38, 0.0},  {house, 800, 1.0, 1.95, 0.0},
-      {house, 1600, 1.0, 2.76, 0.0}, {house, 800, 0.5, 1.95, 0.0},
+      {tower, 50, 1.0, 0.49, 0.453},   {tower, 200, 1.0, 0.98, 0.378},  {tower, 400, 1.0, 1.38, 0.337},
+      {tower, 800, 1.0, 1.95, 0.203},  {tower, 1600, 1.0, 2.76, 0.059}, {house, 50, 1.0, 0.49, 0.417},
+      {house, 200, 1.0, 0.98, 0.343},  {house, 400, 1.0, 1.38, 0.239},  {house, 800, 1.0, 1.95, 0.089},
+      {house, 1600, 1.0, 2.76, 0.031}, {house, 800, 0.5, 1.95, 0.052},
   };
   for (const Row& row : rows) {
     const Ends ends{row.leg_m, row.cosine, wavelength_m};
     EXPECT_NEAR(ends.zone_m() / Facade::period_m, row.zone_over_period, 0.006);
-    EXPECT_NEAR(rms_error(row.facade, ends), row.error, 0.005)
+    EXPECT_NEAR(rms_error(row.facade, ends), row.error, 0.003)
         << row.facade.width_m << " m wide, " << row.leg_m << " m, cosine " << row.cosine;
   }
 }
 
-/// The error of the mean beside the specular path alone, as a beam that covers 0.75 of the radius of the zone
-/// on the wall sees it. The beam weighs order n of a grid of period P by exp(-(pi n/P)^2 Re(1/a)), a = 1/b^2 +
-/// j pi/r^2.
+/// The error of the mean beside the specular path alone, as a beam sees it that covers b = 0.75 of the radius
+/// r of the zone on the wall. The beam weighs order n of a grid of period P by exp(-(pi n/P)^2 Re(1/a)), a =
+/// 1/b^2 + j pi/r^2.
 TEST(Windows, ErrorBesideTheSpecularPathOfAnEndlessWall) {
   struct Row {
     double leg_m, zone_over_period, error;
   };
   const double wavelength_m = speed_of_light / 3.5e9;
-  for (const Row& row : {Row{20, 0.31, 0.0}, Row{50, 0.49, 0.0}, Row{200, 0.98, 0.0}, Row{400, 1.38, 0.0},
-                         Row{800, 1.95, 0.0}}) {
+  for (const Row& row : {Row{20, 0.31, 0.305}, Row{50, 0.49, 0.238}, Row{200, 0.98, 0.083},
+                         Row{400, 1.38, 0.023}, Row{800, 1.95, 0.002}}) {
     Ends ends{row.leg_m, 1.0, wavelength_m};
     const double r = ends.zone_m(), b = 0.75 * r, p = Facade::period_m;
     ends.beam_m = b;
     EXPECT_NEAR(r / p, row.zone_over_period, 0.006);
     const double error = rms_error({72, 72}, ends),
                  by_a = (1.0 / (b * b)) / (std::pow(b, -4) + pi * pi * std::pow(r, -4));
-    EXPECT_NEAR(error, row.error, 0.005) << row.leg_m;
+    EXPECT_NEAR(error, row.error, 0.002) << row.leg_m;
     const auto order = [&](double duty, int n) {
       return n == 0 ? duty : std::sin(pi * n * duty) / (pi * n) * std::exp(-std::pow(pi * n / p, 2) * by_a);
     };
@@ -362,7 +394,7 @@ TEST(Windows, ErrorBesideTheSpecularPathOfAnEndlessWall) {
       for (int m = -30; m <= 30; ++m)
         if (n != 0 || m != 0)
           squares += std::pow(order(Facade::window_m / p, n) * order(Facade::window_height_m / p, m), 2);
-    EXPECT_NEAR(error, std::sqrt(squares), 0.02) << row.leg_m;
+    EXPECT_NEAR(error, std::sqrt(squares), 0.005) << row.leg_m << " closed " << std::sqrt(squares);
     EXPECT_LT(error, bound);
   }
 }
