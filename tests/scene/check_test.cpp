@@ -4,6 +4,7 @@
 // Plants faults in small scenes and expects each of them, and nothing else, in its place.
 #include <limits>
 
+#include "scene/generator/generate.h"
 #include "tests/scene/check_shapes.h"
 
 namespace greatx::scene::test {
@@ -109,6 +110,22 @@ TEST(SceneCheckClean, Fp32AtFiveKilometresIsRoundedAndNoMore) {
   scene.add("house_2", box(far + dvec3(10, 0, 0), far + dvec3(20, 8, 12), all_faces & ~west));
   scene.add("house_3", box(far + dvec3(0, 30, 0), far + dvec3(20, 42, 12)));
   EXPECT_EQ(kinds_of(scene.check()), "rounded 3");
+}
+
+TEST(SceneCheckClean, EverythingThatTheGeneratorMakes) {
+  for (const std::string& kind : generator_kinds()) {
+    std::vector<std::string> variants = generator_variants(kind);
+    if (variants.empty()) variants.push_back("");
+    for (const std::string& variant : variants) {
+      GenerateOptions generated;
+      generated.kind = kind, generated.variant = variant, generated.seed = 3;
+      if (kind == "city" || kind == "country") generated.size_m = 160.0;
+      const SceneFaults faults = check_scene(load_model(kind, generate_glb(generated), {}));
+      EXPECT_EQ(faults.count(FaultSeverity::fault), 0u) << kind << ' ' << variant << ": " << kinds_of(faults);
+      EXPECT_EQ(faults.find("open_sheet"), nullptr) << kind << ' ' << variant;
+      EXPECT_EQ(faults.figures.rays_out, 0u) << kind << ' ' << variant;
+    }
+  }
 }
 
 TEST(SceneCheckHoles, AMissingTriangle) {
