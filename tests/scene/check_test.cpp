@@ -207,6 +207,38 @@ TEST(SceneCheckHoles, ASheetIsADoubtUnlessItIsGround) {
   EXPECT_EQ(kinds_of(roads.check()), "");
 }
 
+TEST(SceneCheckHoles, AHoleAndACrackInTheGround) {
+  SceneWriter hole;
+  Shape ground = terrain(100.0, 20, hills);
+  ground.remove(411);
+  hole.add("terrain", ground);
+  const SceneFaults faults = hole.check();
+  EXPECT_EQ(kinds_of(faults), "ground_hole 1");
+  EXPECT_NEAR(only_place(faults, "ground_hole").size, 17.1, 1.5);
+  // Two tiles of which one is 5 mm lower along their common border, 100 m long: its border is open, and the
+  // other one lies above it. Then both meet.
+  for (const double step : {0.005, 0.0}) {
+    SceneWriter tiles;
+    const Shape tile = terrain(100.0, 10, hills);
+    Shape other = terrain(100.0, 10, [step](double x, double y) { return hills(x + 100.0, y) - step; });
+    for (dvec3& corner : other.corners) corner.x += 100.0;
+    tiles.add("terrain_0", tile);
+    tiles.add("terrain_1", other);
+    const SceneFaults found = tiles.check();
+    EXPECT_EQ(kinds_of(found), step > 0.0 ? "ground_hole 1" : "") << step;
+    if (step > 0.0) {
+      EXPECT_NEAR(found.find("ground_hole")->worst, 102.0, 2.0);
+    }
+  }
+  // A lawn with a hole, on the ground: its borders are no cracks.
+  SceneWriter lawn;
+  lawn.add("terrain", terrain(100.0, 3, flat));
+  Shape grass = terrain(20.0, 5, [](double, double) { return 0.05; });
+  grass.remove(24);
+  lawn.add("grass", grass);
+  EXPECT_EQ(kinds_of(lawn.check()), "");
+}
+
 TEST(SceneCheckHoles, FoliageClaimsToBeASolid) {
   SceneWriter scene;
   scene.material(
