@@ -115,7 +115,7 @@ TEST(PlacePictures, ArePutWhereTheirPixelsLie) {
   EXPECT_NEAR(cover.textures().at("picture_0").color.rgb[0], 100, 1);
 }
 
-/// A small place: two houses with a party wall on a slope, a road, a park with trees, a wood, a bridge, a lamp.
+/// A small place: two houses with a party wall on a slope, a road, a wood, a row of trees, a bridge, a lamp.
 PlaceInput small_place() {
   PlaceInput input;
   input.reference.origin = {-33.0, 18.0, 30.0};
