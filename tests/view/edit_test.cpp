@@ -152,6 +152,7 @@ TEST(SameWorld, DependsOnModelsAndNotOnSensors) {
   EXPECT_TRUE(same(set("nodes[1].sensors[0].fov_deg", "60")));
   EXPECT_FALSE(same(set("nodes[0].trajectory.position_m", "[14, 13, 0]"))) << "the mast stands in the world";
   EXPECT_FALSE(same(set("scene.generate.seed", "8")));
+  EXPECT_FALSE(same(set("scene.georeference", "{latitude_deg: 1, longitude_deg: 2, height_m: 3}")));
   EXPECT_FALSE(same(set("nodes[2].model.parts[0].rpm", "4201")));
   EXPECT_FALSE(same(set("nodes[3].class", "uav")));
 }
