@@ -86,7 +86,7 @@ TEST_F(RadarVeils, APaneTakesItsTransmissionTwice) {
   }
 }
 
-/// Windows in a wall that lets nothing else pass. With few windows too little passes for the wall to be a veil.
+/// Windows in a wall that lets nothing else pass. With few windows too little passes: the wall is no veil.
 TEST_F(RadarVeils, WindowsTakeTheirShareTwice) {
   scene::RadioMaterial wall;
   wall.layers = {{*scene::itu_medium("concrete"), 0.0}};
