@@ -241,6 +241,12 @@ TEST(MaterialSchema, MaterialsOfAnyNameHaveTheFields) {
   const auto permittivity = std::ranges::find(brick.members, "relative_permittivity", &FormType::Member::key);
   ASSERT_NE(permittivity, brick.members.end());
   EXPECT_EQ(permittivity->together, std::vector<std::string>{"conductivity"});
+  const auto windows = std::ranges::find(brick.members, "windows", &FormType::Member::key);
+  ASSERT_NE(windows, brick.members.end());
+  const FormType panes = schema.type_of(windows->part, nullptr);
+  ASSERT_EQ(panes.members.size(), 2u);
+  for (const char* key : {"share", "layers"})
+    EXPECT_NE(std::ranges::find(panes.members, key, &FormType::Member::key), panes.members.end()) << key;
 }
 
 // ----------------------------------------------------------------------------------------------- the handles
