@@ -78,17 +78,24 @@ struct InfoCommand {
   scene::LoadOptions options;
 };
 
+std::string describe(const std::vector<scene::RadioLayer>& layers) {
+  std::vector<std::string> texts;
+  for (const scene::RadioLayer& layer : layers)
+    texts.push_back(layer.thickness_m > 0.0
+                        ? fmt::format("{}, {:g} m", layer.medium.source, layer.thickness_m)
+                        : layer.medium.source + ", half-space");
+  return fmt::format("{}", fmt::join(texts, " | "));
+}
+
 std::string describe(const std::optional<scene::RadioMaterial>& radio) {
   if (!radio) return "no radio properties";
   if (radio->foliage && radio->foliage->attenuation_db_per_m)
     return fmt::format("foliage, {} dB/m", *radio->foliage->attenuation_db_per_m);
   if (radio->foliage) return "foliage, Weissberger's model";
-  std::vector<std::string> layers;
-  for (const scene::RadioLayer& layer : radio->layers)
-    layers.push_back(layer.thickness_m > 0.0
-                         ? fmt::format("{}, {:g} m", layer.medium.source, layer.thickness_m)
-                         : layer.medium.source + ", half-space");
-  return fmt::format("{}", fmt::join(layers, " | "));
+  const std::string wall = describe(radio->layers);
+  if (!radio->windows) return wall;
+  return fmt::format("{}; windows on {:g} % of its area: {}", wall, 100.0 * radio->windows->share,
+                     describe(radio->windows->layers));
 }
 
 double luminance(const vec3& color) { return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b; }

@@ -16,7 +16,8 @@ enum class FacetKind : uint8_t {
   /// Reflects on both sides and lets nothing pass: a half-space, a wall with too much loss, or any wall while
   /// transmission is off.
   opaque = 0,
-  /// Reflects and lets waves pass: a slab or several layers with vacuum behind, while transmission is on.
+  /// Reflects and lets waves pass, while transmission is on: a slab or several layers with vacuum behind, or
+  /// any wall with windows, be it a half-space.
   wall = 1,
   foliage = 2,  ///< boundary of a volume that attenuates; it never reflects and never blocks
   absent = 3,   ///< has no effect: foliage while that effect is off

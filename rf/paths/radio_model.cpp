@@ -59,14 +59,20 @@ std::optional<scene::Foliage> foliage_of(const scene::Scene& scene, const FacetK
 }  // namespace
 
 bool penetrable(const scene::RadioMaterial& material) {
+  if (material.windows && material.windows->share > 0.0) return true;
   return std::ranges::all_of(material.layers,
                              [](const scene::RadioLayer& layer) { return layer.thickness_m > 0.0; });
 }
 
 double wall_loss_db(const scene::Material& material, double frequency_hz) {
   const RadioSurface surface = radio_surface(*material.radio, frequency_hz, material.name);
-  const FresnelCoefficients through = multilayer(surface.front, speed_of_light / frequency_hz, 1.0);
-  return -20.0 * std::log10(std::abs(through.t_te));
+  const auto amplitude = [&](const std::vector<DielectricLayer>& layers) {
+    return std::abs(multilayer(layers, speed_of_light / frequency_hz, 1.0).t_te);
+  };
+  const double share = surface.windows.share;
+  if (share == 0.0) return -20.0 * std::log10(amplitude(surface.front));
+  const double wall = surface.wall_ends() ? amplitude(surface.front) : 0.0;
+  return -20.0 * std::log10((1.0 - share) * wall + share * amplitude(surface.windows.front));
 }
 
 FacetKinds facet_kinds(const scene::Scene& scene, const RadioEffects& effects) {

@@ -33,15 +33,17 @@ struct RadioEffects {
   FieldEffects field;  ///< effects on the field of each path: roughness, scattering loss, weather
 };
 
-/// Tells whether a wave can come out on the other side: no layer of the material is a half-space.
+/// Tells whether a wave can come out on the other side: no layer of the material is a half-space, or it has
+/// windows.
 bool penetrable(const scene::RadioMaterial& material);
 
 /// Loss of a wall at normal incidence from which on the transmitted wave is negligible for any receiver (2 mm
 /// of metal takes thousands of dB). At other angles the way through is longer.
 inline constexpr double dark_wall_db = 100.0;
 
-/// Returns the loss of a wall at normal incidence, -20 lg |T|, dB; inf if nothing is left. The material must
-/// be penetrable. Throws UserError if the frequency is outside the material's range.
+/// Returns the loss of a wall at normal incidence, -20 lg |T|, dB; inf if nothing is left. With windows the
+/// fields add in phase, so that no chance cancellation makes a wall opaque. The material must be penetrable.
+/// Throws UserError if the frequency is outside the material's range.
 double wall_loss_db(const scene::Material& material, double frequency_hz);
 
 /// Returns the kind of each facet. It depends on the materials and the effects, and is the same for every

@@ -11,11 +11,77 @@
 namespace greatx::rf {
 namespace {
 
-FresnelCoefficients fresnel(const std::vector<DielectricLayer>& layers, double wavelength_m,
-                            double cos_theta) {
+/// A wall or its windows as seen from one side.
+using Stack = std::vector<DielectricLayer>;
+
+FresnelCoefficients fresnel(const Stack& layers, double wavelength_m, double cos_theta) {
   if (layers.size() == 1 && layers[0].thickness_m == 0.0) return half_space(layers[0].eta, cos_theta);
   if (layers.size() == 1) return slab(layers[0], wavelength_m, cos_theta);
   return multilayer(layers, wavelength_m, cos_theta);
+}
+
+ReflectionCoefficients reflection(const Stack& layers, double wavelength_m, double cos_theta) {
+  if (layers.size() > 1) return multilayer(layers, wavelength_m, cos_theta);
+  if (layers[0].thickness_m == 0.0) return half_space_reflection(layers[0].eta, cos_theta);
+  return slab_reflection(layers[0], wavelength_m, cos_theta);
+}
+
+SheetTransmission transmission(const Stack& layers, double wavelength_m, double cos_theta) {
+  double thickness_m = 0.0;
+  for (const DielectricLayer& layer : layers) thickness_m += layer.thickness_m;
+  const FresnelCoefficients through = fresnel(layers, wavelength_m, cos_theta);
+  const Complex phase = sheet_phase(thickness_m, wavelength_m, cos_theta);
+  return {through.t_te * phase, through.t_tm * phase};
+}
+
+Complex mean(const Complex& wall, const Complex& windows, double share) {
+  return (1.0 - share) * wall + share * windows;
+}
+
+/// Returns the layers of `material_name` at one frequency, as seen from the outside.
+Stack stack_of(const std::vector<scene::RadioLayer>& layers, double frequency_hz,
+               const std::string& material_name) {
+  if (layers.empty()) throw_user_error("material '{}': expected one radio layer at least", material_name);
+  Stack stack;
+  for (size_t i = 0; i < layers.size(); ++i) {
+    const scene::RadioLayer& layer = layers[i];
+    const bool last = i + 1 == layers.size();
+    if (!(layer.thickness_m >= 0.0))
+      throw_user_error("material '{}', layer {}: expected a thickness >= 0 m, found {}", material_name, i + 1,
+                       layer.thickness_m);
+    if (layer.thickness_m == 0.0 && !last)
+      throw_user_error(
+          "material '{}', layer {}: thickness 0 makes it a half-space, so expected no layer behind it, "
+          "found {}",
+          material_name, i + 1, layers.size() - i - 1);
+    stack.push_back(
+        {scene::relative_permittivity(layer.medium, frequency_hz, material_name), layer.thickness_m});
+  }
+  return stack;
+}
+
+/// Returns the layers as seen from behind.
+Stack reversed(const Stack& front) {
+  Stack back(front.rbegin(), front.rend());
+  if (back.front().thickness_m == 0.0) back.resize(1);
+  return back;
+}
+
+WindowSurface windows_of(const scene::RadioWindows& windows, double frequency_hz,
+                         const std::string& material_name) {
+  const std::string name = material_name + " (windows)";
+  if (!(windows.share >= 0.0 && windows.share <= 1.0))
+    throw_user_error("material '{}': expected a share of the wall's area from 0 to 1, found {}", name,
+                     windows.share);
+  if (windows.share == 0.0) return {};
+  WindowSurface surface;
+  surface.share = windows.share;
+  surface.front = stack_of(windows.layers, frequency_hz, name);
+  if (surface.front.back().thickness_m == 0.0)
+    throw_user_error("material '{}', layer {}: expected a thickness above 0 m, found 0", name,
+                     surface.front.size());
+  surface.back = reversed(surface.front);
+  return surface;
 }
 
 }  // namespace
@@ -32,27 +98,12 @@ double specular_share(const RadioSurface& surface, double cosine, double wavelen
 
 RadioSurface radio_surface(const scene::RadioMaterial& material, double frequency_hz,
                            const std::string& material_name) {
-  if (material.layers.empty())
-    throw_user_error("material '{}': expected one radio layer at least", material_name);
   RadioSurface surface;
+  surface.front = stack_of(material.layers, frequency_hz, material_name);
+  surface.back = reversed(surface.front);
   surface.roughness_m = material.roughness_m;
   surface.scattering = diffuse_scattering(material, material_name);
-  for (size_t i = 0; i < material.layers.size(); ++i) {
-    const scene::RadioLayer& layer = material.layers[i];
-    const bool last = i + 1 == material.layers.size();
-    if (!(layer.thickness_m >= 0.0))
-      throw_user_error("material '{}', layer {}: expected a thickness >= 0 m, found {}", material_name, i + 1,
-                       layer.thickness_m);
-    if (layer.thickness_m == 0.0 && !last)
-      throw_user_error(
-          "material '{}', layer {}: thickness 0 makes it a half-space, so expected no layer behind it, "
-          "found {}",
-          material_name, i + 1, material.layers.size() - i - 1);
-    surface.front.push_back(
-        {scene::relative_permittivity(layer.medium, frequency_hz, material_name), layer.thickness_m});
-  }
-  surface.back.assign(surface.front.rbegin(), surface.front.rend());
-  if (surface.back.front().thickness_m == 0.0) surface.back.resize(1);
+  if (material.windows) surface.windows = windows_of(*material.windows, frequency_hz, material_name);
   return surface;
 }
 
@@ -84,27 +135,41 @@ const RadioSurface& RadioSurfaces::surface(uint32_t material) const {
   return surfaces_[material];
 }
 
-const std::vector<DielectricLayer>& RadioSurfaces::layers(uint32_t material, bool from_front) const {
+const RadioSurface& RadioSurfaces::wall(uint32_t material) const {
   GREATX_CHECK(material < surfaces_.size() && !surfaces_[material].front.empty(),
                "material {} of {} has no surface", material, surfaces_.size());
-  return from_front ? surfaces_[material].front : surfaces_[material].back;
+  return surfaces_[material];
 }
 
 ReflectionCoefficients RadioSurfaces::reflect(uint32_t material, bool from_front, double cos_theta) const {
-  const std::vector<DielectricLayer>& wall = layers(material, from_front);
-  if (wall.size() > 1) return multilayer(wall, wavelength_m_, cos_theta);
-  if (wall[0].thickness_m == 0.0) return half_space_reflection(wall[0].eta, cos_theta);
-  return slab_reflection(wall[0], wavelength_m_, cos_theta);
+  const RadioSurface& surface = wall(material);
+  const auto of_wall = [&] {
+    return reflection(from_front ? surface.front : surface.back, wavelength_m_, cos_theta);
+  };
+  const double share = surface.windows.share;
+  if (share == 0.0) return of_wall();
+  const WindowSurface& windows = surface.windows;
+  const ReflectionCoefficients panes =
+      reflection(from_front ? windows.front : windows.back, wavelength_m_, cos_theta);
+  if (share == 1.0) return panes;
+  const ReflectionCoefficients around = of_wall();
+  return {mean(around.r_te, panes.r_te, share), mean(around.r_tm, panes.r_tm, share)};
 }
 
 SheetTransmission RadioSurfaces::transmit(uint32_t material, bool from_front, double cos_theta) const {
-  GREATX_CHECK(penetrable(material), "material {} lets nothing through", material);
-  const std::vector<DielectricLayer>& wall = layers(material, from_front);
-  double thickness_m = 0.0;
-  for (const DielectricLayer& layer : wall) thickness_m += layer.thickness_m;
-  const FresnelCoefficients through = fresnel(wall, wavelength_m_, cos_theta);
-  const Complex phase = sheet_phase(thickness_m, wavelength_m_, cos_theta);
-  return {through.t_te * phase, through.t_tm * phase};
+  const RadioSurface& surface = wall(material);
+  GREATX_CHECK(surface.penetrable(), "material {} lets nothing through", material);
+  const auto of_wall = [&] {
+    return transmission(from_front ? surface.front : surface.back, wavelength_m_, cos_theta);
+  };
+  const double share = surface.windows.share;
+  if (share == 0.0) return of_wall();
+  const WindowSurface& windows = surface.windows;
+  const SheetTransmission panes =
+      transmission(from_front ? windows.front : windows.back, wavelength_m_, cos_theta);
+  if (share == 1.0) return panes;
+  const SheetTransmission around = surface.wall_ends() ? of_wall() : SheetTransmission{};
+  return {mean(around.te, panes.te, share), mean(around.tm, panes.tm, share)};
 }
 
 }  // namespace greatx::rf

@@ -2,6 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Describes how the materials of the scene appear to a radio wave of one carrier.
+//
+// A wall is a stack of layers. A wall with windows is drawn as one face and has two stacks: that of the wall
+// and that of the windows, which have the share p of its area. In the specular direction it has the mean of
+// the fields of both, by area:
+//   R = (1 - p) R_wall + p R_windows,   T = (1 - p) T_wall + p T_windows.
+// This is the zeroth order of the Kirchhoff (physical-optics) approximation. The field right at the wall is
+// that of an infinite wall or pane, and its mean is what goes on in the specular direction. The outer faces
+// of wall and windows lie in one plane, and each part keeps its own thickness. What the windows' grid sends
+// elsewhere, its side lobes, is left out. Its power is p(1 - p)(|R_wall - R_windows|^2 + |T_wall -
+// T_windows|^2) of the incident power, so that |R|^2 + |T|^2 never exceeds 1. docs/materials.md says where
+// the mean holds and gives its error, which tests/rf/windows_test.cpp measures.
+//
+// Data flow: scene::RadioMaterial -> radio_surface() -> RadioSurface -> RadioSurfaces::reflect(), transmit().
 #pragma once
 
 #include <cstdint>
@@ -16,6 +29,13 @@
 
 namespace greatx::rf {
 
+/// Describes the windows of a wall at one frequency. Every layer has a thickness.
+struct WindowSurface {
+  double share = 0.0;                  ///< of the area of the wall, 0 to 1; 0: the wall has no windows
+  std::vector<DielectricLayer> front;  ///< as seen from the side of the normal; empty if `share` is 0
+  std::vector<DielectricLayer> back;   ///< as seen from the other side
+};
+
 /// Describes a wall at one frequency, seen from both sides.
 struct RadioSurface {
   /// The layers as seen from the side that the normal of the facet points to, the outermost first. A last
@@ -25,9 +45,13 @@ struct RadioSurface {
   bool foliage = false;               ///< true: no wall, but the boundary of an attenuating volume
   double roughness_m = 0.0;           ///< rms height of either face, m
   DiffuseScattering scattering;       ///< of either face
+  WindowSurface windows;
 
-  /// Returns whether a wave can come out on the other side, that is, whether no layer is a half-space.
-  bool penetrable() const { return !front.empty() && front.back().thickness_m > 0.0; }
+  /// Returns whether no layer of the wall beside its windows is a half-space.
+  bool wall_ends() const { return !front.empty() && front.back().thickness_m > 0.0; }
+  /// Returns whether a wave can come out on the other side: through the wall, or through its windows. Windows
+  /// in a half-space are openings in a thick wall and let waves through to its other side.
+  bool penetrable() const { return wall_ends() || windows.share > 0.0; }
 };
 
 /// Returns the factor, 0 to 1, by which a rough surface reduces the amplitude of the specular reflection: rho
@@ -48,9 +72,11 @@ struct SheetTransmission {
 ///   walls, metal).
 /// - Otherwise the wall is a slab or several layers with vacuum behind. A last layer of thickness 0 is the
 ///   half-space behind the others. Seen from the side of this half-space, the wall is the half-space alone.
+/// - Windows of share 0 are left out, and with them the ranges of their media.
 /// Throws UserError naming the material if it has no layer, if its permittivity is not known at
-/// `frequency_hz`, if a layer other than the last has thickness 0, if a thickness is negative, or if a
-/// parameter of its scattering is out of range (rf/surface/scattering.h).
+/// `frequency_hz`, if a layer other than the last has thickness 0, if a thickness is negative, if a layer
+/// of its windows has no thickness, if their share is not from 0 to 1, or if a parameter of its scattering is
+/// out of range (rf/surface/scattering.h). Messages about windows call the material "NAME (windows)".
 RadioSurface radio_surface(const scene::RadioMaterial& material, double frequency_hz,
                            const std::string& material_name);
 
@@ -66,11 +92,11 @@ class RadioSurfaces {
 
   double carrier_hz() const { return carrier_hz_; }
   double wavelength_m() const { return wavelength_m_; }
-  /// Returns the reflection of the smooth wall. `from_front` is true if the wave comes from the side that the
-  /// normal of the facet points to.
+  /// Returns the reflection of the smooth wall, with windows the mean by area. `from_front` is true if the
+  /// wave comes from the side that the normal of the facet points to.
   ReflectionCoefficients reflect(uint32_t material, bool from_front, double cos_theta) const;
-  /// Returns the transmission through all layers of a wall, which must be penetrable. The result of a thick
-  /// lossy wall underflows to 0.
+  /// Returns the transmission through all layers of a wall, which must be penetrable, with windows the mean
+  /// by area. A half-space around windows adds nothing. The result of a thick lossy wall underflows to 0.
   SheetTransmission transmit(uint32_t material, bool from_front, double cos_theta) const;
   bool penetrable(uint32_t material) const { return surface(material).penetrable(); }
   /// Returns the wall of a material by its index in the scene. The wall has no layers if no facet has this
@@ -78,7 +104,7 @@ class RadioSurfaces {
   const RadioSurface& surface(uint32_t material) const;
 
  private:
-  const std::vector<DielectricLayer>& layers(uint32_t material, bool from_front) const;
+  const RadioSurface& wall(uint32_t material) const;
 
   std::vector<RadioSurface> surfaces_;  ///< [materials]
   double carrier_hz_, wavelength_m_;

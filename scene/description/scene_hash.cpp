@@ -51,26 +51,37 @@ void feed(Feeder& feeder, const RadioMedium& medium) {
   }
 }
 
-void feed(Feeder& feeder, const RadioMaterial& radio) {
-  const auto& [layers, foliage, scattering_coefficient, pattern, pattern_exponent, backscatter_exponent,
-               backscatter_share, cross_polarization, roughness_m, clutter] = radio;
-  if (foliage) {
-    const auto& [attenuation_db_per_m] = *foliage;
-    feeder.values(static_cast<uint32_t>(attenuation_db_per_m.has_value()),
-                  attenuation_db_per_m.value_or(0.0));
-  }
+void feed(Feeder& feeder, const std::vector<RadioLayer>& layers) {
   feeder.count(layers.size());
   for (const RadioLayer& layer : layers) {
     const auto& [medium, thickness_m] = layer;
     feeder.values(thickness_m);
     feed(feeder, medium);
   }
-  feeder.values(scattering_coefficient, static_cast<uint32_t>(pattern), pattern_exponent,
-                backscatter_exponent, backscatter_share, cross_polarization, roughness_m);
-  if (!clutter) return;
-  const auto& [form, level_db, angle_db, frequency_db, sea_state, cross_db] = *clutter;
+}
+
+void feed(Feeder& feeder, const SurfaceClutter& clutter) {
+  const auto& [form, level_db, angle_db, frequency_db, sea_state, cross_db] = clutter;
   feeder.text("clutter").values(static_cast<uint32_t>(form), level_db, angle_db, frequency_db, sea_state,
                                 cross_db);
+}
+
+void feed(Feeder& feeder, const RadioMaterial& radio) {
+  const auto& [layers, foliage, scattering_coefficient, pattern, pattern_exponent, backscatter_exponent,
+               backscatter_share, cross_polarization, roughness_m, clutter, windows] = radio;
+  if (foliage) {
+    const auto& [attenuation_db_per_m] = *foliage;
+    feeder.values(static_cast<uint32_t>(attenuation_db_per_m.has_value()),
+                  attenuation_db_per_m.value_or(0.0));
+  }
+  feed(feeder, layers);
+  feeder.values(scattering_coefficient, static_cast<uint32_t>(pattern), pattern_exponent,
+                backscatter_exponent, backscatter_share, cross_polarization, roughness_m);
+  if (clutter) feed(feeder, *clutter);
+  if (!windows) return;
+  const auto& [share, panes] = *windows;
+  feeder.text("windows").values(share);
+  feed(feeder, panes);
 }
 
 void feed(Feeder& feeder, const PbrMaterial& pbr) {

@@ -70,6 +70,14 @@ struct Foliage {
   friend bool operator==(const Foliage&, const Foliage&) = default;
 };
 
+/// Describes the windows of a wall that is drawn as one face. In the specular direction the wall reflects and
+/// transmits the mean of the fields of its parts, by area (rf/surface/surfaces.h, docs/materials.md).
+struct RadioWindows {
+  double share = 0.0;              ///< part of the area of the face that is windows, 0 to 1
+  std::vector<RadioLayer> layers;  ///< inwards from the outside; each has a thickness, so that waves get in
+  friend bool operator==(const RadioWindows&, const RadioWindows&) = default;
+};
+
 struct RadioMaterial {
   /// At least one layer, or none for foliage. A single layer of thickness 0 is a half-space.
   std::vector<RadioLayer> layers;
@@ -85,6 +93,7 @@ struct RadioMaterial {
   /// The power that the surface, or the outside of foliage, sends back to radars; empty: that which
   /// `scattering_coefficient` scatters back.
   std::optional<SurfaceClutter> clutter;
+  std::optional<RadioWindows> windows;  ///< empty: the wall has none; never beside foliage
   friend bool operator==(const RadioMaterial&, const RadioMaterial&) = default;
 };
 

@@ -21,16 +21,16 @@ const Keys medium_keys{"itu",         "conductor", "rows",   "a",      "b",
                        "c",           "d",         "min_hz", "max_hz", "relative_permittivity",
                        "conductivity"};
 const Keys layer_keys = medium_keys + Keys{"thickness_m", "extrapolate"};
-const Keys material_keys = Keys{"foliage", "layers"} + layer_keys + Keys{"scattering_coefficient",
-                                                                         "pattern",
-                                                                         "pattern_exponent",
-                                                                         "backscatter_exponent",
-                                                                         "backscatter_share",
-                                                                         "cross_polarization",
-                                                                         "roughness_m",
-                                                                         "clutter",
-                                                                         "reflectance_905nm",
-                                                                         "reflectance_1550nm"};
+const Keys material_keys = Keys{"foliage", "layers", "windows"} + layer_keys + Keys{"scattering_coefficient",
+                                                                                    "pattern",
+                                                                                    "pattern_exponent",
+                                                                                    "backscatter_exponent",
+                                                                                    "backscatter_share",
+                                                                                    "cross_polarization",
+                                                                                    "roughness_m",
+                                                                                    "clutter",
+                                                                                    "reflectance_905nm",
+                                                                                    "reflectance_1550nm"};
 
 std::optional<double> number(const FieldMap& map, std::string_view key, double min, double max,
                              const std::string& expected) {
@@ -150,14 +150,15 @@ std::optional<RadioMedium> read_medium(const FieldMap& map) {
   return medium;
 }
 
-RadioLayer read_layer(const Field& field) {
+/// Reads a layer. Its medium has `extrapolate` unless it says otherwise itself.
+RadioLayer read_layer(const Field& field, bool extrapolate) {
   const FieldMap map(field, layer_keys);
   RadioLayer layer;
   auto medium = read_medium(map);
   if (!medium)
     field.refuse(
         "a layer needs a medium (itu, conductor, rows, a/b/c/d, or relative_permittivity + conductivity)");
-  medium->extrapolate = boolean(map, "extrapolate").value_or(false);
+  medium->extrapolate = boolean(map, "extrapolate").value_or(extrapolate);
   layer.medium = std::move(*medium);
   const auto thickness = thickness_of(map);
   if (!thickness) field.refuse("a layer needs its thickness_m");
@@ -165,18 +166,18 @@ RadioLayer read_layer(const Field& field) {
   return layer;
 }
 
-std::optional<std::vector<RadioLayer>> read_layers(const FieldMap& map) {
+std::optional<std::vector<RadioLayer>> read_layers(const FieldMap& map, bool extrapolate) {
   const std::optional<Field> field = map.find("layers");
   if (!field) return std::nullopt;
   std::vector<RadioLayer> layers;
-  for (const Field& item : field->list("layers", 1)) layers.push_back(read_layer(item));
+  for (const Field& item : field->list("layers", 1)) layers.push_back(read_layer(item, extrapolate));
   return layers;
 }
 
 /// Reads the wall itself: medium and thickness, or layers, or changes to the statements of the sources below.
 void read_wall(const FieldMap& map, std::optional<RadioMaterial>& radio) {
   auto medium = read_medium(map);
-  auto layers = read_layers(map);
+  auto layers = read_layers(map, false);
   const auto thickness = thickness_of(map);
   const auto extrapolate = boolean(map, "extrapolate");
   if (layers && (medium || thickness || extrapolate))
@@ -198,9 +199,34 @@ void read_wall(const FieldMap& map, std::optional<RadioMaterial>& radio) {
           fmt::format("thickness_m cannot change a material of {} layers", radio->layers.size()));
     radio->layers.front().thickness_m = *thickness;
   }
-  if (extrapolate) {
-    for (RadioLayer& layer : radio->layers) layer.medium.extrapolate = *extrapolate;
+  if (extrapolate) set_extrapolate(*radio, *extrapolate);
+}
+
+/// Reads windows, or changes to those of the sources below. Their media extrapolate if all media of the wall
+/// do, unless a layer says otherwise itself.
+void read_windows(const FieldMap& map, std::optional<RadioMaterial>& radio) {
+  const std::optional<Field> field = map.find("windows");
+  if (!field) return;
+  const FieldMap windows(*field, {"share", "layers"});
+  if (!radio || radio->foliage)
+    field->refuse(
+        "windows need a wall around them (itu, conductor, rows, a/b/c/d, relative_permittivity + "
+        "conductivity, or layers)");
+  const bool extrapolate =
+      std::ranges::all_of(radio->layers, [](const RadioLayer& layer) { return layer.medium.extrapolate; });
+  const auto share = unit_interval(windows, "share");
+  auto layers = read_layers(windows, extrapolate);
+  if (!share && !layers)
+    field->refuse("expected the windows' share of the wall's area, their layers, or both");
+  if (!radio->windows) {
+    if (!share || !layers)
+      field->refuse(
+          fmt::format("windows need their share of the wall's area and their layers; '{}' is missing",
+                      share ? "layers" : "share"));
+    radio->windows.emplace();
   }
+  if (share) radio->windows->share = *share;
+  if (layers) radio->windows->layers = std::move(*layers);
 }
 
 std::optional<ScatteringPattern> read_pattern(const FieldMap& map) {
@@ -322,6 +348,7 @@ RadioSources read_radio_fields(const Field& fields, const RadioSources& below) {
     result.radio->foliage = foliage;
   }
   read_wall(map, result.radio);
+  read_windows(map, result.radio);
   read_surface(map, result.radio);
   read_clutter(map, result.radio);
   if (const auto value = unit_interval(map, "reflectance_905nm"))
@@ -329,6 +356,12 @@ RadioSources read_radio_fields(const Field& fields, const RadioSources& below) {
   if (const auto value = unit_interval(map, "reflectance_1550nm"))
     result.reflectance_1550nm = static_cast<float>(*value);
   return result;
+}
+
+void set_extrapolate(RadioMaterial& material, bool extrapolate) {
+  for (RadioLayer& layer : material.layers) layer.medium.extrapolate = extrapolate;
+  if (!material.windows) return;
+  for (RadioLayer& layer : material.windows->layers) layer.medium.extrapolate = extrapolate;
 }
 
 std::optional<std::string> itu_part_of_name(const std::string& material_name) {

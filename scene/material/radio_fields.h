@@ -29,6 +29,9 @@ struct RadioSources {
 /// type, a value out of range, an unknown ITU name, or a missing medium where one is needed.
 RadioSources read_radio_fields(const Field& fields, const RadioSources& below);
 
+/// Sets whether the media of a material, those of its windows among them, extrapolate beyond their ranges.
+void set_extrapolate(RadioMaterial& material, bool extrapolate);
+
 /// Returns the ITU part of a name as written: "itu_concrete", "ITU-Concrete.001", "mat-itu_concrete" ->
 /// "concrete". The result is empty if the name does not have ITU's form. The table may still not know the
 /// name.

@@ -16,9 +16,10 @@ RadioSidecar RadioSidecar::read(const std::filesystem::path& file) {
   if (const auto beyond = root.find("beyond_range"))
     sidecar.extrapolate_ = beyond->choice({"refuse", "extrapolate"}) == 1;
   for (const auto& [key, fields] : sidecar.entries_) {
-    // Entries that this scene does not use are checked too, as if laid over some medium.
+    // Entries that this scene does not use are checked too, as if laid over some wall with windows.
     RadioSources any_medium;
     any_medium.radio.emplace().layers.push_back({*itu_medium("vacuum"), 0.0});
+    any_medium.radio->windows = RadioWindows{0.0, {{*itu_medium("vacuum"), 1.0}}};
     read_radio_fields(fields, any_medium);
   }
   return sidecar;
@@ -39,7 +40,7 @@ void RadioSidecar::extrapolate(const std::string& material_name, RadioMaterial& 
   if (const Field* entry = find(material_name))
     for (const auto& [key, value] : entry->entries())
       if (key == "extrapolate") return;
-  for (RadioLayer& layer : material.layers) layer.medium.extrapolate = true;
+  set_extrapolate(material, true);
 }
 
 }  // namespace greatx::scene

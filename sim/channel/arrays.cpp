@@ -21,25 +21,41 @@ namespace greatx::sim {
 
 namespace {
 
-/// Describes the layers of each material at the carrier, outermost first; null for materials that no facet
-/// has. `range_hz` is that of the row that the medium has at the carrier, and missing where a medium holds at
-/// every frequency.
+/// Describes layers at the carrier, outermost first; null if there are none. `range_hz` is that of the row
+/// that the medium has at the carrier, and missing where a medium holds at every frequency.
+nlohmann::json describe_layers(const std::vector<rf::DielectricLayer>& front,
+                               const std::vector<scene::RadioLayer>& of, const std::string& material,
+                               double carrier_hz) {
+  nlohmann::json layers;
+  for (size_t i = 0; i < front.size(); ++i) {
+    const scene::RadioMedium& medium = of[i].medium;
+    const scene::RadioRow& row = scene::row_at(medium, carrier_hz, material);
+    layers.push_back({{"relative_permittivity", {front[i].eta.real(), front[i].eta.imag()}},
+                      {"thickness_m", front[i].thickness_m},
+                      {"source", medium.source},
+                      {"extrapolated", carrier_hz < row.min_hz || carrier_hz > row.max_hz}});
+    if (std::isfinite(row.max_hz)) layers.back()["range_hz"] = {row.min_hz, row.max_hz};
+  }
+  return layers;
+}
+
+/// Describes each material at the carrier: its layers, null if no facet has the material, and its windows, if
+/// it has any.
 nlohmann::json describe_walls(const scene::Scene& scene, const rf::RadioSurfaces& surfaces,
                               double carrier_hz) {
   nlohmann::json walls = nlohmann::json::array();
   for (uint32_t material = 0; material < scene.materials.size(); ++material) {
-    const std::vector<rf::DielectricLayer>& front = surfaces.surface(material).front;
-    nlohmann::json layers;
-    for (size_t i = 0; i < front.size(); ++i) {
-      const scene::RadioMedium& medium = scene.materials[material].radio->layers[i].medium;
-      const scene::RadioRow& row = scene::row_at(medium, carrier_hz, scene.materials[material].name);
-      layers.push_back({{"relative_permittivity", {front[i].eta.real(), front[i].eta.imag()}},
-                        {"thickness_m", front[i].thickness_m},
-                        {"source", medium.source},
-                        {"extrapolated", carrier_hz < row.min_hz || carrier_hz > row.max_hz}});
-      if (std::isfinite(row.max_hz)) layers.back()["range_hz"] = {row.min_hz, row.max_hz};
-    }
-    walls.push_back({{"material", scene.materials[material].name}, {"layers", std::move(layers)}});
+    const rf::RadioSurface& surface = surfaces.surface(material);
+    const std::string& name = scene.materials[material].name;
+    const std::optional<scene::RadioMaterial>& radio = scene.materials[material].radio;
+    nlohmann::json wall{{"material", name}, {"layers", nullptr}};
+    if (!surface.front.empty())
+      wall["layers"] = describe_layers(surface.front, radio->layers, name, carrier_hz);
+    if (surface.windows.share > 0.0)
+      wall["windows"] = {
+          {"share", surface.windows.share},
+          {"layers", describe_layers(surface.windows.front, radio->windows->layers, name, carrier_hz)}};
+    walls.push_back(std::move(wall));
   }
   return walls;
 }

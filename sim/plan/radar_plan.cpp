@@ -10,6 +10,7 @@
 #include "rf/atmosphere/gas.h"
 #include "rf/atmosphere/path_attenuation.h"
 #include "rf/atmosphere/rain_backscatter.h"
+#include "rf/paths/radio_model.h"
 #include "rf/surface/roughness.h"
 #include "sim/plan/radio_plan.h"
 
@@ -61,7 +62,7 @@ struct RadarOffers {
   std::string roughest;
   bool scattering = false;
   std::string clutter;  ///< a material with a model of its clutter; empty: none
-  std::string veil;     ///< foliage, or a material that ends in a layer with a thickness; empty: none
+  std::string veil;     ///< foliage, or a material that waves can pass; empty: none
 };
 
 RadarOffers radar_offers(const scene::Scene& scene) {
@@ -71,9 +72,7 @@ RadarOffers radar_offers(const scene::Scene& scene) {
     if (!material.radio) continue;
     offers.scattering |= material.radio->scattering_coefficient > 0.0;
     if (offers.clutter.empty() && material.radio->clutter) offers.clutter = material.name;
-    const std::vector<scene::RadioLayer>& layers = material.radio->layers;
-    if (offers.veil.empty() &&
-        (material.radio->foliage || (!layers.empty() && layers.back().thickness_m > 0.0)))
+    if (offers.veil.empty() && (material.radio->foliage || rf::penetrable(*material.radio)))
       offers.veil = material.name;
     if (material.radio->roughness_m <= offers.roughness_m) continue;
     offers.roughness_m = material.radio->roughness_m;

@@ -198,8 +198,8 @@ void plan_transmission(EffectPlan& plan, const Radio& radio) {
       radio.why(
           radio.asks.walls == 0 ? "max_transmissions or max_depth is 0"
           : surfaces.walls == 0
-              ? fmt::format("no material lets waves pass: all are half-spaces (no thickness given), or "
-                            "take {:.0f} dB or more",
+              ? fmt::format("no material lets waves pass: all are half-spaces (no thickness given) without "
+                            "windows, or take {:.0f} dB or more",
                             rf::dark_wall_db)
               : fmt::format("{} materials let waves pass, up to {} walls", surfaces.walls, radio.asks.walls)),
       walls ? fmt::format(

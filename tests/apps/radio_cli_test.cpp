@@ -128,6 +128,44 @@ TEST_F(RadioCli, FrequenciesOutsideOfAMaterial) {
   EXPECT_EQ(run("explain").code, 0) << "asked for";
 }
 
+/// Half-spaces of concrete with windows: the terminal is in the house, behind the first wall.
+TEST_F(RadioCli, WindowsLetWavesIntoAHouseOfThickWalls) {
+  const auto glazed = [&](const char* share, const char* itu = "glass") {
+    change("radio.yaml", radio, "thickness_m: 0.2",
+           fmt::format("windows: {{share: {}, layers: [{{itu: {}, thickness_m: 0.006}}]}}", share, itu));
+  };
+  change("house.yaml", radio_scenario, "[10, 3, 1.5]", "[25, 3, 1.5]");
+  glazed("0");
+  EXPECT_THAT(run("explain").out, HasSubstr("half-spaces (no thickness given) without windows"));
+  glazed("0.25");
+  EXPECT_THAT(run("explain").out, HasSubstr("1 materials let waves pass"));
+  const Outcome listed = run("paths", "--json");
+  ASSERT_EQ(listed.code, 0) << listed.err;
+  EXPECT_GE(json::parse(listed.out)["receivers"][0]["paths"].size(), 1u);
+  const Outcome info =
+      greatx(fmt::format("scene info {} --radio-materials {}", path("box.gltf"), path("radio.yaml")));
+  ASSERT_EQ(info.code, 0) << info.err;
+  EXPECT_THAT(info.out,
+              HasSubstr("concrete, half-space; windows on 25 % of its area: ITU-R P.2040-4 Table 3, "
+                        "glass, 0.006 m"));
+  for (const char* value : {"1.01", "-0.1", "nan", "half"}) {
+    glazed(value);
+    fails(value, {"radio.yaml:4", "materials.plaster.windows.share", "from 0 to 1"});
+  }
+  glazed("0.25", "glazing");
+  fails("glazing", {"radio.yaml:4", "materials.plaster.windows.layers[0].itu", "'glazing'"});
+}
+
+TEST_F(RadioCli, FrequenciesOutsideOfTheWindowsMaterial) {
+  change("radio.yaml", radio, "thickness_m: 0.2",
+         "windows: {share: 0.2, layers: [{itu: clear_acrylic, thickness_m: 0.006}]}");
+  fails("acrylic",
+        {"house.yaml:", "channel 'csi'", "material 'plaster (windows)'", "clear_acrylic", "110 to 330 GHz"});
+  change("radio.yaml", radio, "thickness_m: 0.2",
+         "extrapolate: true\n    windows: {share: 0.2, layers: [{itu: clear_acrylic, thickness_m: 0.006}]}");
+  EXPECT_EQ(run("explain").code, 0) << "asked for, with the wall";
+}
+
 TEST_F(RadioCli, ThicknessesAndScatteringThatCannotBe) {
   for (const char* value : {"0", "-0.1", "nan", "thick"}) {
     change("radio.yaml", radio, "thickness_m: 0.2", fmt::format("thickness_m: {}", value));

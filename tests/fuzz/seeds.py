@@ -169,6 +169,16 @@ RADIO = {
             "pattern_exponent": 4,
         },
         "itu_*": {"thickness_m": 0.3, "roughness_m": 0.001, "cross_polarization": 0.1},
+        "facade": {
+            "itu": "brick",
+            "windows": {
+                "share": 0.22,
+                "layers": [
+                    {"itu": "glass", "thickness_m": 0.006},
+                    {"relative_permittivity": 1.0, "conductivity": 0.0, "thickness_m": 0.016},
+                ],
+            },
+        },
         "leaves": {"foliage": {"attenuation_db_per_m": 1.5}},
         "*": {"relative_permittivity": 4.0, "conductivity": 0.02, "extrapolate": True},
     }

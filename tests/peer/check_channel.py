@@ -38,10 +38,15 @@ class Worst:
 
 
 def wall_of(channel, material):
-    return [
-        (complex(*layer["relative_permittivity"]), layer["thickness_m"])
-        for layer in channel.meta["walls"][material]["layers"]
-    ]
+    """Returns the parts of a wall by area: (share, its layers). A wall with windows has two."""
+
+    def stack(layers):
+        return [(complex(*layer["relative_permittivity"]), layer["thickness_m"]) for layer in layers]
+
+    wall = channel.meta["walls"][material]
+    windows = wall.get("windows", {"share": 0.0, "layers": []})
+    parts = [(1.0 - windows["share"], stack(wall["layers"])), (windows["share"], stack(windows["layers"]))]
+    return [part for part in parts if part[0] > 0.0]
 
 
 def check_walls(channel, worst):

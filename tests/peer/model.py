@@ -79,7 +79,9 @@ def fresnel(wall, cosine, wavelength):
 
 def passed(wall, cosine, wavelength):
     """Returns (t_TE, t_TM) of a wall as a sheet, by the chain (ABCD) matrices of its layers. The phase of the
-    same way in vacuum is taken off, because the path's length contains it."""
+    same way in vacuum is taken off, because the path's length contains it. A half-space lets nothing pass."""
+    if wall[-1][1] == 0:
+        return [0.0, 0.0]
     te = np.eye(2, dtype=complex)
     tm = np.eye(2, dtype=complex)
     for eta, thickness in wall:
@@ -114,7 +116,8 @@ def bisectors(points, types):
 def transfer(points, types, walls, normals, wavelength):
     """Returns the 2x2 transfer matrix of a path through points [n + 2, 3] with n interactions (reflections
     and transmissions), in the world basis of departure and arrival. The normals of reflections are the
-    bisectors. `normals` [n, 3] gives those of the walls passed, and nothing else of the scene is needed."""
+    bisectors. `normals` [n, 3] gives those of the walls passed, and nothing else of the scene is needed. A
+    wall is a list of (share of the area, layers), and has the mean of the fields of its parts."""
     own = bisectors(points, types)
     turning = np.concatenate([[True], np.asarray(types) != TRANSMISSION, [True]])
     k = unit(np.diff(points[turning], axis=0))
@@ -126,7 +129,9 @@ def transfer(points, types, walls, normals, wavelength):
         before, after = k[run], k[run if through else run + 1]
         run += not through
         cosine = abs(before @ normal)
-        te, tm = passed(wall, cosine, wavelength) if through else fresnel(wall, cosine, wavelength)
+        of = passed if through else fresnel
+        fields = [(share, of(layers, cosine, wavelength)) for share, layers in wall]
+        te, tm = (sum(share * field[i] for share, field in fields) for i in (0, 1))
         across = np.cross(before, normal)
         if np.linalg.norm(across) < 1e-8:
             across = np.cross(before, [1, 0, 0] if abs(before[0]) < 0.5 else [0, 1, 0])

@@ -234,7 +234,7 @@ class Referee:
         for kind in path.kinds:
             face = crossed.pop(0)[1] if kind == "T" else mirrors.pop(0)
             itu, thickness = self.itu[self.materials[face]]
-            walls.append([(permittivity(itu, case.carrier_hz), thickness)])
+            walls.append([(1.0, [(permittivity(itu, case.carrier_hz), thickness)])])
             types.append(2 if kind == "T" else 1)
             normals.append(self.normals[face])
             if kind == "T":

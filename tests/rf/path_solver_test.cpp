@@ -123,6 +123,31 @@ TEST(PathSolver, AWallIsPassedWithTheFieldOfItsSlab) {
   EXPECT_LT(std::abs(path.transfer[3] + t / 10.0), 1e-12);
 }
 
+/// A half-space with windows is passed by them alone, and reflects as the mean of both.
+TEST(PathSolver, WindowsLetWavesThroughAHalfSpace) {
+  scene::Material facade = concrete("facade", 0.0);
+  facade.radio->windows = scene::RadioWindows{0.25, {{*scene::itu_medium("glass"), 0.006}}};
+  TinyScene tiny;
+  tiny.object("wall", 0, tiny.material_as(facade)).quad({0, -10, 0}, {0, 10, 0}, {0, 10, 10}, {0, -10, 10});
+  const scene::Scene scene = tiny.build();
+  const dvec3 tx(-4, 0, 5), rx(6, 0, 5), beside(-4, 3, 5);
+  const double wavelength_m = speed_of_light / carrier_hz;
+  const DielectricLayer pane{scene::relative_permittivity(*scene::itu_medium("glass"), carrier_hz, "glass"),
+                             0.006};
+  const Solved through = solve(scene, tx, rx, with_walls(), {});
+  ASSERT_THAT(through.chains(), ElementsAre("T"));
+  const Complex t = 0.25 * slab(pane, wavelength_m, 1.0).t_te * sheet_phase(0.006, wavelength_m, 1.0);
+  EXPECT_LT(std::abs(through.paths[0].transfer[0] - t / 10.0), 1e-12);
+  const Solved reflected = solve(scene, tx, beside, with_walls(), {});
+  ASSERT_THAT(reflected.chains(), ElementsAre("", "R"));
+  const double cosine = 4.0 / std::hypot(4.0, 1.5), length_m = 2.0 * std::hypot(4.0, 1.5);
+  const Complex eta = scene::relative_permittivity(*scene::itu_medium("concrete"), carrier_hz, "concrete");
+  const Complex r = 0.75 * half_space(eta, cosine).r_te + 0.25 * slab(pane, wavelength_m, cosine).r_te;
+  // The wave lies in the horizontal plane, so that the vertical field is TE.
+  EXPECT_LT(std::abs(std::abs(reflected.paths[1].transfer[0]) - std::abs(r) / length_m), 1e-12);
+  EXPECT_THAT(solve(scene, tx, rx, {}, {}).paths, IsEmpty()) << "transmission is off";
+}
+
 TEST(PathSolver, WallsBlockWhereTransmissionIsOffOrNoneIsAllowed) {
   const dvec3 tx(-4, 0, 5), rx(6, 0, 5);
   EXPECT_THAT(solve(one_wall(1).build(), tx, rx, {}, {}).paths, IsEmpty());

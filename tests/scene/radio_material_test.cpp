@@ -107,6 +107,68 @@ TEST(RadioMaterial, LayersInOrder) {
   EXPECT_EQ(pane.layers[2].thickness_m, 0.004);
 }
 
+json windows(double share = 0.22) {
+  const json glass = {{"itu", "glass"}, {"thickness_m", 0.006}};
+  const json air = {{"relative_permittivity", 1.0}, {"conductivity", 0.0}, {"thickness_m", 0.016}};
+  return {{"share", share}, {"layers", {glass, air, glass}}};
+}
+
+TEST(RadioMaterial, WindowsInAWall) {
+  const RadioMaterial wall = load_extension({{"itu", "brick"}, {"thickness_m", 0.3}, {"windows", windows()}});
+  ASSERT_TRUE(wall.windows);
+  EXPECT_EQ(wall.windows->share, 0.22);
+  ASSERT_EQ(wall.windows->layers.size(), 3u);
+  EXPECT_EQ(wall.windows->layers[0].medium.source, "ITU-R P.2040-4 Table 3, glass");
+  EXPECT_EQ(wall.windows->layers[1].thickness_m, 0.016);
+  EXPECT_FALSE(wall.windows->layers[0].medium.extrapolate);
+  ASSERT_EQ(wall.layers.size(), 1u);
+  EXPECT_EQ(wall.layers[0].thickness_m, 0.3);
+  EXPECT_FALSE(load_extension({{"itu", "brick"}}).windows);
+}
+
+TEST(RadioMaterial, WindowsExtrapolateWithTheirWall) {
+  const auto loaded = [](json fields) { return *load_extension(std::move(fields)).windows; };
+  const RadioWindows own = loaded({{"itu", "brick"}, {"extrapolate", true}, {"windows", windows()}});
+  for (const RadioLayer& layer : own.layers) EXPECT_TRUE(layer.medium.extrapolate);
+  json stated = windows();
+  stated["layers"][2]["extrapolate"] = false;
+  const RadioWindows some = loaded({{"itu", "brick"}, {"extrapolate", true}, {"windows", stated}});
+  EXPECT_TRUE(some.layers[0].medium.extrapolate);
+  EXPECT_FALSE(some.layers[2].medium.extrapolate);
+  stated["layers"][0]["extrapolate"] = true;
+  const RadioWindows alone = loaded({{"itu", "brick"}, {"windows", stated}});
+  EXPECT_TRUE(alone.layers[0].medium.extrapolate);
+  EXPECT_FALSE(alone.layers[1].medium.extrapolate);
+}
+
+TEST(RadioMaterial, WindowErrors) {
+  const auto refuse = [](json given, std::vector<std::string> parts, json wall = {{"itu", "brick"}}) {
+    parts.insert(parts.end(), {"test.glb", "paint", "GREATX_radio_material"});
+    wall["windows"] = std::move(given);
+    expect_user_error([&] { load_extension(wall); }, parts);
+  };
+  refuse(windows(1.01), {".windows.share", "from 0 to 1", "1.01"});
+  refuse(windows(-0.1), {".windows.share", "-0.1"});
+  json bad = windows();
+  bad["share"] = "a fifth";
+  refuse(bad, {".windows.share", "'a fifth'"});
+  bad["share"] = nullptr;
+  refuse(bad, {".windows.share"});
+  refuse({{"share", 0.2}}, {".windows", "'layers' is missing"});
+  refuse({{"layers", windows()["layers"]}}, {".windows", "'share' is missing"});
+  refuse(json::object(), {".windows", "share of the wall's area, their layers, or both"});
+  refuse(0.2, {".windows", "expected a map"});
+  refuse({{"share", 0.2}, {"layers", json::array()}}, {".windows.layers"});
+  refuse({{"share", 0.2}, {"layers", json::array({json{{"itu", "glass"}}})}},
+         {".windows.layers[0]", "thickness_m"});
+  refuse({{"share", 0.2}, {"layers", json::array({json{{"itu", "glas"}, {"thickness_m", 1}}})}},
+         {".windows.layers[0].itu", "'glas'"});
+  refuse({{"share", 0.2}, {"itu", "glass"}}, {".windows", "unknown key 'itu'"});
+  refuse({{"share", 0.2}, {"layer", 1}}, {"did you mean 'layers'"});
+  refuse(windows(), {".windows", "need a wall"}, json::object());
+  refuse(windows(), {"no surface", "'windows'"}, {{"foliage", "weissberger"}});
+}
+
 TEST(RadioMaterial, Foliage) {
   const RadioMaterial model = load_extension({{"foliage", "weissberger"}});
   ASSERT_TRUE(model.foliage);
@@ -176,6 +238,13 @@ TEST(RadioMaterial, EveryMemberCountsInEqualityAndHash) {
                                     [](Material& m) { m.radio->clutter = clutter_called("snow"); },
                                     [](Material& m) { m.radio->clutter = clutter_called("water"); },
                                     [](Material& m) { m.radio->foliage = Foliage{}; },
+                                    [](Material& m) { m.radio->windows = RadioWindows{}; },
+                                    [](Material& m) {
+                                      m.radio->windows = RadioWindows{0.2, {}};
+                                    },
+                                    [](Material& m) {
+                                      m.radio->windows = {0.2, m.radio->layers};
+                                    },
                                     [](Material& m) { m.radio.reset(); },
                                     [](Material& m) { m.reflectance_905nm = 0.3f; },
                                     [](Material& m) { m.reflectance_1550nm = 0.3f; }};
@@ -191,6 +260,16 @@ TEST(RadioMaterial, EveryMemberCountsInEqualityAndHash) {
   renamed.materials[0].name = "other";
   EXPECT_NE(renamed.materials[0], scene.materials[0]);
   EXPECT_TRUE(hashes.contains(hash_of(renamed)));
+}
+
+/// Scenes of before there were windows keep their hash.
+TEST(RadioMaterial, TheHashOfAWallWithoutWindowsStays) {
+  const Model model = quad_with(with_extension({{"itu", "concrete"}, {"thickness_m", 0.2}})).load();
+  const Scene scene = build_scene({{"", &model, {}, dvec3(1.0), false, {}}}, {.name = "s"});
+  EXPECT_EQ(hash_of(scene), "1a2c93e0b7f21dfb51f3b653c2590d65c45e2a2da777d0401dc39f00985981fa");
+  Scene glazed = scene;
+  glazed.materials[0].radio->clutter = clutter_called("soil");
+  EXPECT_EQ(hash_of(glazed), "d12d94a7fa20bc0e886795b92b2fbd6d28842ad2852447359354b76956df77fd");
 }
 
 TEST(RadioMaterial, FoliageIsPartOfTheHash) {
@@ -398,6 +477,47 @@ TEST(RadioSidecar, BeyondRangeIsForEveryMedium) {
         load_with_sidecar("beyond_range: guess\nmaterials: {}\n", {{"name", "itu_marble"}});
       },
       {"radio.yaml:1", "beyond_range", "one of refuse, extrapolate", "'guess'"});
+}
+
+TEST(RadioSidecar, WindowsLieOverThoseBelow) {
+  const json wall = with_extension({{"itu", "brick"}, {"thickness_m", 0.3}, {"windows", windows()}});
+  const auto laid = [&](const std::string& entry) {
+    return *load_with_sidecar("materials:\n  paint: " + entry + "\n", wall).radio;
+  };
+  const RadioMaterial more = laid("{ windows: { share: 0.4 } }");
+  EXPECT_EQ(more.windows->share, 0.4);
+  EXPECT_EQ(more.windows->layers.size(), 3u);
+  const RadioMaterial single = laid("{ windows: { layers: [ { itu: glass, thickness_m: 0.004 } ] } }");
+  EXPECT_EQ(single.windows->share, 0.22);
+  ASSERT_EQ(single.windows->layers.size(), 1u);
+  EXPECT_EQ(single.windows->layers[0].thickness_m, 0.004);
+  const RadioMaterial other = laid("{ itu: concrete, thickness_m: 0.2 }");
+  EXPECT_EQ(other.layers.at(0).thickness_m, 0.2);
+  EXPECT_EQ(other.windows->share, 0.22) << "as the other fields of the wall";
+  EXPECT_FALSE(laid("{ foliage: weissberger }").windows);
+  const RadioMaterial far = laid("{ extrapolate: true }");
+  EXPECT_TRUE(far.layers.at(0).medium.extrapolate);
+  for (const RadioLayer& layer : far.windows->layers) EXPECT_TRUE(layer.medium.extrapolate);
+  expect_user_error([&] { laid("{ windows: {} }"); },
+                    {"radio.yaml:2", "materials.paint.windows", "their layers, or both"});
+  expect_user_error([&] { laid("{ windows: { share: 2 } }"); },
+                    {"radio.yaml:2", "materials.paint.windows.share", "from 0 to 1"});
+  expect_user_error(
+      [&] {
+        load_with_sidecar("materials:\n  paint: { windows: { share: 0.4 } }\n",
+                          with_extension({{"itu", "brick"}}));
+      },
+      {"radio.yaml:2", "materials.paint.windows", "'layers' is missing"});
+}
+
+TEST(RadioSidecar, BeyondRangeIsForWindowsToo) {
+  const json wall = with_extension({{"itu", "brick"}, {"windows", windows()}});
+  const auto loaded = [&](const std::string& materials) {
+    return *load_with_sidecar("beyond_range: extrapolate\nmaterials:\n  " + materials + "\n", wall).radio;
+  };
+  const RadioMaterial all = loaded("{}"), own = loaded("paint: { extrapolate: false }");
+  for (const RadioLayer& layer : all.windows->layers) EXPECT_TRUE(layer.medium.extrapolate);
+  for (const RadioLayer& layer : own.windows->layers) EXPECT_FALSE(layer.medium.extrapolate);
 }
 
 TEST(RadioSidecar, ConductorsByName) {

@@ -99,6 +99,32 @@ TEST(ChannelOutputs, WallsSayWhereTheirValuesComeFrom) {
   EXPECT_FALSE(plain.contains("range_hz"));
 }
 
+TEST(ChannelOutputs, WallsHaveTheirWindows) {
+  TinyScene tiny;
+  scene::Material facade = radio_material("concrete"), blind = radio_material("brick", 0.3);
+  scene::RadioMedium air{"explicit permittivity", {{1.0, 0.0, 0.0, 0.0, 0.0, INFINITY}}, false};
+  facade.radio->windows = scene::RadioWindows{0.22, {{*scene::itu_medium("glass"), 0.006}, {air, 0.016}}};
+  blind.radio->windows = scene::RadioWindows{0.0, facade.radio->windows->layers};
+  tiny.object("house", 0, tiny.material_as(facade)).box({-20, 12, 0}, {70, 20, 30});
+  tiny.object("barn", 0, tiny.material_as(blind)).box({-20, 42, 0}, {70, 50, 30});
+  const RadioRun r = run(scenario("", 1), tiny.build());
+  const nlohmann::json walls = nlohmann::json::parse(r.spec("csi").metadata_json)["walls"];
+  const auto wall = [&](const std::string& name) {
+    for (const nlohmann::json& one : walls)
+      if (one["material"] == name) return one;
+    return nlohmann::json();
+  };
+  const nlohmann::json house = wall("concrete"), barn = wall("brick wall");
+  EXPECT_EQ(house["layers"].at(0)["thickness_m"], 0.0);
+  EXPECT_EQ(house["windows"]["share"], 0.22);
+  ASSERT_EQ(house["windows"]["layers"].size(), 2u);
+  EXPECT_EQ(house["windows"]["layers"][0]["source"], "ITU-R P.2040-4 Table 3, glass");
+  EXPECT_EQ(house["windows"]["layers"][0]["thickness_m"], 0.006);
+  EXPECT_EQ(house["windows"]["layers"][1]["relative_permittivity"], nlohmann::json({1.0, 0.0}));
+  EXPECT_EQ(barn["layers"].size(), 1u);
+  EXPECT_FALSE(barn.contains("windows")) << "none of its area";
+}
+
 TEST(ChannelOutputs, TapsAreTheSincsOfThePaths) {
   constexpr double bandwidth_hz = 40e6;
   constexpr int first = -6, count = 40;

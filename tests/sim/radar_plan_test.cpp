@@ -45,6 +45,16 @@ TEST(RadarPlan, ClutterIsOnWhereAMaterialHasAModel) {
   EXPECT_FALSE(radar_plan(concrete, "effects: {radar_clutter: off}\n").radar_clutter.on);
 }
 
+TEST(RadarPlan, WavesPassWallsThatEndAndWindows) {
+  scene::Material wall = testing::radio_material("concrete");
+  EXPECT_FALSE(radar_plan(wall).radar_transmission.on);
+  wall.radio->windows = scene::RadioWindows{0.0, {{*scene::itu_medium("glass"), 0.006}}};
+  EXPECT_FALSE(radar_plan(wall).radar_transmission.on);
+  wall.radio->windows->share = 0.3;
+  EXPECT_TRUE(radar_plan(wall).radar_transmission.on);
+  EXPECT_TRUE(radar_plan(testing::radio_material("concrete", 0.2)).radar_transmission.on);
+}
+
 TEST(RadarPlan, AirIsOnWhereItTakesMoreThanTheTolerance) {
   const scene::Material concrete = testing::radio_material("concrete");
   EXPECT_FALSE(radar_plan(concrete, "tolerance_db: 0.5\n").radar_air.on);

@@ -106,6 +106,17 @@ TEST(RadioPlan, TransmissionComesWithThinWalls) {
   expect(plan(planned_scenario(), dark).transmission, false, "take 100 dB or more");
 }
 
+TEST(RadioPlan, TransmissionComesWithWindows) {
+  scene::Material facade = radio_material("concrete");  // a half-space
+  facade.radio->windows = scene::RadioWindows{0.22, {{*scene::itu_medium("glass"), 0.006}}};
+  const scene::Scene glazed = planned_street(radio_material("medium_dry_ground"), facade);
+  expect(plan(planned_scenario(), glazed).transmission, true, "1 materials let waves pass",
+         "concrete, takes");
+  facade.radio->windows->share = 0.0;
+  expect(plan(planned_scenario(), planned_street(radio_material("medium_dry_ground"), facade)).transmission,
+         false, "no material lets waves pass");
+}
+
 TEST(RadioPlan, TheAirComesWithDistanceAndFrequency) {
   const scene::Scene scene = planned_street();
   expect(plan(planned_scenario(", carrier_hz: 3.5e9"), scene).gas, false, "within the tolerance", "at most");

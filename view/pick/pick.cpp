@@ -56,6 +56,16 @@ std::string layer_text(const scene::RadioLayer& layer, double carrier_hz, const 
   }
 }
 
+void add_layers(const char* what, const std::vector<scene::RadioLayer>& layers, double carrier_hz,
+                const std::string& material, Facts& facts) {
+  for (size_t i = 0; i < layers.size(); ++i) {
+    facts.emplace_back(layers.size() == 1 ? what : fmt::format("{} layer {}", what, i + 1),
+                       printable(layers[i].medium.source));
+    facts.emplace_back(fmt::format("at {:.4g} GHz", 1e-9 * carrier_hz),
+                       layer_text(layers[i], carrier_hz, material));
+  }
+}
+
 void add_radio(const scene::Material& material, double carrier_hz, Facts& facts) {
   if (!material.radio) {
     facts.emplace_back("radio", "none: the scene is loaded for light only");
@@ -69,11 +79,10 @@ void add_radio(const scene::Material& material, double carrier_hz, Facts& facts)
                            : "foliage, Weissberger's model");
     return;
   }
-  for (size_t i = 0; i < radio.layers.size(); ++i) {
-    const std::string name = radio.layers.size() == 1 ? "radio" : fmt::format("radio layer {}", i + 1);
-    facts.emplace_back(name, printable(radio.layers[i].medium.source));
-    facts.emplace_back(fmt::format("at {:.4g} GHz", 1e-9 * carrier_hz),
-                       layer_text(radio.layers[i], carrier_hz, material.name));
+  add_layers("radio", radio.layers, carrier_hz, material.name, facts);
+  if (radio.windows) {
+    facts.emplace_back("windows", fmt::format("{:.3g} % of the area", 100.0 * radio.windows->share));
+    add_layers("window", radio.windows->layers, carrier_hz, material.name, facts);
   }
   if (radio.scattering_coefficient > 0.0)
     facts.emplace_back("scattering", fmt::format("S {:.3g}", radio.scattering_coefficient));

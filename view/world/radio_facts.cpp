@@ -129,11 +129,18 @@ std::string RadioFacts::material_text(uint32_t material) const {
   std::string text = printable(named.name);
   const rf::RadioSurface& surface = model_.surfaces.surface(material);
   if (surface.foliage) return text + ": foliage";
-  for (const rf::DielectricLayer& layer : surface.front) {
-    const double sigma = -layer.eta.imag() * 2.0 * pi * carrier_hz() * vacuum_permittivity;
-    text += fmt::format("\n  er {:.4g}, sigma {:.4g} S/m, {}", layer.eta.real(), sigma,
-                        layer.thickness_m > 0.0 ? fmt::format("{:.4g} m thick", layer.thickness_m)
-                                                : std::string("half-space"));
+  const auto add = [&](const std::vector<rf::DielectricLayer>& layers) {
+    for (const rf::DielectricLayer& layer : layers) {
+      const double sigma = -layer.eta.imag() * 2.0 * pi * carrier_hz() * vacuum_permittivity;
+      text += fmt::format("\n  er {:.4g}, sigma {:.4g} S/m, {}", layer.eta.real(), sigma,
+                          layer.thickness_m > 0.0 ? fmt::format("{:.4g} m thick", layer.thickness_m)
+                                                  : std::string("half-space"));
+    }
+  };
+  add(surface.front);
+  if (surface.windows.share > 0.0) {
+    text += fmt::format("\n  windows on {:.3g} % of its area:", 100.0 * surface.windows.share);
+    add(surface.windows.front);
   }
   return text;
 }

@@ -281,7 +281,8 @@ def _params(
 
 
 def _materials(meta: Dict[str, Any]) -> Dict[str, Any]:
-    """Returns the outermost layer of each wall. rt_params.raw_params holds all layers."""
+    """Returns the outermost layer of each wall beside its windows. rt_params.raw_params holds all layers and
+    the windows."""
     materials = {}
     for wall in meta["walls"]:
         if not wall["layers"]:

@@ -16,6 +16,7 @@ import seeds  # pylint: disable=wrong-import-position
 SIDECAR = """materials:
   wall: {itu: concrete, thickness_m: 0.3}
   "itu_*": {itu: brick, thickness_m: 0.24, scattering_coefficient: 0.3, pattern: directive}
+  facade: {itu: brick, windows: {share: 0.22, layers: [{itu: glass, thickness_m: 0.006}]}}
   "leaves_*": {foliage: weissberger}
   "*": {relative_permittivity: 4.0, conductivity: 0.02}
 """
