@@ -21,7 +21,7 @@ namespace greatx::apps {
 namespace {
 
 struct BuildCommand {
-  std::string file, output, report;
+  std::string file, assets, output, report;
   double simplify_m = 0.0;
   bool quiet = false, json = false, print_materials = false;
 };
@@ -46,7 +46,7 @@ void build(const BuildCommand& command) {
   }
   if (command.file.empty())
     throw_user_error("scene build: expected the file of a place, place.yaml, found nothing");
-  scene::place::PlaceConfig config = scene::place::load_place_config(command.file);
+  scene::place::PlaceConfig config = scene::place::load_place_config(command.file, command.assets);
   if (command.simplify_m > 0.0) config.simplify_m = command.simplify_m;
   const std::filesystem::path output = command.output.empty() ? std::filesystem::path(config.name + ".glb")
                                                               : std::filesystem::path(command.output);
@@ -92,6 +92,7 @@ void add_scene_build(CLI::App& scene_command) {
       scene_command.add_subcommand("build", "a real place from maps, terrain and imagery (docs/places.md)");
   auto options = std::make_shared<BuildCommand>();
   command->add_option("FILE", options->file, "place.yaml");
+  command->add_option("--assets", options->assets, "folder to look in for files that are not beside place.yaml");
   command->add_option("-o,--output", options->output, ".glb to write; default: NAME.glb");
   command->add_option("--report", options->report,
                       "folder of the report; default: beside the output, NAME_report");
