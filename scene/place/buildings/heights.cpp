@@ -201,7 +201,12 @@ std::string facade_class_of(const Feature& feature, const BuildingConfig& config
   if (is({"shed", "hut", "carport", "barn", "cabin"})) return "wood";
   if (is({"office", "commercial", "government"}) || storeys > 9)
     return pick < 0.4 ? "glass" : pick < 0.7 ? "ribbon" : "concrete";
+  if (is({"supermarket", "retail", "kiosk", "sports_hall", "sports_centre", "stadium", "train_station"}))
+    return pick < 0.5 ? "ribbon" : "metal";
   if (is({"church", "cathedral", "chapel", "monastery"})) return "stone";
+  if (is({"water_tower", "silo", "bunker", "storage_tank"})) return "concrete";
+  // Plaster takes any colour; bricks have their own.
+  if (feature.tag("building:colour") || feature.tag("building:facade:colour")) return "plaster";
   if (is({"house", "detached", "semidetached_house", "terrace", "farm", "bungalow"}))
     return pick < 0.5 ? "plaster" : "brick";
   return pick < 0.45 ? "plaster" : pick < 0.7 ? "brick" : pick < 0.85 ? "stone" : "concrete";

@@ -264,7 +264,7 @@ class Village:
         # The church: nave, tower, choir, and a canopy above its door.
         nave, tower = rectangle((10, 46), (26, 12)), rectangle((-7, 46), (8, 8))
         choir, canopy = rectangle((26.5, 46), (7, 8)), rectangle((10, 38.5), (5, 3))
-        outline = [(-11, 42), (-3, 42), (-3, 40), (23, 40), (23, 42), (30, 42), (30, 50), (23, 50), (23, 52), (-3, 52)]
+        outline = [(-11, 42), (-3, 42), (-3, 40), (7.5, 40), (7.5, 37), (12.5, 37), (12.5, 40), (23, 40), (23, 42), (30, 42), (30, 50), (23, 50), (23, 52), (-3, 52)]
         outline += [(-3, 50), (-11, 50)]
         common = {"building__material": "sandstone", "roof__material": "slate"}
         self.building(outline, "slate", building="church", name="St Brendan", height="31", building__material="sandstone")
@@ -304,10 +304,9 @@ class Village:
             u, v = 6.0 * i + 9, 9.0
             center = (-58 + c * u - s * v, -62 + s * u + c * v)
             tags = {"building__levels": levels} if levels else {"height": top}
-            colour = ["#b5651d", "#c8a27a", "#a8482f", "#d9c7a0", "#b5651d", "#9a5a40", "#c8b090"][i]
+            colour = ["#e8d8b8", "#d9b48f", "#c9d2d4", "#e6c9a8", "#b9c4b0", "#ddd0c0", "#cfa890"][i]
             self.building(rectangle(center, (6, 9), direction), "tile" if i % 2 else "tile_dark", building="terrace",
-                          roof__shape="gabled", roof__orientation="across" if i == -1 else "along",
-                          roof__height="3", building__colour=colour, **tags)  # fmt: skip
+                          roof__shape="gabled", roof__orientation="across", roof__height="3", building__colour=colour, **tags)  # fmt: skip
 
     def plan_houses(self):
         kinds = [
