@@ -41,7 +41,7 @@ void build_scene(const BuildCommand& command) {
   }
   if (command.file.empty())
     throw_user_error("scene build: expected the file of a place, place.yaml, found nothing");
-  scene::place::PlaceConfig config = scene::place::load_place_config(command.file);
+  scene::place::PlaceConfig config = scene::place::load_place_config(command.file, command.assets);
   if (command.simplify_m > 0.0) config.simplify_m = command.simplify_m;
   const std::filesystem::path output = command.output.empty() ? std::filesystem::path(config.name + ".glb")
                                                               : std::filesystem::path(command.output);

@@ -3,6 +3,7 @@
 #include "scene/place/assemble/building_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -69,9 +70,20 @@ std::map<RunKey, Run> find_runs(const std::vector<const WallPiece*>& walls) {
   return runs;
 }
 
+/// Kinds of buildings whose walls have no rows of windows as housing and offices have.
+bool without_windows(const std::string& use) {
+  static const std::array<const char*, 24> kinds{
+      "church",   "cathedral",    "chapel",  "monastery", "mosque",  "synagogue", "temple", "shrine",
+      "barn",     "stable",       "sty",     "cowshed",   "shed",    "hut",       "garage", "garages",
+      "carport",  "water_tower",  "silo",    "bunker",    "storage_tank",         "roof",   "ruins",
+      "transformer_tower"};
+  return std::find(kinds.begin(), kinds.end(), use) != kinds.end();
+}
+
 /// The materials of one building.
 struct Look {
   int facade = 0, blind = 0, party = 0, floor = 0, window = 0;
+  bool windows = false;  ///< as faces of their own
   int storeys = 1;
   std::vector<int> roofs;  ///< by part
   double storey_m = 3.0, base_z = 0.0;
@@ -80,14 +92,15 @@ struct Look {
 Look look_of(const Building& building, uint32_t index, const BuildingConfig& config, MaterialTable& table) {
   RandomStream random(config.seed, 71, index);
   Look look;
-  const std::string facade = config.facades == FacadeDetail::plain ? "blind/" + building.facade_class
-                                                                   : "facade/" + building.facade_class;
+  const bool blind = config.facades == FacadeDetail::plain || without_windows(building.use);
+  const std::string facade = (blind ? "blind/" : "facade/") + building.facade_class;
   look.facade = table.of(facade, random.uniform());
   look.blind = table.of("blind/" + building.facade_class, random.uniform());
   if (building.facade_colour) {
     look.facade = table.coloured(look.facade, *building.facade_colour);
     look.blind = table.coloured(look.blind, *building.facade_colour);
   }
+  look.windows = config.facades == FacadeDetail::geometry && !without_windows(building.use);
   look.window = table.of("window");
   look.storeys = std::max(1, building.storeys);
   look.party = table.of("party");
@@ -117,7 +130,7 @@ class Facades {
       material = look_.party;
     else if (wall.beside_neighbour || run.length < narrowest_facade_m || below_ground(wall))
       material = look_.blind;
-    if (material == look_.facade && config_.facades == FacadeDetail::geometry) {
+    if (material == look_.facade && look_.windows) {
       const WindowLattice lattice{run.start, run.length / bays_of(run), look_.base_z, look_.storey_m,
                                   look_.storeys};
       for (const WallTriangle& part : with_windows(wall, lattice))

@@ -218,7 +218,12 @@ std::string facade_class_of(const Feature& feature, const BuildingConfig& config
   if (is({"shed", "hut", "carport", "barn", "cabin"})) return "wood";
   if (is({"office", "commercial", "government"}) || storeys > 9)
     return pick < 0.4 ? "glass" : pick < 0.7 ? "ribbon" : "concrete";
+  if (is({"supermarket", "retail", "kiosk", "sports_hall", "sports_centre", "stadium", "train_station"}))
+    return pick < 0.5 ? "ribbon" : "metal";
   if (is({"church", "cathedral", "chapel", "monastery"})) return "stone";
+  if (is({"water_tower", "silo", "bunker", "storage_tank"})) return "concrete";
+  // Plaster takes any colour; bricks have their own.
+  if (feature.tag("building:colour") || feature.tag("building:facade:colour")) return "plaster";
   // Housing looks as its time built: stucco, brick and stone up to the First World War, plaster until the
   // sixties, slabs of concrete until the nineties.
   if (year && *year < 1919) return pick < 0.4 ? "plaster" : pick < 0.75 ? "brick" : "stone";

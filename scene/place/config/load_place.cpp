@@ -214,9 +214,9 @@ void parse_sources(const FieldMap& map, PlaceConfig& place) {
 
 }  // namespace
 
-PlaceConfig load_place_config(const std::filesystem::path& file) {
+PlaceConfig load_place_config(const std::filesystem::path& file, const std::filesystem::path& assets) {
   const std::string text = InputFile(file, file.string(), budget::yaml_file).text();
-  const Field root = Field::parse_yaml(text, {file.string(), file.parent_path(), {}});
+  const Field root = Field::parse_yaml(text, {file.string(), file.parent_path(), assets});
   const FieldMap map(
       root, {"greatx_place", "name", "origin", "undulation_m", "vertical_datum", "area", "maps", "terrain",
              "surface", "pictures", "buildings", "ground", "vegetation", "materials", "simplify_m"});

@@ -107,8 +107,8 @@ struct PlaceConfig {
   double simplify_m = 0.0;          ///< detail smaller than this may go; 0: none
 };
 
-/// Reads place.yaml. Files in it are relative to its folder. Throws UserError "file:line: field: expected
-/// ..., found ...".
-PlaceConfig load_place_config(const std::filesystem::path& file);
+/// Reads place.yaml. Files in it are relative to its folder, and are looked for in `assets` next. Throws
+/// UserError "file:line: field: expected ..., found ...".
+PlaceConfig load_place_config(const std::filesystem::path& file, const std::filesystem::path& assets = {});
 
 }  // namespace greatx::scene::place

@@ -145,7 +145,8 @@ class Builder {
   void insert(const dvec3& sample) {
     constexpr double beside_m = 0.25;
     const GridPoint here = to_grid(dvec2(sample));
-    const auto& triangle = mesh_.triangles()[mesh_.find(here)];
+    const uint32_t number = mesh_.find(here);
+    const Triangulation::Triangle triangle = mesh_.triangles()[number];
     for (uint32_t side = 0; side < 3; ++side) {
       if (!triangle.fixed[side]) continue;
       const dvec2 a = to_metres(mesh_.points()[triangle.corners[(side + 1) % 3]]),
@@ -153,10 +154,9 @@ class Builder {
       const double length = glm::distance(a, b), at = glm::dot(dvec2(sample) - a, b - a) / length;
       const dvec2 foot = a + (b - a) * (at / length);
       if (glm::distance(foot, dvec2(sample)) > beside_m || at < beside_m || at > length - beside_m) continue;
-      const size_t before = mesh_.points().size();
-      mesh_.add(to_grid(foot));
+      if (!mesh_.divide(number, side, to_grid(foot))) continue;
       set_heights();
-      if (mesh_.points().size() > before) return;
+      return;
     }
     const uint32_t corner = mesh_.add(here);
     set_heights();

@@ -97,6 +97,29 @@ uint32_t Triangulation::add(const GridPoint& point) {
   return index;
 }
 
+std::optional<uint32_t> Triangulation::divide(uint32_t triangle, uint32_t side, const GridPoint& point) {
+  const Triangle& near = triangles_[triangle];
+  const GridPoint a = points_[near.corners[next(side)]], b = points_[near.corners[previous(side)]];
+  const auto turns_left = [&](const GridPoint& from, const GridPoint& to) {
+    return orientation(from, to, point) > 0;
+  };
+  const GridPoint apex = points_[near.corners[side]];
+  if (!turns_left(b, apex) || !turns_left(apex, a)) return std::nullopt;
+  if (const uint32_t other = near.across[side]; other == none) {
+    if (orientation(a, b, point) != 0) return std::nullopt;
+  } else {
+    const GridPoint far = points_[triangles_[other].corners[side_towards(other, triangle)]];
+    if (!turns_left(a, far) || !turns_left(far, b)) return std::nullopt;
+  }
+  const auto [found, is_new] = index_of_.try_emplace(point, static_cast<uint32_t>(points_.size()));
+  if (!is_new) return std::nullopt;
+  const uint32_t index = found->second;
+  points_.push_back(point);
+  triangle_of_.push_back(triangle);
+  split_edge(triangle, side, index);
+  return index;
+}
+
 void Triangulation::split_triangle(uint32_t triangle, uint32_t point) {
   const Triangle old = triangles_[triangle];
   const std::array<uint32_t, 3> parts{triangle, static_cast<uint32_t>(triangles_.size()),

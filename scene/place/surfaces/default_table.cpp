@@ -30,7 +30,8 @@ classes:
   facade/blind: [blind_plaster, concrete]
   blind/brick: [blind_brick]
   blind/plaster: [blind_plaster]
-  blind/stone: [blind_plaster]
+  blind/stone:
+    - {name: stone_wall, like: blind_plaster, color: [0.6, 0.55, 0.46]}
   blind/concrete: [concrete]
   blind/ribbon: [concrete]
   blind/glass: [concrete]

@@ -3,6 +3,7 @@
 #include "scene/place/surfaces/material_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "core/fields/field.h"
 #include "core/input_file.h"
 #include "core/srgb.h"
+#include "scene/generator/paint/textures.h"
 #include "scene/material/radio_fields.h"
 
 namespace greatx::scene::place {
@@ -170,12 +172,30 @@ int MaterialTable::of(const std::string& material_class, double draw) const {
   return found->second[std::min(count - 1, static_cast<size_t>(draw * static_cast<double>(count)))];
 }
 
+vec3 MaterialTable::median_of(const std::string& texture) {
+  if (texture.empty()) return vec3(1.0f);
+  const auto [found, is_new] = medians_.try_emplace(texture, vec3(1.0f));
+  if (!is_new) return found->second;
+  const generator::Raster raster = generator::make_texture(texture).color;
+  for (size_t channel = 0; channel < 3; ++channel) {
+    std::array<size_t, 256> counts{};
+    for (size_t i = channel; i < raster.rgb.size(); i += 3) ++counts[raster.rgb[i]];
+    size_t below = 0, value = 0;
+    while (below + counts[value] < raster.rgb.size() / 6) below += counts[value++];
+    found->second[static_cast<int>(channel)] =
+        static_cast<float>(linear_from_srgb(std::max<double>(static_cast<double>(value), 1.0) / 255.0));
+  }
+  return found->second;
+}
+
 int MaterialTable::coloured(int material, const std::array<unsigned char, 3>& srgb) {
   MaterialSpec spec = (*this)[material];
   const std::string name = fmt::format("{}_{:02x}{:02x}{:02x}", spec.name, srgb[0], srgb[1], srgb[2]);
   if (const auto found = variants_.find(name); found != variants_.end()) return found->second;
+  const vec3 median = median_of(spec.texture);
   for (int i = 0; i < 3; ++i)
-    spec.color[i] = static_cast<float>(linear_from_srgb(srgb[static_cast<size_t>(i)] / 255.0));
+    spec.color[i] = std::min(
+        1.0f, static_cast<float>(linear_from_srgb(srgb[static_cast<size_t>(i)] / 255.0)) / median[i]);
   spec.name = name;
   return variants_[name] = add(spec);
 }

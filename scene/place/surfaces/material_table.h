@@ -27,7 +27,8 @@ class MaterialTable {
 
   /// Returns the material of a class: one of its choices, by `draw` in [0, 1).
   int of(const std::string& material_class, double draw = 0.0) const;
-  /// Returns a variant of a material in another colour. Its texture keeps its pattern.
+  /// Returns a variant of a material in another colour: the median of its texture times its colour becomes
+  /// this one, or as near to it as a factor of at most 1 takes it. The texture keeps its pattern.
   int coloured(int material, const std::array<unsigned char, 3>& srgb);
   /// Returns a variant of a material that shows a picture instead of its texture.
   int pictured(int material, const std::string& picture, size_t number);
@@ -45,10 +46,14 @@ class MaterialTable {
 
  private:
   int add(generator::MaterialSpec spec);
+  /// The median of a texture's pixels by channel, linear; 1 without a texture. Walls have more pixels than
+  /// their windows, so it is the wall's colour.
+  vec3 median_of(const std::string& texture);
 
   std::vector<generator::MaterialSpec> materials_;
   std::map<std::string, std::vector<int>, std::less<>> classes_;
   std::map<std::string, int> variants_;  ///< by name
+  std::map<std::string, vec3> medians_;  ///< by texture
 };
 
 }  // namespace greatx::scene::place
