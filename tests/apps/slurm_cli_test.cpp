@@ -258,7 +258,9 @@ TEST_F(SlurmCli, TimesComeFromTheMeasure) {
   EXPECT_EQ(task_s % 60, 0);
   EXPECT_EQ(merge_s % 60, 0);
   const Outcome one = slurm("--measure 2 --tasks 1 --json");
-  EXPECT_GT(nlohmann::json::parse(one.out)["task_s"], task_s - 1);
+  // Another measure gives other times on a machine with other work, so the two are not compared.
+  EXPECT_EQ(nlohmann::json::parse(one.out)["tasks"], 1);
+  EXPECT_GT(nlohmann::json::parse(one.out)["task_s"], 300);
 }
 
 TEST_F(SlurmCli, FaultsOfTheOptions) {
