@@ -199,7 +199,8 @@ class Village:
     def road(self, name, line, wide, kind, colour="asphalt", **tags):
         self.roads[name] = line
         stroke(self.taken, line, wide + 3, True)
-        self.later.append((line, wide, colour))
+        if "bridge" not in tags:  # the picture is of the ground
+            self.later.append((line, wide, colour))
         if kind not in ("footway", "path", "track", "service"):
             tags["name"] = name
         self.osm.way(line, highway=kind, **tags)
