@@ -92,7 +92,8 @@ void add_scene_build(CLI::App& scene_command) {
       scene_command.add_subcommand("build", "a real place from maps, terrain and imagery (docs/places.md)");
   auto options = std::make_shared<BuildCommand>();
   command->add_option("FILE", options->file, "place.yaml");
-  command->add_option("--assets", options->assets, "folder to look in for files that are not beside place.yaml");
+  command->add_option("--assets", options->assets,
+                      "folder to look in for files that are not beside place.yaml");
   command->add_option("-o,--output", options->output, ".glb to write; default: NAME.glb");
   command->add_option("--report", options->report,
                       "folder of the report; default: beside the output, NAME_report");

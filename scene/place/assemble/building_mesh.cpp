@@ -73,10 +73,10 @@ std::map<RunKey, Run> find_runs(const std::vector<const WallPiece*>& walls) {
 /// Kinds of buildings whose walls have no rows of windows as housing and offices have.
 bool without_windows(const std::string& use) {
   static const std::array<const char*, 24> kinds{
-      "church",   "cathedral",    "chapel",  "monastery", "mosque",  "synagogue", "temple", "shrine",
-      "barn",     "stable",       "sty",     "cowshed",   "shed",    "hut",       "garage", "garages",
-      "carport",  "water_tower",  "silo",    "bunker",    "storage_tank",         "roof",   "ruins",
-      "transformer_tower"};
+      "church", "cathedral", "chapel",       "monastery", "mosque",  "synagogue",
+      "temple", "shrine",    "barn",         "stable",    "sty",     "cowshed",
+      "shed",   "hut",       "garage",       "garages",   "carport", "water_tower",
+      "silo",   "bunker",    "storage_tank", "roof",      "ruins",   "transformer_tower"};
   return std::find(kinds.begin(), kinds.end(), use) != kinds.end();
 }
 

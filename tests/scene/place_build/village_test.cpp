@@ -111,8 +111,8 @@ TEST(PlaceVillage, AllOfThePlanIsThere) {
   EXPECT_EQ(report.objects.at("street_lamp"), asked["street_lamp"]);
   EXPECT_EQ(village().model.lights.size(), asked["street_lamp"]);
   EXPECT_GT(asked["street_lamp"], 30u);
-  for (const char* cover : {"road", "path", "water", "wood", "grass", "farmland", "meadow", "parking", "square",
-                            "pitch", "scrub", "residential"})
+  for (const char* cover : {"road", "path", "water", "wood", "grass", "farmland", "meadow", "parking",
+                            "square", "pitch", "scrub", "residential"})
     EXPECT_GT(report.cover_m2.at(cover), 50.0) << cover;
 }
 
@@ -165,7 +165,8 @@ TEST(PlaceVillage, VolumesAreThoseOfPrismsAndRoofs) {
     double own = 0.0;
     for (const TriangleOf& t : village().triangles.at(node_of(building)))
       own += 0.5 * cross_of(t).z * std::max(0.0, (t[0].z + t[1].z + t[2].z) / 3.0 - building.ground_z);
-    EXPECT_NEAR(own, building.plan_volume_m3, 0.002 * building.plan_volume_m3) << building.use << " " << building.id;
+    EXPECT_NEAR(own, building.plan_volume_m3, 0.002 * building.plan_volume_m3)
+        << building.use << " " << building.id;
   }
   // A closed form: prism and gable of the barn, by the divergence theorem above its lowest ground.
   double volume = 0.0;
