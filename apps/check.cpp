@@ -48,6 +48,9 @@ class Checker {
     const auto add = [&](std::vector<sim::Finding> more) {
       checked.findings.insert(checked.findings.end(), more.begin(), more.end());
     };
+    for (const std::string& warning : scenario.warnings)
+      add({{sim::Severity::doubt, "contradiction", "scenario",
+            fmt::format("contradicts itself: {}", warning)}});
     const auto stop_if_interrupted = [&] {
       if (interrupted()) throw Interrupted("the check was interrupted");
     };

@@ -1,44 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdlib>
-#include <exception>
-#include <filesystem>
 #include <greatx_commit.h>
 #include <iostream>
-#include <new>
-
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
 
 #include "apps/bench/bench.h"
 #include "apps/commands.h"
 #include "apps/console/command_line.h"
-#include "apps/console/exit_code.h"
+#include "apps/console/exit.h"
 #include "apps/console/run_record.h"
 #include "apps/console/terminal.h"
 #include "core/activity.h"
-#include "core/error.h"
 #include "core/version.h"
-#include "gpu/vulkan.h"
 #include "io/files/file.h"
-
-namespace {
-
-/// Directs all messages to stderr. Only results go to stdout, so that --json prints one object and nothing
-/// else there.
-void set_up_logging() {
-  using namespace greatx;
-  spdlog::set_default_logger(spdlog::stderr_color_mt("greatx"));
-  spdlog::set_formatter(apps::safe_log_format());
-  spdlog::set_level(std::getenv("GREATX_DEBUG") != nullptr ? spdlog::level::debug : spdlog::level::info);
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   using namespace greatx;
   io::ignore_file_size_signal();  // so that a write beyond the shell's file size limit returns an error
-  set_up_logging();
+  apps::set_up_logging("greatx");
   set_commit(GREATX_COMMIT);
   apps::set_command_line(argc, argv);
   watch_memory();
@@ -80,25 +58,7 @@ int main(int argc, char** argv) {
     std::cerr << "greatx: error: " << (unknown.empty() ? error.what() : unknown)
               << "\n--help tells what there is.\n";
     return apps::exit_user;
-  } catch (const apps::Failed& failed) {
-    return failed.code;
-  } catch (const UserError& error) {
-    std::cerr << "greatx: error: " << error.what() << '\n';
-    return apps::exit_user;
-  } catch (const Interrupted& interrupted) {
-    std::cerr << "greatx: interrupted: " << interrupted.what() << '\n';
-    return apps::exit_interrupted;
-  } catch (const std::filesystem::filesystem_error& error) {
-    std::cerr << "greatx: error: " << error.path1().string() << ": " << error.code().message() << '\n';
-    return apps::exit_user;
-  } catch (const std::bad_alloc&) {
-    std::cerr << "greatx: error: " << out_of_memory() << '\n';
-    return apps::exit_internal;
-  } catch (const gpu::VulkanError& error) {
-    std::cerr << "greatx: device error: " << error.what() << '\n';
-    return apps::exit_internal;
-  } catch (const std::exception& error) {
-    std::cerr << "greatx: internal error: " << error.what() << '\n';
-    return apps::exit_internal;
+  } catch (...) {
+    return apps::report_exception("greatx");
   }
 }

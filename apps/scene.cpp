@@ -9,7 +9,7 @@
 
 #include "apps/commands.h"
 #include "apps/files/scene_import.h"
-#include "apps/place/scene_build.h"
+#include "apps/place/command/build_command.h"
 #include "apps/scene_check.h"
 #include "core/error.h"
 #include "core/srgb.h"

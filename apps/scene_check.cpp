@@ -34,12 +34,13 @@ std::string counted(uint64_t count, const char* word) {
 
 void write_files(const SceneCheckCommand& command, const scene::Model& model,
                  const scene::SceneFaults& faults) {
+  if (!command.png.empty() && faults.figures.bounds.empty())
+    throw_user_error("{}: there is no triangle to draw", command.file);
   if (!command.json.empty()) {
     io::create_folder_of(command.json);
     io::write_file_atomically(command.json, json_text(scene_check_json(command.file, faults)) + "\n");
   }
   if (command.png.empty()) return;
-  if (faults.figures.bounds.empty()) throw_user_error("{}: there is no triangle to draw", command.file);
   io::create_folder_of(command.png);
   io::write_file_atomically(command.png, io::encode_png(draw_faults(model, faults, 1200)));
 }

@@ -21,7 +21,8 @@ struct LoadedPlace {
 };
 
 nlohmann::json json_of(const scene::place::PlaceReport& report, const LoadedPlace& loaded);
-/// Returns the report as Markdown: numbers, findings by topic with some of their objects, materials, licences.
+/// Returns the report as Markdown: numbers, findings by topic with some of their objects, materials,
+/// licences.
 std::string markdown_of(const scene::place::PlaceReport& report, const LoadedPlace& loaded);
 /// Returns some lines for the terminal.
 std::string summary_of(const scene::place::PlaceReport& report, const LoadedPlace& loaded);

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <iostream>
-#include <memory>
 
 #include <fmt/format.h>
 
@@ -20,12 +19,6 @@ namespace greatx::apps {
 
 namespace {
 
-struct BuildCommand {
-  std::string file, assets, output, report;
-  double simplify_m = 0.0;
-  bool quiet = false, json = false, print_materials = false;
-};
-
 void write_text(const std::filesystem::path& file, const std::string& text) {
   io::write_file_atomically(file, std::as_bytes(std::span(text)));
 }
@@ -39,7 +32,9 @@ LoadedPlace load(const std::string& name, const scene::place::BuiltPlace& built)
   return loaded;
 }
 
-void build(const BuildCommand& command) {
+}  // namespace
+
+void build_scene(const BuildCommand& command) {
   if (command.print_materials) {
     std::cout << scene::place::MaterialTable::default_text();
     return;
@@ -83,27 +78,6 @@ void build(const BuildCommand& command) {
   std::cout << fmt::format("wrote {} ({:.1f} MiB) in {:.1f} s, and {}/\n", output.string(),
                            static_cast<double>(built.glb.size()) / 1048576.0, seconds, folder.string())
             << summary_of(built.report, loaded);
-}
-
-}  // namespace
-
-void add_scene_build(CLI::App& scene_command) {
-  CLI::App* command =
-      scene_command.add_subcommand("build", "a real place from maps, terrain and imagery (docs/places.md)");
-  auto options = std::make_shared<BuildCommand>();
-  command->add_option("FILE", options->file, "place.yaml");
-  command->add_option("--assets", options->assets,
-                      "folder to look in for files that are not beside place.yaml");
-  command->add_option("-o,--output", options->output, ".glb to write; default: NAME.glb");
-  command->add_option("--report", options->report,
-                      "folder of the report; default: beside the output, NAME_report");
-  command->add_option("--simplify", options->simplify_m, "detail of outlines below this many metres may go")
-      ->check(CLI::Range(0.0, 10.0));
-  command->add_flag("--json", options->json, "print the report as JSON");
-  command->add_flag("--quiet", options->quiet, "show no progress");
-  command->add_flag("--print-materials", options->print_materials,
-                    "print greatx's table of materials, to be edited");
-  command->callback([options] { build(*options); });
 }
 
 }  // namespace greatx::apps

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "apps/place/command/build_command.h"
 
 namespace greatx::apps {
 
-/// Adds `greatx scene build`. A program without GDAL, PROJ, GEOS and libosmium says which packages it needs.
-void add_scene_build(CLI::App& scene_command);
+/// Builds the place and writes scene and report.
+void build_scene(const BuildCommand& command);
 
 }  // namespace greatx::apps

@@ -15,8 +15,7 @@
 //
 // A part is a set of triangles of one object (a node with a mesh) that hang together by edges that exactly
 // two of them share. A part is closed if it has no other edges, nearly closed if caps over its openings would
-// have at most 45 % of its area, and otherwise a sheet. Closed and nearly closed parts claim to be
-// solids.
+// have at most 45 % of its area, and otherwise a sheet. Closed and nearly closed parts claim to be solids.
 #pragma once
 
 #include <cstdint>
@@ -46,6 +45,8 @@ struct CheckOptions {
 /// person should look at it.
 enum class FaultSeverity { doubt, fault };
 
+/// A place of a fault. Of `no_radio`, `other` holds the suggested radio fields; of `lost_picture`, `material`
+/// holds the message.
 struct FaultPlace {
   dvec3 at{0.0};         ///< m, in the model's frame (x east, y north, z up)
   std::string object;    ///< name of the node; empty: none

@@ -21,6 +21,8 @@ constexpr FaultList::Kind hole{FaultSeverity::fault, "hole", "holes in solids", 
 constexpr FaultList::Kind hidden_opening{FaultSeverity::doubt, "hidden_opening",
                                          "openings of solids behind or beneath another surface", "m"};
 constexpr FaultList::Kind open_sheet{FaultSeverity::doubt, "open_sheet", "borders of open sheets", "m"};
+constexpr FaultList::Kind ground_hole{FaultSeverity::doubt, "ground_hole", "holes and cracks in the ground",
+                                      "m"};
 constexpr FaultList::Kind t_junction{FaultSeverity::doubt, "t_junction",
                                      "corners on the inside of another triangle's edge", ""};
 
@@ -252,6 +254,90 @@ std::vector<Opening> openings_of(const Loop& loop, const Topology& topology) {
   return openings;
 }
 
+/// The open edges of sheets of ground that nothing closes.
+class GroundEdges {
+ public:
+  GroundEdges(const Soup& soup, const Topology& topology, const SoupTree& tree)
+      : soup_(soup), topology_(topology), tree_(tree) {
+    std::vector<Bounds> boxes;
+    for (uint32_t e = 0; e < topology.open_edges.size(); ++e) {
+      const OpenEdge& edge = topology.open_edges[e];
+      if (edge.closed || soup.class_of(soup.object[edge.triangle]) != SemanticClass::ground) continue;
+      edges_.push_back(e);
+      Bounds& box = boxes.emplace_back();
+      box.add(edge.a), box.add(edge.b);
+    }
+    boxes_ = BoxTree(boxes);
+  }
+
+  /// Returns whether the edge is no border of the whole ground. It is none if it is on an inner loop, or if
+  /// the border of another part runs beside it; but it is one if there is other ground below, on which it
+  /// lies.
+  bool is_crack(uint32_t e, bool inner) const {
+    constexpr double beside_m = 0.1, below_m = 1.0;
+    const OpenEdge& edge = topology_.open_edges[e];
+    const uint32_t part = topology_.part[edge.triangle];
+    const dvec3 middle = 0.5 * (edge.a + edge.b);
+    if (!inner) {
+      const bool beside = boxes_.visit_until(
+          [&](const Bounds& box) {
+            return glm::any(glm::greaterThan(box.min - beside_m, middle)) ||
+                   glm::any(glm::lessThan(box.max + beside_m, middle));
+          },
+          [&](uint32_t i) {
+            const OpenEdge& other = topology_.open_edges[edges_[i]];
+            if (topology_.part[other.triangle] == part) return false;
+            return glm::distance(nearest_on_triangle(middle, {{other.a, other.b, other.b}}), middle) <=
+                   beside_m;
+          });
+      if (!beside) return false;
+    }
+    std::vector<uint32_t> near;
+    tree_.near_segment(middle, middle - dvec3(0.0, 0.0, below_m), 0.0, near);
+    return std::ranges::none_of(near, [&](uint32_t t) {
+      if (topology_.part[t] == part || std::abs(soup_.normals[t].z) < 0.5) return false;
+      const auto at = line_meets_triangle(middle, dvec3(0.0, 0.0, -1.0), soup_.triangles[t]);
+      return at && *at >= 0.0 && *at <= below_m;
+    });
+  }
+
+ private:
+  const Soup& soup_;
+  const Topology& topology_;
+  const SoupTree& tree_;
+  std::vector<uint32_t> edges_;
+  BoxTree boxes_;
+};
+
+double extent_of(const Loop& loop, const Topology& topology) {
+  Bounds bounds;
+  for (const uint32_t e : loop.edges) bounds.add(topology.open_edges[e].a);
+  return glm::length(bounds.size());
+}
+
+/// Adds the openings of a sheet of ground that are no borders of it.
+void find_ground_holes(const Soup& soup, const Topology& topology, const Part& part,
+                       const GroundEdges& ground, FaultList& faults) {
+  double most = 0.0;
+  for (const Loop& loop : part.loops) most = std::max(most, extent_of(loop, topology));
+  for (const Loop& loop : part.loops) {
+    const bool inner = extent_of(loop, topology) < most;
+    for (const Opening& opening : openings_of(loop, topology)) {
+      double length = 0.0;
+      uint32_t first = nothing;
+      for (const uint32_t e : opening.edges) {
+        if (!ground.is_crack(e, inner)) continue;
+        length += topology.open_edges[e].open_m;
+        if (first == nothing) first = e;
+      }
+      if (first == nothing) continue;
+      const OpenEdge& edge = topology.open_edges[first];
+      faults.add(ground_hole,
+                 {0.5 * (edge.a + edge.b), part.object, nothing, soup.material[edge.triangle], length});
+    }
+  }
+}
+
 }  // namespace
 
 Closing close_by_others(const Soup& soup, Topology& topology, const SoupTree& tree,
@@ -294,9 +380,12 @@ Closing close_by_others(const Soup& soup, Topology& topology, const SoupTree& tr
 
 void find_openings(const Soup& soup, Topology& topology, const SoupTree& tree, const CheckOptions& options,
                    FaultList& faults) {
+  const GroundEdges ground(soup, topology, tree);
   for (uint32_t p = 0; p < topology.parts.size(); ++p) {
     Part& part = topology.parts[p];
     const bool claims_solid = part.kind != PartKind::sheet || is_foliage(soup, topology, part);
+    if (!claims_solid && soup.class_of(part.object) == SemanticClass::ground)
+      find_ground_holes(soup, topology, part, ground, faults);
     if (!claims_solid && lies_on_ground(soup.class_of(part.object))) continue;
     for (const Loop& loop : part.loops)
       for (const Opening& opening : openings_of(loop, topology)) {

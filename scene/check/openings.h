@@ -32,8 +32,9 @@ Closing close_by_others(const Soup& soup, Topology& topology, const SoupTree& tr
 /// for ground, roads, pavements, markings and water). A hole is a doubt if it is hidden: if another surface
 /// is above each of its edges, no higher than the part (a house without a floor that reaches into the
 /// ground), or if most of 128 rays out of it first meet the back of a surface (the open end of a sill within
-/// a wall).
-/// Sets Part::hidden_opening.
+/// a wall). A sheet of ground has holes where its loops other than the largest are open, and cracks where its
+/// border runs within 0.1 m of the border of another part, unless another surface is at most 1 m below
+/// (doubts). Sets Part::hidden_opening.
 void find_openings(const Soup& soup, Topology& topology, const SoupTree& tree, const CheckOptions& options,
                    FaultList& faults);
 

@@ -24,7 +24,7 @@ TOPS = ["core", "gpu", "scene", "renderer", "rf", "io", "sim", "draw", "view", "
 #: shaders.
 FREE = {"shaders", "shaders/shared"}
 #: Folder of the files of each program or module, by target.
-PROGRAMS = {"greatx": "apps", "greatx_python": "python/src"}
+PROGRAMS = {"greatx": "apps", "greatx_places": "apps/place/program", "greatx_python": "python/src"}
 INCLUDE = re.compile(r'^\s*#include\s+"([^"]+)"', re.MULTILINE)
 ROOM = re.compile(r"((?:^#.*\n)*)^greatx_room\(([^\s)]+)([^)]*)\)", re.MULTILINE)
 LINKS = re.compile(r"^greatx_links\((\S+)([^)]*)\)", re.MULTILINE)

@@ -275,6 +275,9 @@ TEST_F(GeoreferenceCli, SunIsThatOfThePlace) {
   EXPECT_EQ(facts["georeference"]["height_m"], 60.5);
   EXPECT_EQ(facts["place"]["of_scene"], false);
   EXPECT_EQ(facts["warnings"].size(), 1u);
+  const Outcome check = greatx(fmt::format("check --host '{}.yaml'", path("there")));
+  EXPECT_EQ(check.code, 0);
+  EXPECT_THAT(check.out, HasSubstr("doubt: scenario contradicts itself: "));
 }
 
 TEST_F(GeoreferenceCli, ReceiversMayBePlaces) {

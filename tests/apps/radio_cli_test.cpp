@@ -137,6 +137,9 @@ TEST_F(RadioCli, WindowsLetWavesIntoAHouseOfThickWalls) {
   change("house.yaml", radio_scenario, "[10, 3, 1.5]", "[25, 3, 1.5]");
   glazed("0");
   EXPECT_THAT(run("explain").out, HasSubstr("half-spaces (no thickness given) without windows"));
+  const Outcome none = run("paths", "--json");
+  ASSERT_EQ(none.code, 0) << none.err;
+  EXPECT_EQ(json::parse(none.out)["receivers"][0]["paths"].size(), 0u);
   glazed("0.25");
   EXPECT_THAT(run("explain").out, HasSubstr("1 materials let waves pass"));
   const Outcome listed = run("paths", "--json");

@@ -88,6 +88,8 @@ def passed(wall, cosine, wavelength):
         n = np.sqrt(complex(eta) - 1 + cosine**2)
         n = -n if n.imag > 0 else n
         angle = 2 * np.pi / wavelength * n * thickness
+        if angle.imag < -300:
+            return [0.0, 0.0]  # less than 1e-130 of the field: metal
         for matrix, y in ((te, n), (tm, complex(eta) / n)):
             matrix[:] = matrix @ np.array(
                 [[np.cos(angle), 1j * np.sin(angle) / y], [1j * y * np.sin(angle), np.cos(angle)]]

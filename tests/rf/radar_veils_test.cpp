@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "rf/atmosphere/foliage.h"
+#include "rf/radar/echoes/veils.h"
 #include "scene/material/material.h"
 #include "tests/rf/radar_reflectors.h"
 
@@ -82,6 +83,32 @@ TEST_F(RadarVeils, APaneTakesItsTransmissionTwice) {
     EXPECT_NEAR(with.section_db, open_db_ + 2.0 * through, 0.05) << turn;
     EXPECT_LT(without.section_db, open_db_ - 40.0) << turn;
     EXPECT_GT(without.echoes, 0u);  // the pane itself
+  }
+}
+
+/// Windows in a wall that lets nothing else pass. With few windows too little passes: the wall is no veil.
+TEST_F(RadarVeils, WindowsTakeTheirShareTwice) {
+  scene::RadioMaterial wall;
+  wall.layers = {{*scene::itu_medium("concrete"), 0.0}};
+  for (const double share : {0.6, 0.1}) {
+    wall.windows = scene::RadioWindows{share, {{*scene::itu_medium("glass"), 0.005}}};
+    TinyScene tiny;
+    const uint32_t facade = tiny.material("facade", 0.1f);
+    tiny.object("facade", 0, facade).quad({20, -1, -1}, {20, 1, -1}, {20, 1, 1}, {20, -1, 1});
+    add_plate(tiny);
+    const std::vector<RadioSurface> surfaces{conductor(), radio_surface(wall, radar_carrier_hz, "facade")};
+    scene::RadioMaterial glass;
+    glass.layers = wall.windows->layers;
+    const RadioSurfaces pane({radio_surface(glass, radar_carrier_hz, "glass")}, radar_carrier_hz);
+    const double through = decibels(share * share * std::norm(pane.transmit(0, true, 1.0).te));
+    const bool veil = through > decibels(Veils::least_share);
+    EXPECT_EQ(veil, share > 0.5);
+    const double section = seen(tiny, surfaces, true).section_db;
+    if (veil)
+      EXPECT_NEAR(section, open_db_ + 2.0 * through, 0.05);
+    else
+      EXPECT_LT(section, open_db_ - 40.0);
+    EXPECT_LT(seen(tiny, surfaces, false).section_db, open_db_ - 40.0);
   }
 }
 

@@ -152,6 +152,24 @@ TEST(Windows, TheSideLobesHaveTheRestOfTheEnergy) {
   }
 }
 
+/// A first layer of air of d m sets windows back: their reflection gets e^{-2jkd cos(theta)}, and their
+/// transmission stays.
+TEST(Windows, AFirstLayerOfAirSetsThemBack) {
+  const Layers thick{layer("concrete", 0.0)}, pane{layer("glass", 0.006)},
+      deep{air(0.12), layer("glass", 0.006)};
+  const RadioSurfaces s = surfaces_at(3.5e9, {wall_of(thick), wall_of(pane), with_windows(thick, 0.3, deep)});
+  for (const double cosine : cosines) {
+    const Complex turn = std::polar(1.0, -4.0 * pi / s.wavelength_m() * 0.12 * cosine);
+    EXPECT_LT(std::abs(s.reflect(2, true, cosine).r_te - 0.7 * s.reflect(0, true, cosine).r_te -
+                       0.3 * turn * s.reflect(1, true, cosine).r_te),
+              1e-12);
+    EXPECT_LT(std::abs(s.reflect(2, false, cosine).r_tm - 0.7 * s.reflect(0, false, cosine).r_tm -
+                       0.3 * s.reflect(1, false, cosine).r_tm),
+              1e-12);
+    EXPECT_LT(std::abs(s.transmit(2, true, cosine).te - 0.3 * s.transmit(1, true, cosine).te), 1e-12);
+  }
+}
+
 TEST(Windows, LetWavesThroughAHalfSpace) {
   const Layers thick{layer("concrete", 0.0)};
   const RadioSurfaces s =

@@ -4,6 +4,7 @@
 // Plants faults in small scenes and expects each of them, and nothing else, in its place.
 #include <limits>
 
+#include "scene/generator/generate.h"
 #include "tests/scene/check_shapes.h"
 
 namespace greatx::scene::test {
@@ -111,6 +112,22 @@ TEST(SceneCheckClean, Fp32AtFiveKilometresIsRoundedAndNoMore) {
   EXPECT_EQ(kinds_of(scene.check()), "rounded 3");
 }
 
+TEST(SceneCheckClean, EverythingThatTheGeneratorMakes) {
+  for (const std::string& kind : generator_kinds()) {
+    std::vector<std::string> variants = generator_variants(kind);
+    if (variants.empty()) variants.push_back("");
+    for (const std::string& variant : variants) {
+      GenerateOptions generated;
+      generated.kind = kind, generated.variant = variant, generated.seed = 3;
+      if (kind == "city" || kind == "country") generated.size_m = 160.0;
+      const SceneFaults faults = check_scene(load_model(kind, generate_glb(generated), {}));
+      EXPECT_EQ(faults.count(FaultSeverity::fault), 0u) << kind << ' ' << variant << ": " << kinds_of(faults);
+      EXPECT_EQ(faults.find("open_sheet"), nullptr) << kind << ' ' << variant;
+      EXPECT_EQ(faults.figures.rays_out, 0u) << kind << ' ' << variant;
+    }
+  }
+}
+
 TEST(SceneCheckHoles, AMissingTriangle) {
   SceneWriter scene;
   Shape shape = sphere(5.0, 2);
@@ -188,6 +205,38 @@ TEST(SceneCheckHoles, ASheetIsADoubtUnlessItIsGround) {
   SceneWriter roads;
   roads.add("road", box({0, 0, 0}, {10, 8, 2}, top));
   EXPECT_EQ(kinds_of(roads.check()), "");
+}
+
+TEST(SceneCheckHoles, AHoleAndACrackInTheGround) {
+  SceneWriter hole;
+  Shape ground = terrain(100.0, 20, hills);
+  ground.remove(411);
+  hole.add("terrain", ground);
+  const SceneFaults faults = hole.check();
+  EXPECT_EQ(kinds_of(faults), "ground_hole 1");
+  EXPECT_NEAR(only_place(faults, "ground_hole").size, 17.1, 1.5);
+  // Two tiles of which one is 5 mm lower along their common border, 100 m long: its border is open, and the
+  // other one lies above it. Then both meet.
+  for (const double step : {0.005, 0.0}) {
+    SceneWriter tiles;
+    const Shape tile = terrain(100.0, 10, hills);
+    Shape other = terrain(100.0, 10, [step](double x, double y) { return hills(x + 100.0, y) - step; });
+    for (dvec3& corner : other.corners) corner.x += 100.0;
+    tiles.add("terrain_0", tile);
+    tiles.add("terrain_1", other);
+    const SceneFaults found = tiles.check();
+    EXPECT_EQ(kinds_of(found), step > 0.0 ? "ground_hole 1" : "") << step;
+    if (step > 0.0) {
+      EXPECT_NEAR(found.find("ground_hole")->worst, 102.0, 2.0);
+    }
+  }
+  // A lawn with a hole, on the ground: its borders are no cracks.
+  SceneWriter lawn;
+  lawn.add("terrain", terrain(100.0, 3, flat));
+  Shape grass = terrain(20.0, 5, [](double, double) { return 0.05; });
+  grass.remove(24);
+  lawn.add("grass", grass);
+  EXPECT_EQ(kinds_of(lawn.check()), "");
 }
 
 TEST(SceneCheckHoles, FoliageClaimsToBeASolid) {

@@ -152,6 +152,7 @@ TEST(SameWorld, DependsOnModelsAndNotOnSensors) {
   EXPECT_TRUE(same(set("nodes[1].sensors[0].fov_deg", "60")));
   EXPECT_FALSE(same(set("nodes[0].trajectory.position_m", "[14, 13, 0]"))) << "the mast stands in the world";
   EXPECT_FALSE(same(set("scene.generate.seed", "8")));
+  EXPECT_FALSE(same(set("scene.georeference", "{latitude_deg: 1, longitude_deg: 2, height_m: 3}")));
   EXPECT_FALSE(same(set("nodes[2].model.parts[0].rpm", "4201")));
   EXPECT_FALSE(same(set("nodes[3].class", "uav")));
 }
@@ -240,6 +241,12 @@ TEST(MaterialSchema, MaterialsOfAnyNameHaveTheFields) {
   const auto permittivity = std::ranges::find(brick.members, "relative_permittivity", &FormType::Member::key);
   ASSERT_NE(permittivity, brick.members.end());
   EXPECT_EQ(permittivity->together, std::vector<std::string>{"conductivity"});
+  const auto windows = std::ranges::find(brick.members, "windows", &FormType::Member::key);
+  ASSERT_NE(windows, brick.members.end());
+  const FormType panes = schema.type_of(windows->part, nullptr);
+  ASSERT_EQ(panes.members.size(), 2u);
+  for (const char* key : {"share", "layers"})
+    EXPECT_NE(std::ranges::find(panes.members, key, &FormType::Member::key), panes.members.end()) << key;
 }
 
 // ----------------------------------------------------------------------------------------------- the handles

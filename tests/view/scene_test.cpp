@@ -67,6 +67,21 @@ class SceneViewTest : public testing::Test {
   MomentCache moments_{experiment_};
 };
 
+TEST(PickedFacts, SayWhereOnTheEarthAPointIs) {
+  const auto facts = [](const std::string& yaml) {
+    Picked picked;
+    picked.point = dvec3(-9996.993940, 10.011041, -7.818219);  // PROJ's, tests/core/geodesy_test.cpp
+    return facts_of(picked, *experiment_of(yaml), ScenePicture(), 3.5e9);
+  };
+  std::string on_earth = room;
+  on_earth.insert(
+      on_earth.find("}}\nnodes") + 1,
+      ", georeference: {latitude_deg: 52.0116, longitude_deg: 4.3571, height_m: 45, undulation_m: 43.4}");
+  EXPECT_THAT(facts(on_earth),
+              testing::Contains(testing::Pair("place", "52.0116000, 4.2115000 deg, 1.60 m above the datum")));
+  EXPECT_THAT(facts(room), testing::Not(testing::Contains(testing::Key("place"))));
+}
+
 TEST_F(SceneViewTest, ShowsTheIdsThatACameraRecords) {
   const test::KeptRun run = test::keep_run(*experiment_);
   SceneView scene(experiment_, device_);

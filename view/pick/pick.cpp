@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/geodesy.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "renderer/lens/lens.h"
@@ -120,6 +121,11 @@ Facts facts_of(const Picked& picked, const sim::Experiment& experiment, const Sc
   facts.emplace_back("instance id", fmt::format("{}", picked.instance + 1));
   facts.emplace_back("triangles", fmt::format("{}", triangles_of(scene, picked.instance)));
   facts.emplace_back("point", vector_text(picked.point, "m"));
+  if (scene.georeference) {
+    const Geodetic place = LocalFrame(*scene.georeference).datum_place(picked.point);
+    facts.emplace_back("place", fmt::format("{:.7f}, {:.7f} deg, {:.2f} m above the datum",
+                                            place.latitude_deg, place.longitude_deg, place.height_m));
+  }
   facts.emplace_back("distance", fmt::format("{:.2f} m", picked.distance_m));
   facts.emplace_back("material", printable(material.name));
   facts.emplace_back("light", optical_text(material.pbr));

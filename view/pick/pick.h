@@ -30,7 +30,8 @@ std::optional<Picked> pick(const ScenePicture& picture, int x, int y, const dvec
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
 /// Describes a picked surface: its instance, class, triangles, optical and radio material, position and
-/// velocity. The permittivity and the conductivity are those at `carrier_hz`. A material without a value
+/// velocity. In a scene with a georeference it also gives latitude, longitude and height above the vertical
+/// datum. The permittivity and the conductivity are those at `carrier_hz`. A material without a value
 /// there says so in its row.
 Facts facts_of(const Picked& picked, const sim::Experiment& experiment, const ScenePicture& picture,
                double carrier_hz);

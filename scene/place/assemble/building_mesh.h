@@ -13,8 +13,8 @@
 namespace greatx::scene::place {
 
 /// Makes the mesh of every building: its walls with façades, its roofs and floors. Walls along one straight
-/// line of a building are one façade, which gets a whole number of bays; storeys are as high as the walls over
-/// their number. Walls beside a neighbour are blind, and party walls have a material of their own.
+/// line of a building are one façade, which gets a whole number of bays; storeys are as high as the walls
+/// over their number. Walls beside a neighbour are blind, and party walls have a material of their own.
 std::vector<PlaceMesh> building_meshes(const std::vector<Building>& buildings, const Complex& complex,
                                        const BuildingConfig& config, const PictureCover& pictures,
                                        MaterialTable& table);

@@ -76,6 +76,22 @@ dvec2 assumed_range(const std::string& use, const BuildingConfig& config) {
   return {5.0, 12.0};
 }
 
+/// Returns the first year that a tag of the building's age names.
+std::optional<int> year_of(const Feature& feature) {
+  for (const char* key : {"start_date", "construction_date", "building:age", "year_of_construction"})
+    if (const std::string* text = feature.tag(key))
+      for (size_t i = 0; i + 4 <= text->size(); ++i) {
+        const bool digits = std::all_of(text->begin() + static_cast<std::ptrdiff_t>(i),
+                                        text->begin() + static_cast<std::ptrdiff_t>(i + 4),
+                                        [](char c) { return c >= '0' && c <= '9'; });
+        if (!digits) continue;
+        int year = 0;
+        for (size_t k = i; k < i + 4; ++k) year = 10 * year + ((*text)[k] - '0');
+        return year;
+      }
+  return std::nullopt;
+}
+
 bool is_pitched_kind(const std::string& use) {
   static const std::array<const char*, 8> kinds{
       "house", "detached", "semidetached_house", "terrace", "farm", "bungalow", "cabin", "barn"};
@@ -194,6 +210,7 @@ std::string facade_class_of(const Feature& feature, const BuildingConfig& config
   const std::string use = kind ? *kind : "yes";
   RandomStream random = stream_of(feature, config.seed, 3);
   const double pick = random.uniform();
+  const std::optional<int> year = year_of(feature);
   const auto is = [&](std::initializer_list<const char*> names) {
     return std::find(names.begin(), names.end(), use) != names.end();
   };
@@ -207,6 +224,14 @@ std::string facade_class_of(const Feature& feature, const BuildingConfig& config
   if (is({"water_tower", "silo", "bunker", "storage_tank"})) return "concrete";
   // Plaster takes any colour; bricks have their own.
   if (feature.tag("building:colour") || feature.tag("building:facade:colour")) return "plaster";
+  // Housing looks as its time built: stucco, brick and stone up to the First World War, plaster until the
+  // sixties, slabs of concrete until the nineties.
+  if (year && *year < 1919) return pick < 0.4 ? "plaster" : pick < 0.75 ? "brick" : "stone";
+  if (year && *year < 1960) return pick < 0.7 ? "plaster" : "brick";
+  if (year && *year < 1992 && !is({"house", "detached", "semidetached_house", "terrace", "farm", "bungalow"}))
+    return pick < 0.75 ? "concrete" : "plaster";
+  if (year && *year >= 2005 && is({"apartments", "residential", "yes"}))
+    return pick < 0.6 ? "plaster" : "ribbon";
   if (is({"house", "detached", "semidetached_house", "terrace", "farm", "bungalow"}))
     return pick < 0.5 ? "plaster" : "brick";
   return pick < 0.45 ? "plaster" : pick < 0.7 ? "brick" : pick < 0.85 ? "stone" : "concrete";

@@ -38,7 +38,8 @@ struct PartContext {
 PartHeights heights_of(const Feature& feature, const PartContext& context, const BuildingConfig& config,
                        std::vector<Finding>& findings);
 
-/// Classes of materials (docs/places.md, "Materials").
+/// Classes of materials (docs/places.md, "Materials"): by the material's tag, else by use, year and storeys,
+/// where several would do by a draw from the object's id.
 std::string facade_class_of(const Feature& feature, const BuildingConfig& config, int storeys);
 std::string roof_class_of(const Feature& feature, RoofShape shape, const std::string& use);
 

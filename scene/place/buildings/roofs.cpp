@@ -94,7 +94,7 @@ dvec2 centroid(const Ring& ring) {
   return ring[0] + sum / total;
 }
 
-/// Planes of half an ellipsoid over the rectangle, which it circumscribes: 12 segments, 3 rings and a flat top.
+/// Planes of half an ellipsoid over the rectangle, which it circumscribes: 12 segments, 3 rings, a flat top.
 std::vector<Plane> dome_planes(const Rectangle& box, const RoofOptions& roof) {
   constexpr int segments = 12, rings = 3;
   const dvec2 across = across_of(box.along);

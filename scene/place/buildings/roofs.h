@@ -54,8 +54,8 @@ std::vector<Rectangle> wings(const Polygon& footprint);
 /// Walls that are this near lie on one line of a wing.
 inline constexpr double same_line_m = 0.25;
 
-/// Returns faces that cover the footprint. Their highest point is at `ridge_z`. Roofs whose wings or rectangle
-/// fit the walls badly may end below `eaves_z` there.
+/// Returns faces that cover the footprint. Their highest point is at `ridge_z`. Roofs whose wings or
+/// rectangle fit the walls badly may end below `eaves_z` there.
 std::vector<RoofFace> make_roof(const Polygon& footprint, const RoofOptions& options);
 
 /// Returns the part of the area over which each of the planes is the lowest.

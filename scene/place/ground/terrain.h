@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes the mesh of the ground: one triangulation of a rectangle, whose edges follow the areas on it and whose
-// corners are taken from the samples of the terrain until it is near enough to all of them (greedy
+// Makes the mesh of the ground: one triangulation of a rectangle, whose edges follow the areas on it and
+// whose corners are taken from the samples of the terrain until it is near enough to all of them (greedy
 // insertion, Garland and Heckbert 1995). One mesh has no cracks.
 #pragma once
 

@@ -17,9 +17,10 @@ struct CleaningOptions {
   double grid_m = 1.0 / grid_per_m;
 };
 
-/// Takes from noded edges what would give slivers: corners that nearly coincide, corners that nearly lie on an
-/// edge, and corners at which a line nearly goes straight on (Douglas and Peucker 1973, between the corners
-/// where lines meet). The result is noded. No line moves by more than twice the larger of the two distances.
+/// Takes from noded edges what would give slivers: corners that nearly coincide, corners that nearly lie on
+/// an edge, and corners at which a line nearly goes straight on (Douglas and Peucker 1973, between the
+/// corners where lines meet). The result is noded. No line moves by more than twice the larger of the two
+/// distances.
 Edges cleaned(Edges edges, const CleaningOptions& options);
 
 /// Returns the largest distance of any of the points from the nearest edge, if that is at most `most_m`;
