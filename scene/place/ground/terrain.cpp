@@ -56,8 +56,11 @@ class Builder {
 
   TerrainMesh run() {
     set_heights();
-    refine_borders();
-    refine();
+    // A corner that one of the two adds may take the other beyond its bound.
+    (void)refine_borders();
+    do {
+      refine();
+    } while (refine_borders());
     double worst = 0.0;
     for (const dvec3& sample : samples_) worst = std::max(worst, error(sample));
     std::vector<Cover> covers;
@@ -137,10 +140,12 @@ class Builder {
 
   /// Divides borders of areas until they follow the terrain within the bound. Samples lie beside a border and
   /// not on it, so that without this a long border could cut through the ground between two rows of samples.
-  void refine_borders() {
-    if (field_.empty()) return;
+  /// Returns whether it has divided any.
+  bool refine_borders() {
+    if (field_.empty()) return false;
     const double step = 0.5 * spacing();
-    for (bool divided = true; divided;) {
+    bool any = false;
+    for (bool divided = true; divided; any = any || divided) {
       divided = false;
       for (uint32_t t = 0; t < mesh_.triangles().size(); ++t)
         for (uint32_t side = 0; side < 3; ++side) {
@@ -154,6 +159,7 @@ class Builder {
           divided = true;
         }
     }
+    return any;
   }
 
   /// Adds samples until none is off by more than the bound. In each round every triangle gets its worst one.
