@@ -24,8 +24,8 @@ void add_build_options(CLI::App& app, BuildCommand& command);
 /// Returns the arguments that give `command` again.
 std::vector<std::string> arguments_of(const BuildCommand& command);
 
-/// Adds `build` to the command `scene`. Its callback replaces this process by greatx-places. Throws UserError,
-/// which names the packages to install, if there is no such program.
+/// Adds `build` to the command `scene`. Its callback replaces this process by greatx-places. Throws
+/// UserError, which names the packages to install, if there is no such program.
 void add_scene_build(CLI::App& scene_command);
 
 }  // namespace greatx::apps

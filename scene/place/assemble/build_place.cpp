@@ -16,6 +16,7 @@
 #include "scene/generator/objects/street_furniture.h"
 #include "scene/generator/objects/trees.h"
 #include "scene/georeference/georeference.h"
+#include "scene/place/assemble/bands.h"
 #include "scene/place/assemble/building_mesh.h"
 #include "scene/place/assemble/picture_cover.h"
 #include "scene/place/buildings/complex.h"
@@ -283,74 +284,34 @@ class Assembly {
   std::vector<PlaceMesh> deck_meshes() {
     std::vector<PlaceMesh> meshes;
     for (const Bridge& bridge : out_.ground.bridges) {
+      const std::string object = fmt::format("{}: {}", bridge.source, bridge.id);
       const Deck deck = make_deck(bridge, level_);
-      meshes.emplace_back();
-      if (deck.sections.size() < 2 || !out_.report.rectangle.holds(deck.sections.front().left) ||
-          !out_.report.rectangle.holds(deck.sections.back().left))
+      const bool whole = deck.sections.size() >= 2 &&
+                         out_.report.rectangle.holds(deck.sections.front().left) &&
+                         out_.report.rectangle.holds(deck.sections.back().left);
+      if (!whole) {
+        out_.report.findings.push_back({Finding::Kind::left_out, "bridge_leaves_area", object,
+                                        "one of its ends lies outside the ground, so its height is unknown"});
+        meshes.emplace_back();
         continue;
+      }
       if (deck.lift_m > 0.0)
         out_.report.findings.push_back(
-            {Finding::Kind::assumed, "bridge_raised", fmt::format("{}: {}", bridge.source, bridge.id),
+            {Finding::Kind::assumed, "bridge_raised", object,
              fmt::format("layer {}: its middle was raised by {:.1f} m, for 5 m of clearance per layer",
                          bridge.layer, deck.lift_m)});
-      PlaceMesh& mesh = meshes.back();
-      mesh = PlaceMesh(dvec3(glm::floor(deck.sections.front().left), std::floor(deck.sections.front().z)));
-      band_mesh(mesh, deck, table_.of(std::string("ground/") + name_of(bridge.cover)), table_.of("bridge"));
+      meshes.push_back(band_mesh(deck, table_.of(std::string("ground/") + name_of(bridge.cover)),
+                                 table_.of("bridge"), table_));
     }
     return meshes;
-  }
-
-  /// Adds a closed band: its upper face, sides, lower face and ends.
-  void band_mesh(PlaceMesh& mesh, const Deck& deck, int top, int side) const {
-    const auto quad = [&](int material, const dvec3& a, const dvec3& b, const dvec3& c, const dvec3& d) {
-      for (const auto& t : {std::array<dvec3, 3>{a, b, c}, std::array<dvec3, 3>{a, c, d}}) {
-        const dvec3 cross = glm::cross(t[1] - t[0], t[2] - t[0]);
-        if (!(glm::length(cross) > 1e-9)) continue;
-        std::array<dvec2, 3> uvs;
-        for (size_t i = 0; i < 3; ++i)
-          uvs[i] = uv_on_plane(table_[material].tile_m, t[i] - mesh.anchor(), glm::normalize(cross));
-        mesh.triangle(material, t, uvs);
-      }
-    };
-    const dvec3 down(0.0, 0.0, on_grid(deck.thickness_m));
-    const auto left = [&](size_t i) {
-      return dvec3(to_metres(to_grid(deck.sections[i].left)), on_grid(deck.sections[i].z));
-    };
-    const auto right = [&](size_t i) {
-      return dvec3(to_metres(to_grid(deck.sections[i].right)), on_grid(deck.sections[i].z));
-    };
-    const size_t last = deck.sections.size() - 1;
-    for (size_t i = 0; i < last; ++i) {
-      quad(top, right(i), right(i + 1), left(i + 1), left(i));
-      quad(side, left(i) - down, left(i + 1) - down, right(i + 1) - down, right(i) - down);
-      quad(side, right(i) - down, right(i + 1) - down, right(i + 1), right(i));
-      quad(side, left(i + 1) - down, left(i) - down, left(i), left(i + 1));
-    }
-    quad(side, left(0) - down, right(0) - down, right(0), left(0));
-    quad(side, right(last) - down, left(last) - down, left(last), right(last));
   }
 
   std::vector<PlaceMesh> hedge_meshes() {
     std::vector<PlaceMesh> meshes;
     const int leaves = generator::material("hedge");
-    for (const Hedge& hedge : objects_.hedges) {
-      Deck deck;
-      deck.thickness_m = hedge.height_m + 0.3;  // 0.3 m of it lie in the ground
-      for (size_t i = 0; i < hedge.line.size(); ++i) {
-        const dvec2 before = hedge.line[i > 0 ? i - 1 : 0],
-                    after = hedge.line[std::min(i + 1, hedge.line.size() - 1)];
-        if (glm::distance(before, after) < 0.01) continue;
-        const dvec2 along = glm::normalize(after - before),
-                    half = dvec2(-along.y, along.x) * (0.5 * hedge.width_m);
-        deck.sections.push_back({hedge.line[i] + half, hedge.line[i] - half,
-                                 terrain_->height_at(hedge.line[i]) + hedge.height_m});
-      }
-      meshes.emplace_back();
-      if (deck.sections.size() < 2) continue;
-      meshes.back() =
-          PlaceMesh(dvec3(glm::floor(deck.sections.front().left), std::floor(deck.sections.front().z)));
-      band_mesh(meshes.back(), deck, leaves, leaves);
-    }
+    for (const Hedge& hedge : objects_.hedges)
+      meshes.push_back(band_mesh(hedge_band(hedge, [&](const dvec2& p) { return terrain_->height_at(p); }),
+                                 leaves, leaves, table_));
     return meshes;
   }
 
