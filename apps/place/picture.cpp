@@ -106,8 +106,10 @@ void draw_built(io::Canvas& canvas, const Panel& panel, const BuiltPlace& built)
     for (const Polygon& polygon : band(bridge.line, bridge.width_m)) {
       const Box box = box_of(polygon);
       const dvec2 low = panel.pixel(box.low), high = panel.pixel(box.high);
-      for (int y = std::max(panel.rect.y, int(high.y)); y <= std::min(panel.rect.bottom() - 1, int(low.y)); ++y)
-        for (int x = std::max(panel.rect.x, int(low.x)); x <= std::min(panel.rect.right() - 1, int(high.x)); ++x)
+      for (int y = std::max(panel.rect.y, int(high.y)); y <= std::min(panel.rect.bottom() - 1, int(low.y));
+           ++y)
+        for (int x = std::max(panel.rect.x, int(low.x)); x <= std::min(panel.rect.right() - 1, int(high.x));
+             ++x)
           if (contains(polygon, panel.place(x, y))) canvas.blend(x, y, color_of(bridge.cover));
     }
   double highest = 10.0;

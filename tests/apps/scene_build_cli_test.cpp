@@ -120,8 +120,8 @@ TEST_F(SceneBuildCli, ThePrintedTableOfMaterialsIsOneThatCanBeRead) {
 
 TEST_F(SceneBuildCli, AnEntryOfTheTableIsReplaced) {
   write("materials.yaml", "greatx_place_materials: 1\nclasses:\n  ground/base_built: [grass]\n");
-  const Outcome outcome = greatx(fmt::format("scene build {} -o {} --json", place("materials: materials.yaml\n"),
-                                             path("green.glb")));
+  const Outcome outcome = greatx(
+      fmt::format("scene build {} -o {} --json", place("materials: materials.yaml\n"), path("green.glb")));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const json report = json::parse(outcome.out);
   EXPECT_EQ(report["materials"]["ground/base_built"], json::array({"grass"}));

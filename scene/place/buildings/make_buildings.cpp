@@ -307,12 +307,13 @@ class Maker {
       for (const Polygon& polygon : face.area) {
         // Mean height over a polygon: its plane at the area's centroid, outer ring less holes.
         const auto moment = [&](const Ring& ring) {
-          double sum = 0.0;
+          double sum = 0.0, size = 0.0;  // heights may be below zero: the sign is that of the area
           for (size_t i = 1; i + 1 < ring.size(); ++i) {
             const dvec2 a = ring[i] - ring[0], b = ring[i + 1] - ring[0];
+            size += 0.5 * (a.x * b.y - a.y * b.x);
             sum += 0.5 * (a.x * b.y - a.y * b.x) * face.plane.z(ring[0] + (a + b) / 3.0);
           }
-          return std::abs(sum);
+          return size < 0.0 ? -sum : sum;
         };
         double volume = moment(polygon.outer);
         for (const Ring& hole : polygon.holes) volume -= moment(hole);

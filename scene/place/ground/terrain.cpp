@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "scene/place/ground/cover_map.h"
 #include "scene/place/plane/cleaning.h"
@@ -42,7 +43,11 @@ class Builder {
  public:
   Builder(const HeightField& field, const GroundLevel& level, const std::vector<GroundArea>& areas,
           const TerrainOptions& options)
-      : level_(level), options_(options), cells_(areas, options.rectangle), mesh_(outlines(areas, options)) {
+      : field_(field),
+        level_(level),
+        options_(options),
+        cells_(areas, options.rectangle),
+        mesh_(outlines(areas, options)) {
     for (const HeightGrid& grid : field.grids())
       for (const dvec3& sample : grid.samples)
         if (!std::isnan(sample.z) && options.rectangle.holds(dvec2(sample)) && counts(field, sample))
@@ -51,7 +56,11 @@ class Builder {
 
   TerrainMesh run() {
     set_heights();
-    refine();
+    // A corner that one of the two adds may take the other beyond its bound.
+    (void)refine_borders();
+    do {
+      refine();
+    } while (refine_borders());
     double worst = 0.0;
     for (const dvec3& sample : samples_) worst = std::max(worst, error(sample));
     std::vector<Cover> covers;
@@ -99,6 +108,58 @@ class Builder {
   }
   double error(const dvec3& sample) const {
     return std::abs(height_in(mesh_.find(to_grid(dvec2(sample))), dvec2(sample)) - sample.z);
+  }
+
+  /// Returns the smallest distance of neighbouring samples, m.
+  double spacing() const {
+    double least = 1e300;
+    for (const HeightGrid& grid : field_.grids())
+      for (const size_t next : {size_t{1}, size_t{grid.columns}})
+        least = std::min(least, glm::distance(dvec2(grid.samples[0]), dvec2(grid.samples[next])));
+    return std::max(0.25, least);
+  }
+
+  /// Returns the place on an edge where the terrain is farthest from the edge, if that is beyond the bound.
+  std::optional<dvec2> worst_on_edge(uint32_t from, uint32_t to, double step) const {
+    const dvec2 a = to_metres(mesh_.points()[from]), b = to_metres(mesh_.points()[to]);
+    const int steps = static_cast<int>(std::ceil(glm::distance(a, b) / step));
+    double worst = options_.error_m;
+    std::optional<dvec2> place;
+    for (int k = 1; k < steps; ++k) {
+      const double share = static_cast<double>(k) / steps;
+      const dvec2 here = glm::mix(a, b, share);
+      const std::optional<double> ground = field_.at(here);
+      if (!ground) continue;
+      if (const double off = std::abs(glm::mix(heights_[from], heights_[to], share) - *ground); off > worst) {
+        worst = off;
+        place = here;
+      }
+    }
+    return place;
+  }
+
+  /// Divides borders of areas until they follow the terrain within the bound. Samples lie beside a border and
+  /// not on it, so that without this a long border could cut through the ground between two rows of samples.
+  /// Returns whether it has divided any.
+  bool refine_borders() {
+    if (field_.empty()) return false;
+    const double step = 0.5 * spacing();
+    bool any = false;
+    for (bool divided = true; divided; any = any || divided) {
+      divided = false;
+      for (uint32_t t = 0; t < mesh_.triangles().size(); ++t)
+        for (uint32_t side = 0; side < 3; ++side) {
+          const Triangulation::Triangle& triangle = mesh_.triangles()[t];
+          const uint32_t from = triangle.corners[(side + 1) % 3], to = triangle.corners[(side + 2) % 3];
+          // The triangle on the other side has the edge the other way round.
+          if (!triangle.fixed[side] || (from > to && triangle.across[side] != Triangulation::none)) continue;
+          const std::optional<dvec2> place = worst_on_edge(from, to, step);
+          if (!place || !mesh_.divide(t, side, to_grid(*place))) continue;
+          set_heights();
+          divided = true;
+        }
+    }
+    return any;
   }
 
   /// Adds samples until none is off by more than the bound. In each round every triangle gets its worst one.
@@ -163,6 +224,7 @@ class Builder {
     heights_[corner] = on_grid(sample.z);
   }
 
+  const HeightField& field_;
   const GroundLevel& level_;
   TerrainOptions options_;
   CoverMap cells_;

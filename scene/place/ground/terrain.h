@@ -33,7 +33,8 @@ struct TerrainMesh {
   Triangulation plan;
   std::vector<double> heights;   ///< of the points of the plan, m
   std::vector<Cover> covers;     ///< of each triangle
-  double largest_error_m = 0.0;  ///< at the samples of the terrain within the rectangle
+  double largest_error_m = 0.0;  ///< at the samples of the terrain within the rectangle; borders of areas
+                                 ///< follow the terrain between the samples within the same bound
   size_t samples = 0;            ///< that were compared
 
   dvec3 point(uint32_t i) const { return dvec3(to_metres(plan.points()[i]), heights[i]); }

@@ -33,9 +33,10 @@ class Triangulation {
 
   /// Adds a point within the rectangle and returns its index, or the index of the equal point that is there.
   uint32_t add(const GridPoint& point);
-  /// Divides an edge at a place on it that was rounded to the grid: the edge then bends by a grid step at most,
-  /// and stays forced if it was. Returns the new point, or nothing, and changes nothing, if the point is there
-  /// already, if a triangle would turn over, or if the edge is the rectangle's and the point is not on it.
+  /// Divides an edge at a place on it that was rounded to the grid: the edge then bends by a grid step at
+  /// most, and stays forced if it was. Returns the new point, or nothing, and changes nothing, if the point
+  /// is there already, if a triangle would turn over, or if the edge is the rectangle's and the point is not
+  /// on it.
   std::optional<uint32_t> divide(uint32_t triangle, uint32_t side, const GridPoint& point);
   /// Forces the straight line between two points to be edges, through the points that lie on it. Throws
   /// UserError if it crosses a forced edge.

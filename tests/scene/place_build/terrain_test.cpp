@@ -83,6 +83,40 @@ TEST(PlaceTerrain, AreasHaveTheirSizesAndCoverEachOtherByRank) {
               1e-3);
 }
 
+TEST(PlaceTerrain, BordersFollowTheTerrainBetweenItsSamples) {
+  // A bank of 4 m between two rows of samples, along which a border runs, and borders at odd angles.
+  HeightField field;
+  field.add(grid(140, 140, 2.0, [](const dvec2& p) {
+    return 4.0 * std::tanh((p.y - 0.12 * p.x) / 3.0) * std::sin(p.x / 20.0) + 0.02 * p.x;
+  }));
+  const Polygon along{{{-90, -11}, {90, 10.7}, {90, 60}, {-90, 55}}, {}};
+  const Polygon road{{{-100, -40}, {100, 31}, {100, 37}, {-100, -34}}, {}};
+  for (const double bound : {0.1, 0.25}) {
+    const TerrainMesh mesh =
+        build(field, bound, {{Cover::meadow, {along}, box_of(along)}, {Cover::road, {road}, box_of(road)}});
+    EXPECT_LE(mesh.largest_error_m, bound + 1e-4);
+    size_t places = 0;
+    for (const Polygon& polygon : {along, road})
+      for (size_t i = 0; i < polygon.outer.size(); ++i) {
+        const dvec2 a = polygon.outer[i], b = polygon.outer[(i + 1) % polygon.outer.size()];
+        const int steps = static_cast<int>(glm::distance(a, b));
+        for (int k = 0; k <= steps; ++k) {
+          const dvec2 p = glm::mix(a, b, static_cast<double>(k) / steps);
+          // Corners of borders may move by simplify_m, 0.05 m, on slopes of up to 1.4.
+          EXPECT_NEAR(mesh.height_at(p), *field.at(p), bound + 0.1) << p.x << " " << p.y;
+          ++places;
+        }
+      }
+    EXPECT_GT(places, 800u);
+    for (const auto& triangle : mesh.plan.triangles()) {
+      const auto& c = triangle.corners;
+      const dvec3 n = glm::normalize(
+          glm::cross(mesh.point(c[1]) - mesh.point(c[0]), mesh.point(c[2]) - mesh.point(c[0])));
+      ASSERT_GT(n.z, 0.3);  // no triangle stands upright at a border
+    }
+  }
+}
+
 TEST(PlaceTerrain, HasNoCracks) {
   HeightField field;
   field.add(grid(140, 140, 2.0, hills));

@@ -84,6 +84,39 @@ TEST(PlaceTriangulation, ForcedEdgesAreThereAndPassThroughPointsOnThem) {
   expect_sound(t);
 }
 
+TEST(PlaceTriangulation, AForcedEdgeIsDividedWhereAPlaceOnItWasRoundedTo) {
+  for (uint32_t seed = 0; seed < 6; ++seed) {
+    Triangulation t({0, 0}, {1 << 20, 1 << 20});
+    RandomStream random(seed, 11);
+    for (int i = 0; i < 100; ++i) t.add({random.below(1 << 20), random.below(1 << 20)});
+    const GridPoint from{1000 + seed, 3001}, to{900'003, 700'007 + 13 * seed};
+    t.force(t.add(from), t.add(to));
+    size_t divided = 0, bent = 0;
+    for (uint32_t i = 0; i < t.triangles().size() && divided < 40; ++i)
+      for (uint32_t side = 0; side < 3; ++side) {
+        const auto triangle = t.triangles()[i];
+        if (!triangle.fixed[side] || triangle.across[side] == Triangulation::none) continue;
+        const GridPoint a = t.points()[triangle.corners[(side + 1) % 3]],
+                        b = t.points()[triangle.corners[(side + 2) % 3]];
+        const GridPoint middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
+        const auto index = t.divide(i, side, middle);
+        if (!index) continue;
+        EXPECT_EQ(t.points()[*index], middle);
+        bent += orientation(from, to, middle) != 0 ? 1 : 0;
+        ++divided;
+        break;
+      }
+    EXPECT_GE(divided, 20u);
+    EXPECT_GE(bent, 10u);
+    expect_sound(t);
+    size_t forced = 0;
+    for (const auto& triangle : t.triangles())
+      for (uint32_t side = 0; side < 3; ++side)
+        if (triangle.fixed[side] && triangle.across[side] != Triangulation::none) ++forced;
+    EXPECT_EQ(forced, 2 * (divided + 1));
+  }
+}
+
 TEST(PlaceTriangulation, CrossingForcedEdgesAreRefused) {
   Triangulation t({0, 0}, {100, 100});
   t.force(t.add({10, 10}), t.add({90, 90}));

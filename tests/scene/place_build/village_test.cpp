@@ -111,8 +111,8 @@ TEST(PlaceVillage, AllOfThePlanIsThere) {
   EXPECT_EQ(report.objects.at("street_lamp"), asked["street_lamp"]);
   EXPECT_EQ(village().model.lights.size(), asked["street_lamp"]);
   EXPECT_GT(asked["street_lamp"], 30u);
-  for (const char* cover : {"road", "path", "water", "wood", "grass", "farmland", "meadow", "parking", "square",
-                            "pitch", "scrub", "residential"})
+  for (const char* cover : {"road", "path", "water", "wood", "grass", "farmland", "meadow", "parking",
+                            "square", "pitch", "scrub", "residential"})
     EXPECT_GT(report.cover_m2.at(cover), 50.0) << cover;
 }
 
@@ -160,7 +160,14 @@ TEST(PlaceVillage, HeightsAreThoseOfTheTags) {
 
 TEST(PlaceVillage, VolumesAreThoseOfPrismsAndRoofs) {
   const PlaceReport& report = village().built.report;
-  EXPECT_NEAR(report.built_volume_m3, report.source_volume_m3, 0.002 * report.source_volume_m3);
+  EXPECT_NEAR(report.built_volume_m3, report.source_volume_m3, 0.001 * report.source_volume_m3);
+  for (const Building& building : village().built.buildings) {
+    double own = 0.0;
+    for (const TriangleOf& t : village().triangles.at(node_of(building)))
+      own += 0.5 * cross_of(t).z * std::max(0.0, (t[0].z + t[1].z + t[2].z) / 3.0 - building.ground_z);
+    EXPECT_NEAR(own, building.plan_volume_m3, 0.001 * building.plan_volume_m3)
+        << building.use << " " << building.id;
+  }
   // A closed form: prism and gable of the barn, by the divergence theorem above its lowest ground.
   double volume = 0.0;
   for (const TriangleOf& t : faces_of("barn")) {
@@ -272,7 +279,7 @@ TEST(PlaceVillage, TheBridgeSpansTheWater) {
       if (std::abs(p.x - 90.0) < 8.0) lowest_water = std::min(lowest_water, p.z);
   // One layer has 5 m of clearance between the road and the lowest ground below it.
   EXPECT_GE(z.y, lowest_water + 5.0);
-  EXPECT_EQ(count("bridge_raised"), 1u);
+  EXPECT_EQ(count("bridge_raised"), 0u);  // the river lies deep enough
 }
 
 TEST(PlaceVillage, AssumptionsAreListed) {

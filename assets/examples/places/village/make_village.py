@@ -22,7 +22,11 @@ MARGIN = 30.0  # m, of terrain and picture beyond the area
 LATITUDE = math.radians(ORIGIN[0])
 METRES_PER_DEGREE = (  # of longitude and latitude, from the radii of curvature of WGS 84
     math.pi / 180 * 6378137 * math.cos(LATITUDE) / math.sqrt(1 - 0.00669437999014 * math.sin(LATITUDE) ** 2),
-    math.pi / 180 * 6378137 * (1 - 0.00669437999014) / (1 - 0.00669437999014 * math.sin(LATITUDE) ** 2) ** 1.5,
+    math.pi
+    / 180
+    * 6378137
+    * (1 - 0.00669437999014)
+    / (1 - 0.00669437999014 * math.sin(LATITUDE) ** 2) ** 1.5,
 )
 RANDOM = random.Random(7)
 
@@ -32,7 +36,7 @@ def degrees(x, y):
     return ORIGIN[0] + y / METRES_PER_DEGREE[1], ORIGIN[1] + x / METRES_PER_DEGREE[0]
 
 
-# ---- terrain ------------------------------------------------------------------------------------------------
+# ---- terrain -----------------------------------------------------------------------------------------------
 
 
 def river_y(x):
@@ -54,7 +58,7 @@ def height(x, y):
     return 174.0 - 0.008 * x + hill + banks + swell * smooth((np.abs(away) - 10) / 60)
 
 
-# ---- plan ---------------------------------------------------------------------------------------------------
+# ---- plan --------------------------------------------------------------------------------------------------
 
 CELL = 0.4  # m, of the plan's raster and of the picture
 COLUMNS, ROWS = (int(round(2 * (half + MARGIN) / CELL)) for half in HALF)
@@ -147,7 +151,9 @@ class Osm:
         (south, west), (north, east) = degrees(-HALF[0], -HALF[1]), degrees(*HALF)
         lines = ['<?xml version="1.0" encoding="UTF-8"?>', '<osm version="0.6" generator="make_village.py">']
         lines += ["<!-- A village that does not exist. Made by greatx; Apache-2.0. -->"]
-        lines += [f'<bounds minlat="{south:.7f}" minlon="{west:.7f}" maxlat="{north:.7f}" maxlon="{east:.7f}"/>']
+        lines += [
+            f'<bounds minlat="{south:.7f}" minlon="{west:.7f}" maxlat="{north:.7f}" maxlon="{east:.7f}"/>'
+        ]
         tagged = {}
         for identifier, tags in self.tagged:
             tagged.setdefault(identifier, {}).update(tags)
@@ -199,7 +205,8 @@ class Village:
     def road(self, name, line, wide, kind, colour="asphalt", **tags):
         self.roads[name] = line
         stroke(self.taken, line, wide + 3, True)
-        self.later.append((line, wide, colour))
+        if "bridge" not in tags:  # the picture is of the ground
+            self.later.append((line, wide, colour))
         if kind not in ("footway", "path", "track", "service"):
             tags["name"] = name
         self.osm.way(line, highway=kind, **tags)
@@ -208,14 +215,22 @@ class Village:
         self.later = []
         main = [(-265, -40), (-160, -31), (-90, -17), (-20, -9), (36, -13), (66, -30), (82, -50)]
         self.road("Main Road", main, 6.5, "tertiary", lanes="2", width="6.5")
-        self.road("Main Road bridge", [(82, -50), (98, -94)], 6.5, "tertiary", width="7.5", bridge="yes", layer="1")
-        self.road("Main Road south", [(98, -94), (114, -134), (122, -215)], 6.5, "tertiary", lanes="2", width="6.5")
+        self.road(
+            "Main Road bridge", [(82, -50), (98, -94)], 6.5, "tertiary", width="7.5", bridge="yes", layer="1"
+        )
+        self.road(
+            "Main Road south", [(98, -94), (114, -134), (122, -215)], 6.5, "tertiary", lanes="2", width="6.5"
+        )
         self.road("Church Lane", [(-20, -9), (-26, 36), (-34, 92), (-40, 140), (-62, 215)], 5, "residential")
         self.road("Hill Street", [(-34, 92), (58, 98), (140, 88), (265, 99)], 5.5, "residential")
         self.road("School Road", [(36, -13), (50, 38), (58, 98)], 5.5, "residential")
         self.road("Orchard Street", [(50, 38), (120, 32), (196, 42)], 5.5, "residential")
-        self.road("Upper Lane", [(-34, 92), (-112, 86), (-196, 104), (-265, 108)], 4.5, "unclassified", width="4.5")
-        self.road("Mill Lane", [(-90, -17), (-98, -44), (-58, -62), (10, -54)], 4.5, "residential", width="4.5")
+        self.road(
+            "Upper Lane", [(-34, 92), (-112, 86), (-196, 104), (-265, 108)], 4.5, "unclassified", width="4.5"
+        )
+        self.road(
+            "Mill Lane", [(-90, -17), (-98, -44), (-58, -62), (10, -54)], 4.5, "residential", width="4.5"
+        )
         self.road("parking", [(66, -30), (98, -20), (128, -20)], 4.5, "service", "lot")
         self.road("farm", [(114, -134), (60, -142), (18, -138)], 3, "track", "track")
         self.road("riverside", [(-200, -78), (-120, -79), (-60, -76), (10, -61)], 1.8, "footway", "track")
@@ -229,12 +244,20 @@ class Village:
         banks = [(float(x), float(river_y(x)) - width / 2) for x in xs]
         banks += [(float(x), float(river_y(x)) + width / 2) for x in xs[::-1]]
         self.area([(-250, -70), (250, -70), (250, 170), (-250, 170)], "garden", False, landuse="residential")
-        self.area([(-252, -200), (-20, -200), (-14, -112), (-120, -112), (-252, -104)], "crop", landuse="farmland")
+        self.area(
+            [(-252, -200), (-20, -200), (-14, -112), (-120, -112), (-252, -104)], "crop", landuse="farmland"
+        )
         self.area([(-12, -200), (96, -200), (90, -150), (-8, -146)], "field", landuse="farmland")
         self.area([(134, -200), (252, -200), (252, -108), (134, -106)], "meadow", landuse="meadow")
-        self.area([(-252, 112), (-196, 112), (-116, 95), (-48, 102), (-70, 200), (-252, 200)], "meadow", landuse="meadow")
+        self.area(
+            [(-252, 112), (-196, 112), (-116, 95), (-48, 102), (-70, 200), (-252, 200)],
+            "meadow",
+            landuse="meadow",
+        )
         self.area(banks, "water", natural="water", water="river")
-        self.osm.way([(float(x), float(river_y(x))) for x in xs], waterway="river", name="Plenty Brook", width="9")
+        self.osm.way(
+            [(float(x), float(river_y(x))) for x in xs], waterway="river", name="Plenty Brook", width="9"
+        )
         park = [(-30, 84), (-108, 78), (-96, 42), (-86, -10), (-32, -4), (-30, 34)]
         self.area(park, "grass", leisure="park", name="Village Park")
         self.area([(-18, -2), (30, -6), (40, 22), (-20, 26)], "paving", place="square", name="Church Square")
@@ -264,13 +287,53 @@ class Village:
         # The church: nave, tower, choir, and a canopy above its door.
         nave, tower = rectangle((10, 46), (26, 12)), rectangle((-7, 46), (8, 8))
         choir, canopy = rectangle((26.5, 46), (7, 8)), rectangle((10, 38.5), (5, 3))
-        outline = [(-11, 42), (-3, 42), (-3, 40), (7.5, 40), (7.5, 37), (12.5, 37), (12.5, 40), (23, 40), (23, 42), (30, 42), (30, 50), (23, 50), (23, 52), (-3, 52)]
+        outline = [
+            (-11, 42),
+            (-3, 42),
+            (-3, 40),
+            (7.5, 40),
+            (7.5, 37),
+            (12.5, 37),
+            (12.5, 40),
+            (23, 40),
+            (23, 42),
+            (30, 42),
+            (30, 50),
+            (23, 50),
+            (23, 52),
+            (-3, 52),
+        ]
         outline += [(-3, 50), (-11, 50)]
         common = {"building__material": "sandstone", "roof__material": "slate"}
-        self.building(outline, "slate", building="church", name="St Brendan", height="31", building__material="sandstone")
-        self.building(nave, "slate", building__part="yes", height="14", roof__shape="gabled", roof__height="6", **common)
-        self.building(tower, "slate", building__part="yes", height="31", roof__shape="pyramidal", roof__height="11", **common)
-        self.building(choir, "slate", building__part="yes", height="10", roof__shape="hipped", roof__height="3.5", **common)
+        self.building(
+            outline,
+            "slate",
+            building="church",
+            name="St Brendan",
+            height="31",
+            building__material="sandstone",
+        )
+        self.building(
+            nave, "slate", building__part="yes", height="14", roof__shape="gabled", roof__height="6", **common
+        )
+        self.building(
+            tower,
+            "slate",
+            building__part="yes",
+            height="31",
+            roof__shape="pyramidal",
+            roof__height="11",
+            **common,
+        )
+        self.building(
+            choir,
+            "slate",
+            building__part="yes",
+            height="10",
+            roof__shape="hipped",
+            roof__height="3.5",
+            **common,
+        )
         self.building(canopy, "zinc", building__part="roof", height="4", min_height="3.2", roof__shape="flat")
         # The school, around a court.
         outer, court = rectangle((84, 66), (44, 34), -4), rectangle((84, 66), (20, 13), -4)
@@ -279,48 +342,135 @@ class Village:
         fill(self.taken, rectangle((84, 66), (54, 44), -4), True)
         self.osm.multipolygon([outer], [court], building="school", building__levels="2", roof__shape="flat",
                               building__material="brick", name="Village School")  # fmt: skip
-        self.building(rectangle((164, 2), (36, 24), 3), "gravel", building="supermarket", height="6.5", roof__shape="flat")
-        self.building(rectangle((66, 6), (26, 13), 0), "gravel", building="office", building__levels="5", roof__shape="flat")
+        self.building(
+            rectangle((164, 2), (36, 24), 3),
+            "gravel",
+            building="supermarket",
+            height="6.5",
+            roof__shape="flat",
+        )
+        self.building(
+            rectangle((66, 6), (26, 13), 0),
+            "gravel",
+            building="office",
+            building__levels="5",
+            roof__shape="flat",
+        )
         self.building(rectangle((-24, -33), (22, 12), 2), "zinc", building="apartments", building__levels="4",
-                      roof__shape="hipped", roof__height="3", roof__material="zinc", building__colour="#d8c8a8")  # fmt: skip
+                      roof__shape="hipped", roof__height="3", roof__material="zinc",
+                      building__colour="#d8c8a8")  # fmt: skip
         # The farm.
         self.area([(-6, -146), (34, -146), (34, -112), (-6, -112)], "track", False, landuse="farmyard")
-        self.building(rectangle((2, -130), (12, 24), 0), "felt", building="barn", height="9", roof__shape="gabled", roof__height="4.5")
-        self.building(rectangle((24, -121), (14, 9), 0), "tile_dark", building="farm", building__levels="2", roof__shape="half-hipped")
-        self.building(rectangle((24, -134), (7, 6), 0), "zinc", building="shed", height="3", roof__shape="skillion", roof__direction="S")
+        self.building(
+            rectangle((2, -130), (12, 24), 0),
+            "felt",
+            building="barn",
+            height="9",
+            roof__shape="gabled",
+            roof__height="4.5",
+        )
+        self.building(
+            rectangle((24, -121), (14, 9), 0),
+            "tile_dark",
+            building="farm",
+            building__levels="2",
+            roof__shape="half-hipped",
+        )
+        self.building(
+            rectangle((24, -134), (7, 6), 0),
+            "zinc",
+            building="shed",
+            height="3",
+            roof__shape="skillion",
+            roof__direction="S",
+        )
         # The water tower: a shaft, and a tank with a dome on it.
         at = (-150, 140)
-        self.building(circle(at, 5), "zinc", building="water_tower", height="24", building__material="concrete")
-        self.osm.way(circle(at, 2.4, 12), True, building__part="yes", height="15", building__material="concrete")
-        self.osm.way(circle(at, 5), True, building__part="yes", height="24", min_height="15", roof__shape="dome",
+        self.building(
+            circle(at, 5), "zinc", building="water_tower", height="24", building__material="concrete"
+        )
+        self.osm.way(
+            circle(at, 2.4, 12), True, building__part="yes", height="15", building__material="concrete"
+        )
+        self.osm.way(circle(at, 5), True, building__part="yes", height="24", min_height="15",
+                     roof__shape="dome",
                      roof__height="4", building__material="concrete", roof__material="metal")  # fmt: skip
 
     def plan_terrace(self):
         """A row of houses with party walls, of unlike heights, along Mill Lane."""
         direction = math.degrees(math.atan2(8, 68))
         c, s = math.cos(math.radians(direction)), math.sin(math.radians(direction))
-        heights = [("2", None), ("2", None), ("2", None), (None, "9.2"), ("2", None), ("3", None), ("2", None)]
+        heights = [
+            ("2", None),
+            ("2", None),
+            ("2", None),
+            (None, "9.2"),
+            ("2", None),
+            ("3", None),
+            ("2", None),
+        ]
         for i, (levels, top) in enumerate(heights):
             u, v = 6.0 * i + 9, 9.0
             center = (-58 + c * u - s * v, -62 + s * u + c * v)
             tags = {"building__levels": levels} if levels else {"height": top}
             colour = ["#e8d8b8", "#d9b48f", "#c9d2d4", "#e6c9a8", "#b9c4b0", "#ddd0c0", "#cfa890"][i]
-            self.building(rectangle(center, (6, 9), direction), "tile" if i % 2 else "tile_dark", building="terrace",
-                          roof__shape="gabled", roof__orientation="across", roof__height="3", building__colour=colour, **tags)  # fmt: skip
+            self.building(rectangle(center, (6, 9), direction), "tile" if i % 2 else "tile_dark",
+                          building="terrace", roof__shape="gabled", roof__orientation="across",
+                          roof__height="3", building__colour=colour, **tags)  # fmt: skip
 
     def plan_houses(self):
         kinds = [
             ("tile", dict(building="house", building__levels="1", roof__shape="gabled", roof__levels="1")),
-            ("tile_dark", dict(building="house", building__levels="2", roof__shape="hipped", roof__height="2.8")),
-            ("slate", dict(building="detached", height="8.4", roof__shape="gabled", roof__height="3.6", roof__material="slate")),
+            (
+                "tile_dark",
+                dict(building="house", building__levels="2", roof__shape="hipped", roof__height="2.8"),
+            ),
+            (
+                "slate",
+                dict(
+                    building="detached",
+                    height="8.4",
+                    roof__shape="gabled",
+                    roof__height="3.6",
+                    roof__material="slate",
+                ),
+            ),
             ("tile", dict(building="house")),
-            ("tile_dark", dict(building="house", building__levels="1", roof__shape="half-hipped", roof__angle="40")),
-            ("zinc", dict(building="bungalow", height="5.2", roof__shape="hipped", roof__height="2.2", roof__material="metal")),
-            ("tile", dict(building="detached", building__levels="2", roof__shape="gabled", building__material="brick")),
+            (
+                "tile_dark",
+                dict(building="house", building__levels="1", roof__shape="half-hipped", roof__angle="40"),
+            ),
+            (
+                "zinc",
+                dict(
+                    building="bungalow",
+                    height="5.2",
+                    roof__shape="hipped",
+                    roof__height="2.2",
+                    roof__material="metal",
+                ),
+            ),
+            (
+                "tile",
+                dict(
+                    building="detached",
+                    building__levels="2",
+                    roof__shape="gabled",
+                    building__material="brick",
+                ),
+            ),
             ("tile_dark", dict(building="house", building__levels="2")),
         ]
         number = 0
-        for name in ("Main Road", "Church Lane", "Hill Street", "Orchard Street", "Upper Lane", "School Road", "Mill Lane"):
+        for name in (
+            "Main Road",
+            "Church Lane",
+            "Hill Street",
+            "Orchard Street",
+            "Upper Lane",
+            "School Road",
+            "Mill Lane",
+        ):
             for side in (1, -1):
                 for place, direction in along(self.roads[name], 5.0, side * 13.5, 12.0):
                     if max(abs(place[0]) - HALF[0], abs(place[1]) - HALF[1]) > -10 or number >= 54:
@@ -396,21 +546,33 @@ class Village:
         self.osm.way(row, natural="tree_row", genus="Populus")
         for place, _ in along(row, 8.0, 0.0):
             fill(self.picture, circle(place, 2.0, 12), NUMBER["crown"])
-        for line in ([(134, -106), (252, -108)], [(118, 108), (118, 150)], [(-14, -112), (-120, -112)], [(60, 84), (104, 88)]):
+        for line in (
+            [(134, -106), (252, -108)],
+            [(118, 108), (118, 150)],
+            [(-14, -112), (-120, -112)],
+            [(60, 84), (104, 88)],
+        ):
             self.osm.way(line, barrier="hedge", height="1.6")
             stroke(self.picture, line, 1.2, NUMBER["crown"])
-        for name, step in (("Main Road", 28.0), ("Church Lane", 30.0), ("School Road", 30.0), ("Orchard Street", 32.0),
-                           ("Hill Street", 34.0), ("Main Road south", 30.0), ("Mill Lane", 36.0)):  # fmt: skip
+        for name, step in (("Main Road", 28.0), ("Church Lane", 30.0), ("School Road", 30.0),
+                           ("Orchard Street", 32.0), ("Hill Street", 34.0), ("Main Road south", 30.0),
+                           ("Mill Lane", 36.0)):  # fmt: skip
             for place, direction in along(self.roads[name], step, 4.6, 9.0):
                 if abs(place[0]) < HALF[0] and abs(place[1]) < HALF[1]:
                     self.osm.point(place, highway="street_lamp", direction=f"{(180 - direction) % 360:.0f}")
-        for place, direction in (((-8, 14), 180), ((4, 14), 180), ((16, 13), 180), ((-58, 33), 0), ((-88, 42), 300)):
+        for place, direction in (
+            ((-8, 14), 180),
+            ((4, 14), 180),
+            ((16, 13), 180),
+            ((-58, 33), 0),
+            ((-88, 42), 300),
+        ):
             self.osm.point(place, amenity="bench", direction=str(direction))
         self.osm.point((-56, 27), amenity="waste_basket")
         self.osm.point((190, 152), man_made="mast", height="30", tower__type="communication")
 
 
-# ---- files --------------------------------------------------------------------------------------------------
+# ---- files -------------------------------------------------------------------------------------------------
 
 
 def write_terrain(path, step=2.5):
@@ -471,7 +633,9 @@ def write_picture(path, picture):
         where = picture == NUMBER[name]
         shade[where] = (shade // 2 + 1)[where]
     palette = b"".join(
-        bytes(min(255, round(channel * (0.86 + 0.09 * k))) for channel in colour) for colour in COLOURS.values() for k in range(4)
+        bytes(min(255, round(channel * (0.86 + 0.09 * k))) for channel in colour)
+        for colour in COLOURS.values()
+        for k in range(4)
     )
     indices = picture * 4 + shade
 
