@@ -25,7 +25,8 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
 
 /// Loads what was built as any scene is loaded, and checks it.
 LoadedPlace load(const std::string& name, const scene::place::BuiltPlace& built) {
-  const scene::Model model = scene::load_model(name, built.glb, {});
+  const scene::Model model =
+      scene::load_model(name, built.glb, {.radio_materials = {}, .optical_only = true, .keep_faults = true});
   LoadedPlace loaded;
   loaded.check = scene::check_scene(model);
   loaded.facets = loaded.check.figures.facets;
@@ -42,7 +43,7 @@ void build_scene(const BuildCommand& command) {
   if (command.file.empty())
     throw_user_error("scene build: expected the file of a place, place.yaml, found nothing");
   scene::place::PlaceConfig config = scene::place::load_place_config(command.file, command.assets);
-  if (command.simplify_m > 0.0) config.simplify_m = command.simplify_m;
+  if (command.simplify_m) config.simplify_m = *command.simplify_m;
   const std::filesystem::path output = command.output.empty() ? std::filesystem::path(config.name + ".glb")
                                                               : std::filesystem::path(command.output);
   const std::filesystem::path folder = command.report.empty()

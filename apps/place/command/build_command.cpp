@@ -58,7 +58,7 @@ std::vector<std::string> arguments_of(const BuildCommand& command) {
   if (!command.assets.empty()) words.push_back("--assets=" + command.assets);
   if (!command.output.empty()) words.push_back("--output=" + command.output);
   if (!command.report.empty()) words.push_back("--report=" + command.report);
-  if (command.simplify_m > 0.0) words.push_back(fmt::format("--simplify={}", command.simplify_m));
+  if (command.simplify_m) words.push_back(fmt::format("--simplify={}", *command.simplify_m));
   if (command.json) words.emplace_back("--json");
   if (command.quiet) words.emplace_back("--quiet");
   if (command.print_materials) words.emplace_back("--print-materials");

@@ -6,6 +6,7 @@
 // greatx; `greatx scene build` starts it with the same arguments.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace greatx::apps {
 
 struct BuildCommand {
   std::string file, assets, output, report;
-  double simplify_m = 0.0;
+  std::optional<double> simplify_m;  ///< instead of the place's own
   bool quiet = false, json = false, print_materials = false;
 };
 
