@@ -53,8 +53,9 @@ struct Complex {
 
 struct ComplexOptions {
   double foundation_m = 0.5;  ///< depth of foundations below the lowest ground
-  double weld_m = 0.02;       ///< corners and walls nearer than this become one
-  double simplify_m = 0.01;   ///< corners go if the outline then moves by less than this
+  /// Corners and walls nearer than this become one; gaps and slivers of a mean width below this are closed.
+  double weld_m = 0.05;
+  double simplify_m = 0.01;  ///< corners go if the outline then moves by less than this
 };
 
 /// Makes the faces. Where buildings overlap, the higher one stands; what that takes from the other one is a

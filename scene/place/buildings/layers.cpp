@@ -104,6 +104,31 @@ std::vector<Layer> without_overlaps(std::vector<Layer> layers, const dvec2& p, d
   return kept;
 }
 
+/// Gives narrow regions the layers of a neighbour (make_plan).
+void close_narrow_regions(Plan& plan, const std::vector<double>& area_m2, double narrow_m) {
+  std::vector<double> perimeter_m(area_m2.size(), 0.0);
+  for (const PlanEdge& edge : plan.edges) {
+    if (edge.left == edge.right) continue;
+    const double length = glm::distance(plan.place(edge.from), plan.place(edge.to));
+    perimeter_m[edge.left] += length;
+    perimeter_m[edge.right] += length;
+  }
+  const auto narrow = [&](uint32_t region) { return 2.0 * area_m2[region] < narrow_m * perimeter_m[region]; };
+  std::map<std::pair<uint32_t, uint32_t>, double> borders;  // (narrow region, its neighbour) -> length
+  for (const PlanEdge& edge : plan.edges) {
+    if (edge.left == edge.right) continue;
+    const double length = glm::distance(plan.place(edge.from), plan.place(edge.to));
+    if (narrow(edge.left) && !narrow(edge.right)) borders[{edge.left, edge.right}] += length;
+    if (narrow(edge.right) && !narrow(edge.left)) borders[{edge.right, edge.left}] += length;
+  }
+  std::map<uint32_t, std::pair<double, uint32_t>> longest;
+  for (const auto& [pair, length] : borders) {
+    auto& best = longest[pair.first];
+    if (length > best.first) best = {length, pair.second};
+  }
+  for (const auto& [region, best] : longest) plan.layers[region] = plan.layers[best.second];
+}
+
 }  // namespace
 
 Edges noded_outlines(const std::vector<Building>& buildings, const CleaningOptions& cleaning) {
@@ -127,7 +152,7 @@ Edges noded_outlines(const std::vector<Building>& buildings, const CleaningOptio
   return cleaned(node(segments, 1.0 / grid_per_m), cleaning);
 }
 
-Plan make_plan(const std::vector<Building>& buildings, const Edges& edges) {
+Plan make_plan(const std::vector<Building>& buildings, const Edges& edges, double narrow_m) {
   GridPoint low{INT64_MAX, INT64_MAX}, high{INT64_MIN, INT64_MIN};
   for (const auto& edge : edges)
     for (const GridPoint& p : edge) {
@@ -169,6 +194,7 @@ Plan make_plan(const std::vector<Building>& buildings, const Edges& edges) {
       plan.edges.push_back({triangles[t].corners[(side + 1) % 3], triangles[t].corners[(side + 2) % 3],
                             plan.region_of[t], plan.region_of[other]});
     }
+  close_narrow_regions(plan, area_m2, narrow_m);
   return plan;
 }
 

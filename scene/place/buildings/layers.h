@@ -42,7 +42,9 @@ struct Plan {
 
 /// Divides the outlines and roof edges of all buildings where they meet, and cleans them.
 Edges noded_outlines(const std::vector<Building>& buildings, const CleaningOptions& cleaning);
-Plan make_plan(const std::vector<Building>& buildings, const Edges& edges);
+/// A region whose mean width (twice its area over its perimeter) is below `narrow_m`, such as a wedge between
+/// walls that nearly touch, gets the layers of the neighbour with the longest border.
+Plan make_plan(const std::vector<Building>& buildings, const Edges& edges, double narrow_m);
 /// Two planes that meet at an edge cross each other between its ends, at `share` of the way.
 struct PlaneCrossing {
   uint32_t edge = 0;  ///< into Plan::edges

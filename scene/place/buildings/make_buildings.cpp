@@ -180,8 +180,14 @@ class Maker {
       size_t best = outlines_.size();
       if (!part.feature->part_of.empty())
         if (const auto found = by_id.find({part.feature->source, part.feature->part_of});
-            found != by_id.end())
-          best = found->second;
+            found != by_id.end()) {
+          if (outlines_[found->second].box.grown(1.0).meets(part.box))
+            best = found->second;
+          else
+            note(Finding::Kind::doubtful, "part_away_from_building", *part.feature,
+                 fmt::format("it names {} as its building, which is elsewhere: its place counts",
+                             part.feature->part_of));
+        }
       if (best == outlines_.size()) best = around(part);
       if (best == outlines_.size()) continue;
       outlines_[best].parts.push_back(i);
