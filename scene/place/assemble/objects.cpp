@@ -11,6 +11,7 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "scene/generator/objects/trees.h"
+#include "scene/place/input/object_random.h"
 #include "scene/place/input/osm_values.h"
 
 namespace greatx::scene::place {
@@ -79,9 +80,7 @@ class Finder {
 
   void add_point(const Feature& feature, const dvec2& place) {
     if (!rectangle_.holds(place)) return;
-    uint32_t hash = 2166136261u;
-    for (const char c : feature.id) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
-    RandomStream random(config_.seed, hash, 9);
+    RandomStream random = random_of(feature, config_.seed, 9);
     const auto put = [&](ObjectKind kind) {
       double yaw = 0.0;
       if (const std::string* text = feature.tag("direction"))
@@ -154,9 +153,7 @@ class Finder {
   }
 
   void add_row(const Feature& feature, const std::vector<dvec2>& line) {
-    uint32_t hash = 2166136261u;
-    for (const char c : feature.id) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
-    RandomStream random(config_.seed, hash, 10);
+    RandomStream random = random_of(feature, config_.seed, 10);
     double left = 0.0;
     for (size_t i = 0; i + 1 < line.size(); ++i) {
       const double length = glm::distance(line[i], line[i + 1]);

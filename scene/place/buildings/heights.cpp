@@ -8,9 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "core/hash.h"
-#include "core/random.h"
 #include "core/units.h"
+#include "scene/place/input/object_random.h"
 #include "scene/place/input/osm_values.h"
 
 namespace greatx::scene::place {
@@ -21,13 +20,6 @@ constexpr double roof_level_m = 2.5;
 constexpr double usual_roof_angle = radians(35.0);
 constexpr double most_roof_share = 0.45;
 constexpr double most_height_m = 1000.0;
-
-/// A stream of random numbers that depends on the seed and the object's id alone.
-RandomStream stream_of(const Feature& feature, uint64_t seed, uint32_t use) {
-  uint32_t hash = 2166136261u;
-  for (const char c : feature.id) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
-  return RandomStream(seed, hash, use);
-}
 
 void report(std::vector<Finding>& findings, Finding::Kind kind, const char* topic, const PartContext& context,
             std::string detail) {
@@ -108,7 +100,7 @@ void find_shape(PartHeights& part, const Feature& feature, const PartContext& co
     part.shape = shape.value_or(RoofShape::flat);
   } else if (is_pitched_kind(context.use) && context.convex && context.area_m2 < 400.0 &&
              context.half_width_m > 1.5) {
-    RandomStream random = stream_of(feature, config.seed, 2);
+    RandomStream random = random_of(feature, config.seed, 2);
     part.shape = random.uniform() < 0.75 ? RoofShape::gabled : RoofShape::hipped;
     report(findings, Finding::Kind::assumed, "roof_assumed", context,
            fmt::format("no roof:shape: a {} of this size gets a {} roof", context.use, name_of(part.shape)));
@@ -166,7 +158,7 @@ PartHeights heights_of(const Feature& feature, const PartContext& context, const
   } else {
     part.from = Source::assumed;
     const dvec2 range = assumed_range(context.use, config);
-    RandomStream random = stream_of(feature, config.seed, 1);
+    RandomStream random = random_of(feature, config.seed, 1);
     const double walls = std::round(10.0 * random.uniform(range.x, range.y)) / 10.0;
     add_roof(part.bottom_m + walls);
     report(findings, Finding::Kind::assumed, "height_assumed", context,
@@ -208,7 +200,7 @@ std::string facade_class_of(const Feature& feature, const BuildingConfig& config
         if (*value == name) return facade;
   const std::string* kind = feature.tag("building");
   const std::string use = kind ? *kind : "yes";
-  RandomStream random = stream_of(feature, config.seed, 3);
+  RandomStream random = random_of(feature, config.seed, 3);
   const double pick = random.uniform();
   const std::optional<int> year = year_of(feature);
   const auto is = [&](std::initializer_list<const char*> names) {

@@ -4,38 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 #include "scene/place/buildings/complex.h"
+#include "scene/place/plane/cells.h"
 
 namespace greatx::scene::place {
 
 namespace {
-
-/// Finds the buildings around a point: boxes in square cells.
-class BuildingCells {
- public:
-  explicit BuildingCells(const std::vector<Building>& buildings) {
-    for (uint32_t i = 0; i < buildings.size(); ++i) {
-      Box box;
-      for (const Part& part : buildings[i].parts) box.add(box_of(part.area));
-      for (int64_t y = cell(box.low.y); y <= cell(box.high.y); ++y)
-        for (int64_t x = cell(box.low.x); x <= cell(box.high.x); ++x) cells_[key(x, y)].push_back(i);
-    }
-  }
-  const std::vector<uint32_t>& at(const dvec2& p) const {
-    static const std::vector<uint32_t> none;
-    const auto found = cells_.find(key(cell(p.x), cell(p.y)));
-    return found != cells_.end() ? found->second : none;
-  }
-
- private:
-  static int64_t cell(double at) { return static_cast<int64_t>(std::floor(at / 32.0)); }
-  static uint64_t key(int64_t x, int64_t y) {
-    return static_cast<uint64_t>(x) << 32 ^ (static_cast<uint64_t>(y) & 0xFFFFFFFFu);
-  }
-  std::unordered_map<uint64_t, std::vector<uint32_t>> cells_;  ///< for look-ups alone, never iterated
-};
 
 bool holds(const std::vector<Polygon>& area, const dvec2& p) {
   return std::any_of(area.begin(), area.end(), [&](const Polygon& polygon) { return contains(polygon, p); });
@@ -182,7 +157,12 @@ Plan make_plan(const std::vector<Building>& buildings, const Edges& edges, doubl
     largest[region] = twice;
     middle[region] = (plan.place(c[0]) + plan.place(c[1]) + plan.place(c[2])) / 3.0;
   }
-  const BuildingCells cells(buildings);
+  Cells cells(32.0);
+  for (uint32_t i = 0; i < buildings.size(); ++i) {
+    Box box;
+    for (const Part& part : buildings[i].parts) box.add(box_of(part.area));
+    if (!box.empty()) cells.add(box.low, box.high, i);
+  }
   plan.layers.resize(regions);
   for (uint32_t region = 0; region < regions; ++region)
     plan.layers[region] = without_overlaps(layers_at(buildings, cells.at(middle[region]), middle[region]),

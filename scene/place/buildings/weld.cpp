@@ -4,55 +4,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <unordered_map>
+#include <utility>
+
+#include "scene/place/plane/cells.h"
 
 namespace greatx::scene::place {
-
-namespace {
-
-/// Corners in square cells, for look-ups near a place.
-class CornerCells {
- public:
-  explicit CornerCells(double cell_m) : cell_m_(cell_m) {}
-  void add(const dvec2& p) { cells_[key(cell(p.x), cell(p.y))].push_back(p); }
-  template <typename Visit>
-  void near(const dvec2& low, const dvec2& high, const Visit& visit) const {
-    for (int64_t y = cell(low.y); y <= cell(high.y); ++y)
-      for (int64_t x = cell(low.x); x <= cell(high.x); ++x)
-        if (const auto found = cells_.find(key(x, y)); found != cells_.end())
-          for (const dvec2& p : found->second) visit(p);
-  }
-
- private:
-  int64_t cell(double at) const { return static_cast<int64_t>(std::floor(at / cell_m_)); }
-  static uint64_t key(int64_t x, int64_t y) {
-    return static_cast<uint64_t>(x) << 32 ^ (static_cast<uint64_t>(y) & 0xFFFFFFFFu);
-  }
-  double cell_m_;
-  std::unordered_map<uint64_t, std::vector<dvec2>> cells_;  ///< for look-ups alone, never iterated
-};
-
-}  // namespace
 
 size_t weld(std::span<Ring* const> rings, double distance_m) {
   if (!(distance_m > 0.0)) return 0;
   size_t changes = 0;
-  CornerCells corners(4.0);
+  std::vector<dvec2> corners;
+  Cells cells(4.0);
   for (Ring* ring : rings) {
     for (dvec2& p : *ring) {
       double least = distance_m;
       dvec2 best = p;
       bool found = false;
-      corners.near(p - distance_m, p + distance_m, [&](const dvec2& q) {
+      cells.near(p - distance_m, p + distance_m, [&](uint32_t i) {
+        const dvec2& q = corners[i];
         if (glm::distance(p, q) >= least) return;
         least = glm::distance(p, q);
         best = q;
         found = true;
       });
-      if (!found)
-        corners.add(p);
-      else if (best != p) {
+      if (!found) {
+        cells.add(p, p, static_cast<uint32_t>(corners.size()));
+        corners.push_back(p);
+      } else if (best != p) {
         p = best;
         ++changes;
       }
@@ -67,7 +45,8 @@ size_t weld(std::span<Ring* const> rings, double distance_m) {
       const double length = glm::distance(a, b);
       const dvec2 along = (b - a) / length;
       std::vector<std::pair<double, dvec2>> between;
-      corners.near(glm::min(a, b) - distance_m, glm::max(a, b) + distance_m, [&](const dvec2& q) {
+      cells.near(glm::min(a, b) - distance_m, glm::max(a, b) + distance_m, [&](uint32_t corner) {
+        const dvec2& q = corners[corner];
         const double at = glm::dot(q - a, along);
         const double off = std::abs(along.x * (q.y - a.y) - along.y * (q.x - a.x));
         if (at > distance_m && at < length - distance_m && off < distance_m) between.emplace_back(at, q);

@@ -30,8 +30,8 @@ std::vector<double> lines_of(std::vector<double> positions) {
   return lines;
 }
 
-/// Cells between the lines, and which of them lie in the footprint.
-struct Cells {
+/// WingCells between the lines, and which of them lie in the footprint.
+struct WingCells {
   std::vector<double> u, v;
   std::vector<bool> in;
   bool at(size_t i, size_t j) const { return in[j * (u.size() - 1) + i]; }
@@ -40,7 +40,7 @@ struct Cells {
 /// A rectangle of cells, [i0, i1) x [j0, j1).
 using Block = std::array<size_t, 4>;
 
-std::vector<Block> largest_blocks(const Cells& cells) {
+std::vector<Block> largest_blocks(const WingCells& cells) {
   const size_t columns = cells.u.size() - 1, rows = cells.v.size() - 1;
   std::vector<Block> blocks;
   for (size_t j0 = 0; j0 < rows; ++j0)
@@ -81,7 +81,7 @@ std::vector<Rectangle> wings(const Polygon& footprint) {
   visit(ring);
   for (const Ring& hole : footprint.holes) visit(hole);
   if (askew > 0.05 * total) return {};
-  Cells cells{lines_of(u), lines_of(v), {}};
+  WingCells cells{lines_of(u), lines_of(v), {}};
   if (cells.u.size() < 2 || cells.v.size() < 2) return {};
   for (size_t j = 0; j + 1 < cells.v.size(); ++j)
     for (size_t i = 0; i + 1 < cells.u.size(); ++i)

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <unordered_map>
 
+#include "scene/place/plane/cells.h"
 #include "scene/place/plane/noding.h"
 
 namespace greatx::scene::place {
@@ -15,33 +15,6 @@ namespace greatx::scene::place {
 namespace {
 
 constexpr int most_rounds = 6;
-
-/// Things in square cells, for look-ups near a place.
-class Cells {
- public:
-  explicit Cells(double cell_m) : cell_m_(cell_m) {}
-  void add(const dvec2& low, const dvec2& high, uint32_t index) {
-    each(low, high, [&](uint64_t key) { cells_[key].push_back(index); });
-  }
-  template <typename Visit>
-  void near(const dvec2& low, const dvec2& high, const Visit& visit) const {
-    each(low, high, [&](uint64_t key) {
-      if (const auto found = cells_.find(key); found != cells_.end())
-        for (const uint32_t index : found->second) visit(index);
-    });
-  }
-
- private:
-  template <typename Act>
-  void each(const dvec2& low, const dvec2& high, const Act& act) const {
-    const auto cell = [&](double at) { return static_cast<int64_t>(std::floor(at / cell_m_)); };
-    for (int64_t y = cell(low.y); y <= cell(high.y); ++y)
-      for (int64_t x = cell(low.x); x <= cell(high.x); ++x)
-        act(static_cast<uint64_t>(x) << 32 ^ (static_cast<uint64_t>(y) & 0xFFFFFFFFu));
-  }
-  double cell_m_;
-  std::unordered_map<uint64_t, std::vector<uint32_t>> cells_;  ///< for look-ups alone, never iterated
-};
 
 void drop_repeated(Edges& edges) {
   for (auto& edge : edges)
