@@ -264,8 +264,8 @@ class Maker {
     part.bottom_z = building.ground_z + heights.bottom_m;
     part.top_z = roof.ridge_z;
     part.eaves_z = roof.eaves_z;
-    for (const Polygon& polygon : plan)
-      for (RoofFace& face : make_roof(polygon, roof)) part.roof.push_back(std::move(face));
+    // A roof that met the ground at a slant would lie on it along a strip.
+    part.roof = roof_over(plan, roof, part.on_ground ? building.ground_z + 0.1 : part.bottom_z, feature);
     part.roof_class = roof_class_of(feature, heights.shape, building.use);
     const std::string* colour = feature.tag("roof:colour");
     if (!colour) colour = whole.tag("roof:colour");
@@ -273,6 +273,34 @@ class Maker {
     if (building.parts.empty()) building.height_from = heights.from;
     if (heights.storeys > building.storeys || building.parts.empty()) building.storeys = heights.storeys;
     finish(building, std::move(part));
+  }
+
+  /// Makes the roof of a part. No point of it lies below `least_z`: where it would, its eaves are raised.
+  std::vector<RoofFace> roof_over(const std::vector<Polygon>& plan, RoofOptions options, double least_z,
+                                  const Feature& feature) {
+    constexpr double slack_m = 1e-3;
+    const double eaves = options.eaves_z;
+    for (;;) {
+      std::vector<RoofFace> roof;
+      double lowest = 1e300;
+      for (const Polygon& polygon : plan)
+        for (RoofFace& face : make_roof(polygon, options)) {
+          for (const Polygon& piece : face.area)
+            for (const dvec2& p : piece.outer) lowest = std::min(lowest, face.plane.z(p));
+          roof.push_back(std::move(face));
+        }
+      if (lowest >= least_z - slack_m || options.shape == RoofShape::flat) {
+        if (options.eaves_z > eaves)
+          note(Finding::Kind::repaired, "roof_reaches_bottom", feature,
+               fmt::format(
+                   "a roof of {:.2f} m would end below the ground or the part's bottom: its eaves were "
+                   "raised by {:.2f} m",
+                   options.ridge_z - eaves, std::min(options.eaves_z, options.ridge_z) - eaves));
+        return roof;
+      }
+      options.eaves_z += least_z - lowest + slack_m;
+      if (options.eaves_z > options.ridge_z - 0.05) options.shape = RoofShape::flat;
+    }
   }
 
   void add_solid(Building& building, const Candidate& candidate) {

@@ -153,6 +153,32 @@ TEST(PlaceComplex, PartsStackAndBridge) {
   EXPECT_NEAR(closed_volume(boundary(built.complex, 0)), 400 * 10.5 + 100 * 20 + 20 * 5, 1e-1);
 }
 
+TEST(PlaceComplex, SpiresRiseFromTheirBottomAndRoofsEndAboveTheGround) {
+  std::vector<Feature> features{house("a", box(0, 0, 6, 6), {{"height", "30"}})};
+  Feature tower = house("t", box(0, 0, 6, 6), {{"building:part", "yes"}, {"height", "20"}});
+  Feature spire = house("s", box(0, 0, 6, 6),
+                        {{"building:part", "yes"},
+                         {"min_height", "20"},
+                         {"height", "30"},
+                         {"roof:shape", "pyramidal"},
+                         {"roof:height", "10"}});
+  for (Feature* part : {&tower, &spire}) {
+    part->tags.erase("building");
+    features.push_back(*part);
+  }
+  features.push_back(
+      house("b", box(20, 0, 30, 8), {{"height", "5"}, {"roof:shape", "gabled"}, {"roof:height", "5"}}));
+  // An L whose walls are not quite straight: the planes of its wings go on below the eaves.
+  features.push_back(
+      house("c", {{40, 0}, {60, 0.2}, {60, 8}, {48.1, 8}, {48, 18}, {40.2, 18}},
+            {{"height", "6"}, {"min_height", "3"}, {"roof:shape", "hipped"}, {"roof:height", "3"}}));
+  const Built built = build(features);
+  EXPECT_NEAR(closed_volume(boundary(built.complex, 0)), 36 * 20.5 + 36 * 10 / 3.0, 0.05);
+  EXPECT_NEAR(closed_volume(boundary(built.complex, 1)), 80 * (0.5 + 0.1 + 4.9 / 2), 0.1);
+  EXPECT_GT(closed_volume(boundary(built.complex, 2)), 100.0);
+  EXPECT_EQ(built.count("roof_reaches_bottom"), 2u);
+}
+
 TEST(PlaceComplex, WhatPartsLeaveUncoveredIsBuiltAndReported) {
   std::vector<Feature> features{house("a", box(0, 0, 20, 20), {{"height", "30"}})};
   Feature tower = house("t", box(0, 0, 10, 10), {{"building:part", "yes"}, {"height", "30"}});
