@@ -284,7 +284,7 @@ class Assembly {
   std::vector<PlaceMesh> deck_meshes() {
     std::vector<PlaceMesh> meshes;
     for (const Bridge& bridge : out_.ground.bridges) {
-      const std::string object = fmt::format("{}: {}", bridge.source, bridge.id);
+      const std::string object = object_label(bridge.source, bridge.id);
       const Deck deck = make_deck(bridge, level_);
       const bool whole = deck.sections.size() >= 2 &&
                          out_.report.rectangle.holds(deck.sections.front().left) &&

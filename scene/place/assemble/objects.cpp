@@ -93,8 +93,7 @@ class Finder {
     if (is(feature, "natural", "tree")) {
       if (blocked_(place)) {
         findings_.push_back({Finding::Kind::left_out, "tree_in_building",
-                             fmt::format("{}: {}", feature.source, feature.id),
-                             "it stands within a building"});
+                             object_label(feature.source, feature.id), "it stands within a building"});
         return;
       }
       add_tree(place, random, feature.source, feature.id, height(feature), species(feature));

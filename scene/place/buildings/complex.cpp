@@ -360,15 +360,17 @@ Complex make_complex(std::vector<Building>& buildings, const ComplexOptions& opt
   out.built_area_m2.assign(buildings.size(), 0.0);
   if (buildings.empty()) return out;
   Edges edges = noded_outlines(buildings, {options.weld_m, options.simplify_m});
+  if (edges.empty()) return out;
   std::vector<dvec2> corners;
   for (const Building& building : buildings)
     for (const Polygon& polygon : building.read_outline)
       corners.insert(corners.end(), polygon.outer.begin(), polygon.outer.end());
   out.most_moved_m = largest_distance(corners, edges, 4.0 * (options.weld_m + options.simplify_m) + 0.1);
-  Plan plan = make_plan(buildings, edges, options.weld_m);
+  Plan plan = divided_plan(edges);
+  fill_layers(plan, buildings, options.weld_m);
   lay_foundations(buildings, plan, options.foundation_m);
   level_neighbours(buildings, plan, out.most_welded_m);
-  plan = make_plan(buildings, edges, options.weld_m);  // with the heights that are valid now
+  fill_layers(plan, buildings, options.weld_m);  // with the heights that are valid now
   std::vector<PlaneCrossing> crossings = plane_crossings(plan);
   // A corner moves the edge by up to a grid unit, which may bring up another crossing beside it.
   constexpr int most_rounds = 8;
@@ -376,7 +378,8 @@ Complex make_complex(std::vector<Building>& buildings, const ComplexOptions& opt
     Edges divided = divided_at(crossings, plan, edges);
     if (divided == edges) break;
     edges = std::move(divided);
-    plan = make_plan(buildings, edges, options.weld_m);
+    plan = divided_plan(edges);
+    fill_layers(plan, buildings, options.weld_m);
     crossings = plane_crossings(plan);
   }
   report_overlaps(buildings, plan, findings);

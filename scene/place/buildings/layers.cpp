@@ -79,16 +79,18 @@ std::vector<Layer> without_overlaps(std::vector<Layer> layers, const dvec2& p, d
   return kept;
 }
 
-/// Gives narrow regions the layers of a neighbour (make_plan).
-void close_narrow_regions(Plan& plan, const std::vector<double>& area_m2, double narrow_m) {
-  std::vector<double> perimeter_m(area_m2.size(), 0.0);
+/// Gives narrow regions the layers of a neighbour (fill_layers).
+void close_narrow_regions(Plan& plan, double narrow_m) {
+  std::vector<double> perimeter_m(plan.areas_m2.size(), 0.0);
   for (const PlanEdge& edge : plan.edges) {
     if (edge.left == edge.right) continue;
     const double length = glm::distance(plan.place(edge.from), plan.place(edge.to));
     perimeter_m[edge.left] += length;
     perimeter_m[edge.right] += length;
   }
-  const auto narrow = [&](uint32_t region) { return 2.0 * area_m2[region] < narrow_m * perimeter_m[region]; };
+  const auto narrow = [&](uint32_t region) {
+    return 2.0 * plan.areas_m2[region] < narrow_m * perimeter_m[region];
+  };
   std::map<std::pair<uint32_t, uint32_t>, double> borders;  // (narrow region, its neighbour) -> length
   for (const PlanEdge& edge : plan.edges) {
     if (edge.left == edge.right) continue;
@@ -127,8 +129,8 @@ Edges noded_outlines(const std::vector<Building>& buildings, const CleaningOptio
   return cleaned(node(segments, 1.0 / grid_per_m), cleaning);
 }
 
-Plan make_plan(const std::vector<Building>& buildings, const Edges& edges, double narrow_m) {
-  GridPoint low{INT64_MAX, INT64_MAX}, high{INT64_MIN, INT64_MIN};
+Plan divided_plan(const Edges& edges) {
+  GridPoint low = edges.front()[0], high = low;
   for (const auto& edge : edges)
     for (const GridPoint& p : edge) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
@@ -139,43 +141,50 @@ Plan make_plan(const std::vector<Building>& buildings, const Edges& edges, doubl
             {},
             {},
             {},
+            {},
+            {},
             {}};
   uint32_t regions = 0;
   plan.region_of = plan.triangulation.regions(&regions);
+  plan.areas_m2.assign(regions, 0.0);
+  plan.middles.resize(regions);
   const auto& triangles = plan.triangulation.triangles();
   const auto& points = plan.triangulation.points();
   // The middle of a region's largest triangle stands for the region.
   std::vector<int64_t> largest(regions, -1);
-  std::vector<double> area_m2(regions, 0.0);
-  std::vector<dvec2> middle(regions);
   for (uint32_t t = 0; t < triangles.size(); ++t) {
     const auto& c = triangles[t].corners;
     const int64_t twice = orientation(points[c[0]], points[c[1]], points[c[2]]);
     const uint32_t region = plan.region_of[t];
-    area_m2[region] += 0.5 * static_cast<double>(twice) / (grid_per_m * grid_per_m);
-    if (twice <= largest[region]) continue;
-    largest[region] = twice;
-    middle[region] = (plan.place(c[0]) + plan.place(c[1]) + plan.place(c[2])) / 3.0;
+    plan.areas_m2[region] += 0.5 * static_cast<double>(twice) / (grid_per_m * grid_per_m);
+    if (twice > largest[region]) {
+      largest[region] = twice;
+      plan.middles[region] = (plan.place(c[0]) + plan.place(c[1]) + plan.place(c[2])) / 3.0;
+    }
+    for (uint32_t side = 0; side < 3; ++side) {
+      const uint32_t other = triangles[t].across[side];
+      if (!triangles[t].fixed[side] || other == Triangulation::none || other < t) continue;
+      plan.edges.push_back({c[(side + 1) % 3], c[(side + 2) % 3], region, plan.region_of[other]});
+    }
   }
+  return plan;
+}
+
+void fill_layers(Plan& plan, const std::vector<Building>& buildings, double narrow_m) {
   Cells cells(32.0);
   for (uint32_t i = 0; i < buildings.size(); ++i) {
     Box box;
     for (const Part& part : buildings[i].parts) box.add(box_of(part.area));
     if (!box.empty()) cells.add(box.low, box.high, i);
   }
-  plan.layers.resize(regions);
-  for (uint32_t region = 0; region < regions; ++region)
-    plan.layers[region] = without_overlaps(layers_at(buildings, cells.at(middle[region]), middle[region]),
-                                           middle[region], area_m2[region], plan);
-  for (uint32_t t = 0; t < triangles.size(); ++t)
-    for (uint32_t side = 0; side < 3; ++side) {
-      const uint32_t other = triangles[t].across[side];
-      if (!triangles[t].fixed[side] || other == Triangulation::none || other < t) continue;
-      plan.edges.push_back({triangles[t].corners[(side + 1) % 3], triangles[t].corners[(side + 2) % 3],
-                            plan.region_of[t], plan.region_of[other]});
-    }
-  close_narrow_regions(plan, area_m2, narrow_m);
-  return plan;
+  plan.overlaps.clear();
+  plan.layers.assign(plan.middles.size(), {});
+  for (uint32_t region = 0; region < plan.layers.size(); ++region) {
+    const dvec2& p = plan.middles[region];
+    plan.layers[region] =
+        without_overlaps(layers_at(buildings, cells.at(p), p), p, plan.areas_m2[region], plan);
+  }
+  close_narrow_regions(plan, narrow_m);
 }
 
 std::vector<PlaneCrossing> plane_crossings(const Plan& plan) {

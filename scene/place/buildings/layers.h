@@ -31,9 +31,11 @@ struct PlanEdge {
 
 struct Plan {
   Triangulation triangulation;
-  std::vector<uint32_t> region_of;         ///< of each triangle
-  std::vector<std::vector<Layer>> layers;  ///< of each region, from the bottom up, without overlaps
+  std::vector<uint32_t> region_of;  ///< of each triangle
+  std::vector<dvec2> middles;       ///< a point within each region, m
+  std::vector<double> areas_m2;     ///< of each region
   std::vector<PlanEdge> edges;
+  std::vector<std::vector<Layer>> layers;  ///< of each region, from the bottom up, without overlaps
   /// Area in which a building gave way to another one, by (building, the other), m^2.
   std::map<std::pair<uint32_t, uint32_t>, double> overlaps;
 
@@ -42,9 +44,13 @@ struct Plan {
 
 /// Divides the outlines and roof edges of all buildings where they meet, and cleans them.
 Edges noded_outlines(const std::vector<Building>& buildings, const CleaningOptions& cleaning);
-/// A region whose mean width (twice its area over its perimeter) is below `narrow_m`, such as a wedge between
-/// walls that nearly touch, gets the layers of the neighbour with the longest border.
-Plan make_plan(const std::vector<Building>& buildings, const Edges& edges, double narrow_m);
+/// Triangulates the plan; its regions have no layers yet.
+Plan divided_plan(const Edges& edges);
+/// Fills the regions with layers, in place of those that they have. A region whose mean width (twice its area
+/// over its perimeter) is below `narrow_m`, such as a wedge between walls that nearly touch, gets the layers of
+/// the neighbour with the longest border.
+void fill_layers(Plan& plan, const std::vector<Building>& buildings, double narrow_m);
+
 /// Two planes that meet at an edge cross each other between its ends, at `share` of the way.
 struct PlaneCrossing {
   uint32_t edge = 0;  ///< into Plan::edges

@@ -32,7 +32,7 @@ struct Candidate {
   std::vector<size_t> parts;  ///< into the list of parts
 };
 
-std::string label_of(const Feature& feature) { return fmt::format("{}: {}", feature.source, feature.id); }
+std::string label_of(const Feature& feature) { return object_label(feature.source, feature.id); }
 
 /// Lowest ground below the rings: at the corners and every 5 m between them.
 double lowest_ground(const std::vector<Polygon>& area, const GroundAt& ground) {
@@ -115,14 +115,7 @@ class Maker {
              fmt::format("roof faces lie above each other over {:.1f} of {:.1f} m^2: the highest ones count",
                          sum - united, united));
     } else {
-      for (const Polygon& polygon : feature.polygons) {
-        const Repaired valid = repair(polygon);
-        for (const std::string& fault : valid.faults)
-          note(Finding::Kind::repaired,
-               fault == "crosses itself" ? "ring_crosses_itself" : "ring_repeats_itself", feature,
-               fmt::format("outline: {}", fault));
-        candidate.area.insert(candidate.area.end(), valid.polygons.begin(), valid.polygons.end());
-      }
+      candidate.area = repaired(feature.polygons, label_of(feature), "outline", findings_);
       if (candidate.area.size() > 1) candidate.area = unite(candidate.area);
     }
     const double size = area(candidate.area);
@@ -154,18 +147,16 @@ class Maker {
     weld(rings, config_.weld_m);
     for (std::vector<Candidate>* list : {&outlines_, &parts_})
       for (Candidate& candidate : *list) {
-        std::vector<Polygon> valid;
-        if (candidate.solid_roof.empty())
-          for (const Polygon& polygon : candidate.area)
-            for (Polygon& piece : repair(polygon).polygons) valid.push_back(std::move(piece));
-        for (RoofFace& face : candidate.solid_roof) {
-          std::vector<Polygon> pieces;
-          for (const Polygon& polygon : face.area)
-            for (Polygon& piece : repair(polygon).polygons) pieces.push_back(std::move(piece));
-          face.area = pieces;
-          valid.insert(valid.end(), pieces.begin(), pieces.end());
+        if (candidate.solid_roof.empty()) {
+          candidate.area = repaired(candidate.area);
+          continue;
         }
-        candidate.area = candidate.solid_roof.empty() ? valid : unite(valid);
+        std::vector<Polygon> all;
+        for (RoofFace& face : candidate.solid_roof) {
+          face.area = repaired(face.area);
+          all.insert(all.end(), face.area.begin(), face.area.end());
+        }
+        candidate.area = unite(all);
       }
   }
 
@@ -402,7 +393,7 @@ bool is_building_part(const Feature& feature) {
   return value && *value != "no" && (!feature.polygons.empty() || !feature.faces.empty());
 }
 
-std::string label(const Building& building) { return fmt::format("{}: {}", building.source, building.id); }
+std::string label(const Building& building) { return object_label(building.source, building.id); }
 
 std::vector<Polygon> outline(const Building& building) {
   std::vector<Polygon> all;

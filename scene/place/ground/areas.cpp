@@ -153,19 +153,11 @@ GroundPlan ground_plan(const PlaceInput& input, const GroundConfig& config, std:
   GroundPlan plan;
   std::vector<std::vector<Polygon>> bands(cover_count);
   for (const Feature& feature : input.features) {
-    const std::string label = fmt::format("{}: {}", feature.source, feature.id);
+    const std::string label = object_label(feature.source, feature.id);
     if (!feature.polygons.empty() && !feature.tag("building") && !feature.tag("building:part")) {
       const std::optional<Cover> cover = cover_of_area(feature);
       if (!cover || underground(feature)) continue;
-      GroundArea area{*cover, {}, {}};
-      for (const Polygon& polygon : feature.polygons) {
-        const Repaired valid = repair(polygon);
-        for (const std::string& fault : valid.faults)
-          findings.push_back({Finding::Kind::repaired,
-                              fault == "crosses itself" ? "ring_crosses_itself" : "ring_repeats_itself",
-                              label, fmt::format("{}: {}", name_of(*cover), fault)});
-        area.polygons.insert(area.polygons.end(), valid.polygons.begin(), valid.polygons.end());
-      }
+      GroundArea area{*cover, repaired(feature.polygons, label, name_of(*cover), findings), {}};
       area.box = box_of(area.polygons);
       if (!area.polygons.empty()) plan.areas.push_back(std::move(area));
       continue;

@@ -50,6 +50,11 @@ struct Feature {
   }
 };
 
+/// Returns how findings name an object.
+inline std::string object_label(const std::string& source, const std::string& id) {
+  return source + ": " + id;
+}
+
 /// A picture of the ground: sRGB, and where its corners lie. Pixels are addressed by (column, row), row 0
 /// first; pixel centres are at half-integers.
 struct GroundPicture {

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "scene/place/plane/geos.h"
 
@@ -97,6 +100,27 @@ Repaired repair(const Polygon& polygon) {
   const Geometry valid = own(GEOSMakeValid_r(geos(), geometry.get()));
   result.polygons = polygons_of(valid.get());
   return result;
+}
+
+std::vector<Polygon> repaired(const std::vector<Polygon>& polygons) {
+  std::vector<Polygon> pieces;
+  for (const Polygon& polygon : polygons)
+    for (Polygon& piece : repair(polygon).polygons) pieces.push_back(std::move(piece));
+  return pieces;
+}
+
+std::vector<Polygon> repaired(const std::vector<Polygon>& polygons, const std::string& object,
+                              const std::string& what, std::vector<Finding>& findings) {
+  std::vector<Polygon> pieces;
+  for (const Polygon& polygon : polygons) {
+    Repaired valid = repair(polygon);
+    for (const std::string& fault : valid.faults)
+      findings.push_back({Finding::Kind::repaired,
+                          fault == "crosses itself" ? "ring_crosses_itself" : "ring_repeats_itself", object,
+                          fmt::format("{}: {}", what, fault)});
+    for (Polygon& piece : valid.polygons) pieces.push_back(std::move(piece));
+  }
+  return pieces;
 }
 
 std::vector<Polygon> unite(const std::vector<Polygon>& polygons) {

@@ -31,6 +31,12 @@ struct Repaired {
 /// polygon covers what it covered under the even-odd rule.
 Repaired repair(const Polygon& polygon);
 
+/// Makes all polygons of an object valid and returns the pieces.
+std::vector<Polygon> repaired(const std::vector<Polygon>& polygons);
+/// Does the same and adds a finding for each fault; `what` names the polygons, "outline".
+std::vector<Polygon> repaired(const std::vector<Polygon>& polygons, const std::string& object,
+                              const std::string& what, std::vector<Finding>& findings);
+
 std::vector<Polygon> unite(const std::vector<Polygon>& polygons);
 std::vector<Polygon> subtract(const std::vector<Polygon>& from, const std::vector<Polygon>& what);
 std::vector<Polygon> intersect(const std::vector<Polygon>& a, const std::vector<Polygon>& b);
