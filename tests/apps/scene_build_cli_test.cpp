@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Runs `greatx scene build` on small places, good and bad, and on the village of the examples.
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -43,6 +45,16 @@ class SceneBuildCli : public ::testing::Test {
   greatx::test::TemporaryFolder temporary_;
   std::filesystem::path folder_ = temporary_.path();
 };
+
+TEST_F(SceneBuildCli, WithoutItsProgramItSaysWhatToInstall) {
+  std::filesystem::copy_file(GREATX_PROGRAM, folder_ / "greatx");
+  const std::string err = path("err.txt");
+  const int status = std::system(
+      fmt::format("{} scene build {} >{} 2>{}", path("greatx"), place(), path("out.txt"), err).c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_THAT(read_file(err),
+              ::testing::AllOf(HasSubstr("greatx-places"), HasSubstr("libgdal-dev libproj-dev")));
+}
 
 TEST_F(SceneBuildCli, ASceneAndAReportAreWritten) {
   const Outcome outcome = greatx(fmt::format("scene build {} -o {} --quiet", place(), path("new/two.glb")));

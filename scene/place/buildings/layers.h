@@ -46,9 +46,9 @@ struct Plan {
 Edges noded_outlines(const std::vector<Building>& buildings, const CleaningOptions& cleaning);
 /// Triangulates the plan; its regions have no layers yet.
 Plan divided_plan(const Edges& edges);
-/// Fills the regions with layers, in place of those that they have. A region whose mean width (twice its area
-/// over its perimeter) is below `narrow_m`, such as a wedge between walls that nearly touch, gets the layers of
-/// the neighbour with the longest border.
+/// Fills the regions with layers, in place of those that they have. A region whose mean width (twice its
+/// area over its perimeter) is below `narrow_m`, such as a wedge between walls that nearly touch, gets the
+/// layers of the neighbour with the longest border.
 void fill_layers(Plan& plan, const std::vector<Building>& buildings, double narrow_m);
 
 /// Two planes that meet at an edge cross each other between its ends, at `share` of the way.

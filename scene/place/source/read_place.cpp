@@ -354,8 +354,6 @@ class PlaceReader {
 
 }  // namespace
 
-bool places_built_in() { return true; }
-
 PlaceInput read_place(const PlaceConfig& config, const Progress& progress) {
   return PlaceReader(config, progress).read();
 }

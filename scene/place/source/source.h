@@ -23,15 +23,12 @@
 
 namespace greatx::scene::place {
 
-/// Returns whether the program was built with GDAL, PROJ and libosmium.
-bool places_built_in();
-
 /// Hears one sentence per step.
 using Progress = std::function<void(const std::string&)>;
 
 /// Reads all sources. Throws UserError that names the file and the object if a source cannot be read, if it
-/// has no coordinate system, if nothing of the sources lies in the area, or if the program was built without
-/// GDAL, PROJ and libosmium. Faults that cost single objects become findings.
+/// has no coordinate system, or if nothing of the sources lies in the area. Faults that cost single objects
+/// become findings.
 PlaceInput read_place(const PlaceConfig& config, const Progress& progress = {});
 
 }  // namespace greatx::scene::place
