@@ -4,6 +4,7 @@
 
 `python3 -m greatx.convert deepmimo|sionna DIR OUT` does the same from a shell.
 """
+
 from .deepmimo import write_deepmimo
 from .sionna import SionnaPaths, sionna_paths, write_sionna
 

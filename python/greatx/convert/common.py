@@ -1,16 +1,44 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Functions that both converters use."""
+"""Functions that the converters use, and the description of a converter as a command.
+
+Each converter is a module or a package of this folder with a Command, which catalogue.py lists. Data flow one
+way: a converter reads a Dataset, turns its axes and units by common functions, and writes a new folder or
+file. Optional packages (h5py, mcap, ...) are imported by `run`, so that NumPy remains the only package that
+every converter needs.
+"""
+
 from __future__ import annotations
 
+import argparse
+import dataclasses
 import os
 import pathlib
-from typing import Optional, Union
+from typing import Any, Callable, Dict, Optional, Union
 
 import numpy as np
 
 from ..dataset import Dataset, Sensor, Sequence
 from ..errors import DatasetError
+
+
+@dataclasses.dataclass(frozen=True)
+class Command:
+    """Describes a converter for `python3 -m greatx.convert NAME DIR OUT ...`."""
+
+    name: str
+    help: str  #: half a sentence: what OUT becomes
+    #: converts the data set; gets DIR's data set and all arguments, and returns counts for the last line
+    run: Callable[[Dataset, argparse.Namespace], Dict[str, Any]]
+    #: adds the arguments beside DIR and OUT
+    arguments: Callable[[argparse.ArgumentParser], None] = lambda parser: None
+    out_help: str = "folder to make; it must not exist or be empty"
+
+
+def channel_arguments(parser: argparse.ArgumentParser, sequence_default: str) -> None:
+    """Adds --channel and --sequence. `sequence_default` says which sequence is taken without --sequence."""
+    parser.add_argument("--channel", help="name of the channel; needed if there are several")
+    parser.add_argument("--sequence", type=int, help=f"number of the sequence; {sequence_default}")
 
 
 def pick_sequence(dataset: Dataset, number: Optional[int]) -> Sequence:

@@ -8,8 +8,10 @@ independently of the channel's antennas, because DeepMIMO applies arrays and pat
 |a| (dBW for 0 dBW transmitted). phase is the angle of a in degrees at the carrier, for the time convention
 e^{+j omega t}.
 """
+
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import pathlib
@@ -33,7 +35,7 @@ from ..links import (
     receivers,
     transmitters,
 )
-from .common import make_folder, pick_channel, pick_sequence, turns
+from .common import Command, channel_arguments, make_folder, pick_channel, pick_sequence, turns
 
 #: The version of DeepMIMO whose format is written.
 DEEPMIMO_VERSION = "4.0.5"
@@ -297,3 +299,21 @@ def _materials(meta: Dict[str, Any]) -> Dict[str, Any]:
             "thickness": wall["layers"][0]["thickness_m"],
         }
     return materials
+
+
+def _arguments(parser: argparse.ArgumentParser) -> None:
+    channel_arguments(parser, "needed if there are several")
+    parser.add_argument(
+        "--layout",
+        choices=LAYOUTS,
+        default=LAYOUTS[0],
+        help="ticks as snapshots of a dynamic scenario, or as users of a static one (default: %(default)s)",
+    )
+
+
+COMMAND = Command(
+    "deepmimo",
+    "a scenario that DeepMIMO 4 loads",
+    lambda dataset, given: write_deepmimo(dataset, given.OUT, given.channel, given.sequence, given.layout),
+    _arguments,
+)

@@ -4,6 +4,7 @@
 arrays; docs/converters.md). Delays are absolute: `cir` and `cfr` equal those of Sionna's methods with
 normalize_delays=False.
 """
+
 from __future__ import annotations
 
 import dataclasses
@@ -27,7 +28,7 @@ from ..links import (
     receivers,
     transmitters,
 )
-from .common import make_folder, pick_channel, pick_sequence, turns
+from .common import Command, channel_arguments, make_folder, pick_channel, pick_sequence, turns
 
 #: Values of sionna.rt.constants.InteractionType of our interactions: SPECULAR, DIFFUSE, REFRACTION,
 #: DIFFRACTION.
@@ -155,3 +156,11 @@ def write_sionna(
             )
             written += 1
     return {"sequences": len(sensors), "files": written}
+
+
+COMMAND = Command(
+    "sionna",
+    "Sionna RT's arrays, .npz",
+    lambda dataset, given: write_sionna(dataset, given.OUT, given.channel, given.sequence),
+    lambda parser: channel_arguments(parser, "default: all"),
+)
