@@ -4,10 +4,11 @@
 
 from __future__ import annotations
 
-from . import deepmimo, kitti, sionna
+from . import deepmimo, kitti, nuscenes, sionna
 
 COMMANDS = (
     deepmimo.COMMAND,
     sionna.COMMAND,
     *kitti.COMMANDS,
+    nuscenes.COMMAND,
 )
