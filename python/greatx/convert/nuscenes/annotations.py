@@ -3,11 +3,12 @@
 """Makes the rows of nuScenes' tables instance and sample_annotation.
 
 An object that any camera of the node ever has a box for is annotated at every keyframe at which it is in
-range, whether a camera or the LiDAR sees it or not: nuScenes' evaluation leaves out objects without points, and
-trackers want whole tracks. Its visibility is the largest of all cameras at that tick, and the lowest level if
-no camera has a box for it then. Points are counted in the keyframe's own files: LiDAR points of the first LiDAR
-within the box; detections of all radars above and below its base, because most radars do not resolve
-elevation. Velocities have no field: the development kit takes the difference of positions (box_velocity).
+range, whether a camera or the LiDAR sees it or not: nuScenes' evaluation leaves out objects without points,
+and trackers want whole tracks. Its visibility is the largest of all cameras at that tick, and the lowest
+level if no camera has a box for it then. Points are counted in the keyframe's own files: LiDAR points of the
+first LiDAR within the box; detections of all radars above and below its base, because most radars do not
+resolve elevation. Velocities have no field: the development kit takes the difference of positions
+(box_velocity).
 """
 
 from __future__ import annotations

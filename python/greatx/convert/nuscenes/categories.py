@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Names nuScenes' categories, attributes and visibilities, and maps our semantic classes to them.
 
-nuScenes' taxonomy is closed: the development kit has a colour for each of the 32 categories of nuScenes-lidarseg
-and refuses other names when it loads point labels (nuscenes/utils/color_map.py). All classes are therefore
-mapped to these names. What has no name of its own, such as a drone, becomes static.other, which nuScenes
-defines as what matches no other label.
+nuScenes' taxonomy is closed: the development kit has a colour for each of the 32 categories of
+nuScenes-lidarseg and refuses other names when it loads point labels (nuscenes/utils/color_map.py). All
+classes are therefore mapped to these names. What has no name of its own, such as a drone, becomes
+static.other, which nuScenes defines as what matches no other label.
 """
 
 from __future__ import annotations
@@ -48,7 +48,8 @@ CATEGORIES: Tuple[str, ...] = (
     "vehicle.ego",
 )
 
-#: The category of the annotations of our classes; other classes are not annotated unless --category names one.
+#: The category of the annotations of our classes; other classes are not annotated unless --category names
+#: one.
 ANNOTATED: Dict[str, str] = {
     "vehicle": "vehicle.car",
     "person": "human.pedestrian.adult",

@@ -3,10 +3,10 @@
 """Gives the sensors of a node nuScenes' channels: CAM_FRONT, LIDAR_TOP, RADAR_FRONT_LEFT, ...
 
 nuScenes' carrier has six cameras and five radars, which look to fixed directions. A sensor gets the channel
-whose direction is nearest to that of its own axis, by the azimuth of its mount. If several sensors are nearest
-to one channel, the nearest of them gets it, and the others become CAM_ or RADAR_ with their own names in
-capitals. So does a camera that looks within 15 degrees of straight up or down. The first LiDAR is LIDAR_TOP.
-Arguments SENSOR=CHANNEL come before all this.
+whose direction is nearest to that of its own axis, by the azimuth of its mount. If several sensors are
+nearest to one channel, the nearest of them gets it, and the others become CAM_ or RADAR_ with their own names
+in capitals. So does a camera that looks within 15 degrees of straight up or down. The first LiDAR is
+LIDAR_TOP. Arguments SENSOR=CHANNEL come before all this.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from ...errors import DatasetError
 from ..poses import mount
 from ..rig import Rig
 
-#: Azimuths of the axes, degrees from forward to the left (H. Caesar et al., CVPR 2020, figure 4: a front camera
-#: every 55 degrees, the back camera opposite).
+#: Azimuths of the axes, degrees from forward to the left (H. Caesar et al., CVPR 2020, figure 4: a front
+#: camera every 55 degrees, the back camera opposite).
 CAMERAS = {
     "CAM_FRONT": 0.0,
     "CAM_FRONT_LEFT": 55.0,

@@ -2,15 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes nuScenes' files of points: LiDAR (.pcd.bin), its labels, and radar (PCD 0.7).
 
-**LiDAR.** float32 x, y, z, intensity, ring of each point, without a header. nuScenes' LiDAR has x to the right,
-y forward and z up; our points are turned by 90 degrees about z, and so is the calibrated sensor, so that both
-together are exact. Intensity is 0 to 255 in nuScenes and 0 to 1 in greatx: it is multiplied by 255.
+**LiDAR.** float32 x, y, z, intensity, ring of each point, without a header. nuScenes' LiDAR has x to the
+right, y forward and z up; our points are turned by 90 degrees about z, and so is the calibrated sensor, so
+that both together are exact. Intensity is 0 to 255 in nuScenes and 0 to 1 in greatx: it is multiplied by 255.
 
 **Radar.** One point for each detection, with 18 fields as an ARS 408 gives them. x is forward and y to the
-left, as in greatx. Computed are: x, y, z, dyn_prop (0: moving, 1: stationary, by vx_comp and vy_comp), id (the
-row), rcs (dBsm), vx and vy (the rate of range along the line of sight: the device measures no other part), and
-vx_comp and vy_comp (the same with the radar's own motion added). The other fields are constants, see CONSTANTS.
-A file cannot be empty: without a detection it has one point of NaN, which the development kit takes for none.
+left, as in greatx. Computed are: x, y, z, dyn_prop (0: moving, 1: stationary, by vx_comp and vy_comp), id
+(the row), rcs (dBsm), vx and vy (the rate of range along the line of sight: the device measures no other
+part), and vx_comp and vy_comp (the same with the radar's own motion added). The other fields are constants,
+see CONSTANTS. A file cannot be empty: without a detection it has one point of NaN, which the development kit
+takes for none.
 """
 
 from __future__ import annotations
@@ -66,12 +67,10 @@ MOVING_M_S = 0.5
 
 
 def lidar_bytes(points: np.ndarray, ring: np.ndarray) -> bytes:
-    """Returns the file of points float32 [n, 4] of greatx (x forward, y left, z up, intensity) and rings [n]."""
-    out = np.empty((len(points), 5), "<f4")
-    out[:, 0], out[:, 1], out[:, 2] = -points[:, 1], points[:, 0], points[:, 2]
-    out[:, 3] = points[:, 3] * np.float32(INTENSITY_SCALE)
-    out[:, 4] = ring
-    return out.tobytes()
+    """Returns the file of points float32 [n, 4] of greatx (x forward, y left, z up, intensity) and rings
+    [n].""" out = np.empty((len(points), 5), "<f4") out[:, 0], out[:, 1], out[:, 2] = -points[:, 1], points[:,
+    0], points[:, 2] out[:, 3] = points[:, 3] * np.float32(INTENSITY_SCALE) out[:, 4] = ring return
+    out.tobytes()
 
 
 @dataclasses.dataclass(frozen=True)

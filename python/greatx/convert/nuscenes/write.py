@@ -9,9 +9,10 @@
     OUT/maps/empty.png                                          a map on which nothing is known
 
 Data flow: rig -> channels -> for each sequence: keyframes -> samples; records of each sensor -> files and
-sample_data; objects at keyframes -> annotations -> tables. A sequence is a scene. A keyframe is a tick at which
-all sensors of the rig fire. The ego frame is that of the node's body; "global" is the world less `origin`, a
-place 200 m south-west of the carrier's track, because nuScenes' maps have no negative coordinates.
+sample_data; objects at keyframes -> annotations -> tables. A sequence is a scene. A keyframe is a tick at
+which all sensors of the rig fire. The ego frame is that of the node's body; "global" is the world less
+`origin`, a place 200 m south-west of the carrier's track, because nuScenes' maps have no negative
+coordinates.
 """
 
 from __future__ import annotations
@@ -73,9 +74,9 @@ def write_nuscenes(
     """Writes the sequences of a data set as nuScenes' scenes. Returns counts of the written objects.
 
     A sample comes every 1 / keyframes_hz s, or at every common tick if it is 0. Objects up to `range_m` from
-    the carrier are annotated, if any camera of the node ever has a box for them. `channels` are SENSOR=CHANNEL
-    (see channels.py) and `categories` CLASS=CATEGORY, which change categories.ANNOTATED. Raises DatasetError, or
-    FileExistsError if `out` is not empty.
+    the carrier are annotated, if any camera of the node ever has a box for them. `channels` are
+    SENSOR=CHANNEL (see channels.py) and `categories` CLASS=CATEGORY, which change categories.ANNOTATED.
+    Raises DatasetError, or FileExistsError if `out` is not empty.
     """
     return Writer(
         dataset,
@@ -94,10 +95,9 @@ def write_nuscenes(
 
 def keyframes(sequence: Sequence, rig: Rig, rate_hz: float) -> List[int]:
     """Returns the ticks of the samples: every common tick of the rig's sensors that is not earlier than the
-    period after the sample before it. An eighth of a period is allowed for, so that ticks of a rate that is no
-    multiple do not slip by a whole tick."""
-    ticks = [int(tick) for tick in common_ticks(sequence, rig.sensors)]
-    if rate_hz == 0:
+    period after the sample before it. An eighth of a period is allowed for, so that ticks of a rate that is
+    no multiple do not slip by a whole tick.""" ticks = [int(tick) for tick in common_ticks(sequence,
+    rig.sensors)] if rate_hz == 0:
         return ticks
     least = 0.875e9 / rate_hz
     out = [ticks[0]]
@@ -327,8 +327,8 @@ class Writer:
         there = untwisted(record, track) if self.untwist else cloud(record)
         if there.ring is None:
             raise DatasetError(
-                f"{self.dataset.path}: {record.sensor.name}: expected an array 'ring', which nuScenes' points "
-                "have, found none; the LiDAR's outputs need ply or pcd"
+                f"{self.dataset.path}: {record.sensor.name}: expected an array 'ring', which nuScenes' "
+                "points have, found none; the LiDAR's outputs need ply or pcd"
             )
         target.write_bytes(lidar_bytes(there.points, there.ring))
         return there
@@ -339,8 +339,8 @@ class Writer:
             return
         if len(there.instance) and int(there.instance.max()) >= len(self._class_index):
             raise DatasetError(
-                f"{self.dataset.path}: expected instances of points up to {len(self._class_index) - 1}, found "
-                f"{int(there.instance.max())}"
+                f"{self.dataset.path}: expected instances of points up to {len(self._class_index) - 1}, "
+                f"found {int(there.instance.max())}"
             )
         name = f"lidarseg/{self.version}/{row['token']}_lidarseg.bin"
         (root / name).parent.mkdir(parents=True, exist_ok=True)
