@@ -20,8 +20,10 @@ def write_png(
     path: pathlib.Path, width: int, height: int, channels: int, lines: Iterable[np.ndarray]
 ) -> None:
     """Writes `height` lines of uint8 [width * channels], which are not kept in memory. There are 1 (grey) or
-    3 (RGB) channels.""" packer = zlib.compressobj(6) before = np.zeros(width * channels, np.uint8) with
-    open(path, "wb") as file:
+    3 (RGB) channels."""
+    packer = zlib.compressobj(6)
+    before = np.zeros(width * channels, np.uint8)
+    with open(path, "wb") as file:
         header = struct.pack(">IIBBBBB", width, height, 8, {1: 0, 3: 2}[channels], 0, 0, 0)
         file.write(b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", header))
         for line in lines:

@@ -67,10 +67,13 @@ MOVING_M_S = 0.5
 
 
 def lidar_bytes(points: np.ndarray, ring: np.ndarray) -> bytes:
-    """Returns the file of points float32 [n, 4] of greatx (x forward, y left, z up, intensity) and rings
-    [n].""" out = np.empty((len(points), 5), "<f4") out[:, 0], out[:, 1], out[:, 2] = -points[:, 1], points[:,
-    0], points[:, 2] out[:, 3] = points[:, 3] * np.float32(INTENSITY_SCALE) out[:, 4] = ring return
-    out.tobytes()
+    """Returns the file of points float32 [n, 4] of greatx (x forward, y left, z up, intensity) and of their
+    rings [n]."""
+    out = np.empty((len(points), 5), "<f4")
+    out[:, 0], out[:, 1], out[:, 2] = -points[:, 1], points[:, 0], points[:, 2]
+    out[:, 3] = points[:, 3] * np.float32(INTENSITY_SCALE)
+    out[:, 4] = ring
+    return out.tobytes()
 
 
 @dataclasses.dataclass(frozen=True)

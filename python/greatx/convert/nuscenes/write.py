@@ -96,8 +96,9 @@ def write_nuscenes(
 def keyframes(sequence: Sequence, rig: Rig, rate_hz: float) -> List[int]:
     """Returns the ticks of the samples: every common tick of the rig's sensors that is not earlier than the
     period after the sample before it. An eighth of a period is allowed for, so that ticks of a rate that is
-    no multiple do not slip by a whole tick.""" ticks = [int(tick) for tick in common_ticks(sequence,
-    rig.sensors)] if rate_hz == 0:
+    no multiple do not slip by a whole tick."""
+    ticks = [int(tick) for tick in common_ticks(sequence, rig.sensors)]
+    if rate_hz == 0:
         return ticks
     least = 0.875e9 / rate_hz
     out = [ticks[0]]
