@@ -4,9 +4,12 @@
 
 from __future__ import annotations
 
-from . import deepmimo, sionna
+from . import coco, deepmimo, kitti, nuscenes, sionna
 
 COMMANDS = (
     deepmimo.COMMAND,
     sionna.COMMAND,
+    *kitti.COMMANDS,
+    nuscenes.COMMAND,
+    coco.COMMAND,
 )
