@@ -74,8 +74,8 @@ class Dataset:
             else MOST_TICKS
         )
         count = fields["sequences"].integer(1, MOST_SEQUENCES)
-        # The journal is read before the indices are looked for: a sequence that it does not know to have ended
-        # may end in between, and then has an index.
+        # The journal is read before the indices are looked for: a sequence that ends in between then has an
+        # index.
         packets = None if self.complete else read_journal(self.path)
         whole = self._whole(count)
         opened = None if packets is None else open_sequence(self, packets, whole)

@@ -4,8 +4,8 @@
 
 A run commits a tick by one line of journal.txt, after all files of the tick are in place (docs/dataset.md).
 The stacks of the open sequence are NAME.part until the sequence ends, and their headers state no rows.
-Data flow: journal.txt -> packets -> index of the open sequence -> the first rows of each stack. The journal is
-read first, so every row that the index knows is in the files, whatever is appended or renamed later.
+Data flow: journal.txt -> packets -> index of the open sequence -> the first rows of each stack. The journal
+is read first, so every row that the index knows is in the files, whatever is appended or renamed later.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Tests load(DIR, incomplete=True) on a run that is going on, on one that was killed, and on damaged journals."""
+"""Tests load(DIR, incomplete=True) on a run that goes on, on one that was killed, and on damaged journals."""
 
 import os
 import pathlib
