@@ -3,8 +3,8 @@
 """The Python package of greatx (docs/python.md).
 
 `greatx.load(DIR)` opens a generated data set, or a campaign of them, and needs only NumPy. `greatx.convert`
-writes a data set in the conventions of other tools. `greatx.Simulation` computes scenes, paths and channels. It needs the compiled
-module greatx._native, which is imported when `Simulation` is first used.
+writes a data set in the conventions of other tools. `greatx.Simulation` computes scenes, paths and channels.
+It needs the compiled module greatx._native, which is imported when `Simulation` is first used.
 """
 
 from __future__ import annotations

@@ -97,8 +97,8 @@ class CampaignSamples:
         if left_out and self.missing == "error":
             raise DatasetError(
                 f"{self.campaign.path}: {len(left_out)} of {len(keys)} cells lack an array, the first is "
-                f"{left_out[0]!r} without {', '.join(lacking[left_out[0]])}; missing='skip' leaves such cells "
-                "out, missing='none' gives zeros and SENSOR/ARRAY_present"
+                f"{left_out[0]!r} without {', '.join(lacking[left_out[0]])}; missing='skip' leaves such "
+                "cells out, missing='none' gives zeros and SENSOR/ARRAY_present"
             )
         parts: List[_Part] = []
         longest: Dict[str, Optional[int]] = {}
