@@ -4,9 +4,10 @@
 
 from __future__ import annotations
 
-from . import deepmimo, sionna
+from . import deepmimo, kitti, sionna
 
 COMMANDS = (
     deepmimo.COMMAND,
     sionna.COMMAND,
+    *kitti.COMMANDS,
 )
