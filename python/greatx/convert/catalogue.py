@@ -4,10 +4,13 @@
 
 from __future__ import annotations
 
-from . import deepmimo, kitti, sionna
+from . import deepmimo, hdf5, kitti, sionna, trajectories, webdataset
 
 COMMANDS = (
     deepmimo.COMMAND,
     sionna.COMMAND,
     *kitti.COMMANDS,
+    hdf5.COMMAND,
+    webdataset.COMMAND,
+    *trajectories.COMMANDS,
 )
