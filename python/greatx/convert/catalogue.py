@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from . import deepmimo, hdf5, kitti, sionna, trajectories, webdataset
+from . import deepmimo, dsec, hdf5, kitti, mcap, radar, sionna, trajectories, webdataset
 
 COMMANDS = (
     deepmimo.COMMAND,
@@ -13,4 +13,7 @@ COMMANDS = (
     hdf5.COMMAND,
     webdataset.COMMAND,
     *trajectories.COMMANDS,
+    dsec.COMMAND,
+    mcap.COMMAND,
+    *radar.COMMANDS,
 )

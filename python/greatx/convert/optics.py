@@ -38,6 +38,7 @@ class Lens:
     width: int
     height: int
     distortion: Dict[str, float]  #: k1, k2, p1, p2, k3; all 0 for a pinhole camera
+    where: str = ""  #: the camera, in messages
 
     @property
     def distorts(self) -> bool:
@@ -48,11 +49,13 @@ class Lens:
         return np.array([[self.fx, 0.0, self.cx], [0.0, self.fy, self.cy], [0.0, 0.0, 1.0]])
 
     def coefficients(self, most: int = 5) -> List[float]:
-        """Returns k1, k2, p1, p2 and, if `most` is 5, k3. Raises ValueError if k3 has no place and is not 0."""
+        """Returns k1, k2, p1, p2 and, if `most` is 5, k3. Raises DatasetError if k3 has no place and is not
+        0.
+        """
         values = [self.distortion[name] for name in COEFFICIENTS]
         if any(values[most:]):
-            raise ValueError(
-                f"expected a lens with k3 = 0, which has no place in this format, found {values[4]}"
+            raise DatasetError(
+                f"{self.where}: expected k3 = 0, for which this format has no place, found {values[4]}"
             )
         return values[:most]
 
@@ -94,7 +97,7 @@ class Lens:
 
     def undistort(self, shown: np.ndarray) -> np.ndarray:
         """Returns the undistorted coordinates [..., 2] of what the lens shows at normalised coordinates.
-        Raises ValueError if the iteration does not end, as beyond the fold of a lens."""
+        Raises DatasetError if the iteration does not end, as beyond the fold of a lens."""
         shown = np.asarray(shown, float)
         if not self.distorts:
             return shown.copy()
@@ -110,7 +113,7 @@ class Lens:
             points = points - step * np.minimum(1.0, reach / np.maximum(length, 1e-300))
             if worst < 1e-13 * (1.0 + np.max(np.abs(shown), initial=0.0)):
                 return points
-        raise ValueError(f"the inverse of the distortion {self.distortion} was not found within the picture")
+        raise DatasetError(f"{self.where}: expected a distortion with an inverse within the picture")
 
 
 def lens_of(sensor: Sensor) -> Lens:
@@ -131,4 +134,5 @@ def lens_of(sensor: Sensor) -> Lens:
         field["width"].integer(1, 1 << 20),
         field["height"].integer(1, 1 << 20),
         distortion,
+        str(sensor.metadata.where),
     )

@@ -4,7 +4,7 @@
 (docs/exports.md, "Trajectories").
 
 Data flow: the poses of a node at every record, turned by the mount of a sensor if one is asked for -> TUM's
-lines; or, with the node's velocity, acceleration and rate of turn -> EuRoC's ground truth and inertial sensor.
+lines; or, with the node's velocity, acceleration and rate of turn -> EuRoC's true states and inertial sensor.
 Times are whole nanoseconds of the data set's index. Numbers have 17 digits, so that no bit is lost.
 """
 
@@ -156,8 +156,7 @@ def _write_cameras(
     for i, name in enumerate(cameras):
         sensor = sequence[name]
         lens = lens_of(sensor)
-        with interpreting(f"{sequence.dataset.path}: {name}"):
-            coefficients = lens.coefficients(4)
+        coefficients = lens.coefficients(4)
         target = folder / f"cam{i}"
         (target / "data").mkdir(parents=True)
         _, body_from_camera = frame_of(sequence, name)
@@ -220,8 +219,8 @@ def _write_body(folder: pathlib.Path, sequence: Sequence, node: str, gravity: fl
         encoding="utf-8",
     )
     (imu / "sensor.yaml").write_text(
-        f"# true angular velocity and specific force of {node} at its origin: R^T (a + g z), g = {number(gravity)} "
-        "m/s^2\nsensor_type: imu\n"
+        f"# true angular velocity and specific force of {node} at its origin: R^T (a + g z), "
+        f"g = {number(gravity)} m/s^2\nsensor_type: imu\n"
         f"comment: ideal inertial sensor of {node}\n\n{identity}\nrate_hz: {rate_hz}\n\n"
         "gyroscope_noise_density: 0.0\ngyroscope_random_walk: 0.0\n"
         "accelerometer_noise_density: 0.0\naccelerometer_random_walk: 0.0\n",
