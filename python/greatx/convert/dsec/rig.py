@@ -101,9 +101,9 @@ def pair(sequence: Sequence, left: str, right: Optional[str]) -> List[View]:
     forward = pose.rotation[:, 2] + other.rotation[:, 2]
     if baseline == 0 or pose.rotation[:, 0] @ way < 0.5 * baseline or np.linalg.norm(forward) < 1.0:
         raise DatasetError(
-            f"{where}: expected the second camera to the right of the first one, looking the same way; found it "
-            f"at {np.round(pose.inverse().apply(other.position), 6).tolist()} m in optical axes (x right, y "
-            "down, z forward)"
+            f"{where}: expected the second camera to the right of the first one, looking the same way; found "
+            f"it at {np.round(pose.inverse().apply(other.position), 6).tolist()} m in optical axes (x right, "
+            "y down, z forward)"
         )
     x = way / baseline
     z = forward - (forward @ x) * x
@@ -144,7 +144,7 @@ def pick_names(
     if events_left is None:
         if len(events) != 1:
             raise DatasetError(
-                f"{dataset.path}: expected one event camera with events, or its name (--events-left), found it "
+                f"{dataset.path}: expected one event camera with events, or its name (--events-left), found "
                 f"{', '.join(events) or 'none'}"
             )
         events_left = events[0]
@@ -153,7 +153,7 @@ def pick_names(
         images_left = shared if "rgb" in dataset.sensors[shared].arrays else None
     if images_right is not None and images_left is None:
         raise DatasetError(
-            f"{dataset.path}: expected a left frame camera (--images-left) beside the right one"
+            f"{dataset.path}: expected a left camera (--images-left) beside the right one"
         )
     names = Names(events_left, events_right, images_left, images_right)
     nodes = nodes_of(dataset.sequences[0])
