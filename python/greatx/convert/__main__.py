@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """The command python3 -m greatx.convert. Its exit codes are those of greatx: 0 for success, 1 for faulty
-input or data, or if a package is missing that the converter needs.
+input or data, or if a package is missing that the converter needs, 130 if somebody stops it.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from .catalogue import COMMANDS
 def main(arguments: Optional[List[str]] = None) -> int:
     parser = argparse.ArgumentParser(
         prog="python3 -m greatx.convert",
-        description="Writes a data set in the conventions of another tool (docs/converters.md). Nothing is "
+        description="Writes a data set in the conventions of another tool (docs/exports.md). Nothing is "
         "normalised.",
     )
     commands = parser.add_subparsers(dest="to", required=True, metavar="TOOL")
@@ -40,6 +40,9 @@ def main(arguments: Optional[List[str]] = None) -> int:
     except (DatasetError, OSError, ImportError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print(f"error: interrupted; {given.OUT} is not made", file=sys.stderr)
+        return 130
     print(f"{given.OUT}: " + ", ".join(f"{value} {key}" for key, value in summary.items()))
     return 0
 

@@ -4,12 +4,26 @@
 
 from __future__ import annotations
 
-from . import deepmimo, dsec, hdf5, kitti, mcap, radar, sionna, trajectories, webdataset
+from . import (
+    coco,
+    deepmimo,
+    dsec,
+    hdf5,
+    kitti,
+    mcap,
+    nuscenes,
+    radar,
+    sionna,
+    trajectories,
+    webdataset,
+)
 
 COMMANDS = (
     deepmimo.COMMAND,
     sionna.COMMAND,
     *kitti.COMMANDS,
+    nuscenes.COMMAND,
+    coco.COMMAND,
     hdf5.COMMAND,
     webdataset.COMMAND,
     *trajectories.COMMANDS,

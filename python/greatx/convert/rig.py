@@ -114,7 +114,7 @@ def sequences_of(dataset: Dataset, number: Optional[int]) -> List[Sequence]:
     return list(dataset.sequences) if number is None else [pick_sequence(dataset, number)]
 
 
-def rig_arguments(parser: argparse.ArgumentParser, lidar: bool = True) -> None:
+def rig_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments that say what is exported: --node, --sequence, and those of files."""
     parser.add_argument("--node", help="node that carries the sensors; needed if several could be meant")
     parser.add_argument("--sequence", type=int, help="number of the only sequence to write; default: all")

@@ -9,9 +9,9 @@ camera's x; at ry = -pi/2 it points away from the camera.
 
 **Loss.** KITTI's boxes can turn about the camera's y axis alone. A box that is tilted against it (because the
 camera pitches or rolls, or the object does) loses its tilt: its centre and size are exact, ry is that of its
-x axis projected to the camera's x-z plane, and its corners are off by at most |size|/2 times twice the sine of
-half the angle of the turn that is lost. Converters return the largest tilt, the angle between the box's z axis
-and the camera's -y axis. Tracklets of the raw layout lose nothing.
+x axis projected to the camera's x-z plane, and its corners are off by at most |size|/2 times twice the sine
+of half the angle of the turn that is lost. Converters return the largest tilt, the angle between the box's z
+axis and the camera's -y axis. Tracklets of the raw layout lose nothing.
 """
 
 from __future__ import annotations

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the layout of KITTI's odometry benchmark, which pykitti.odometry and most SLAM programs read.
 
-    OUT/sequences/00/calib.txt  times.txt  image_2/000000.png  velodyne/000000.bin    image_3 with a stereo pair
-    OUT/poses/00.txt            a line a frame: [R | t], 3 x 4, of camera 0 in the frame of the first camera 0
+    OUT/sequences/00/calib.txt  times.txt  velodyne/000000.bin
+    OUT/sequences/00/image_2/000000.png         image_3 with a stereo pair
+    OUT/poses/00.txt     a line a frame: [R | t], 3 x 4, of camera 0 in the frame of the first camera 0
 
 Camera 0 is the left camera (see source.py). Positions are relative to the first frame, so the places of a
 scene at UTM coordinates lose no digits.

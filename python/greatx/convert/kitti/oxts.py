@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Turns poses of a node into the 30 values of KITTI's GPS and inertial unit (oxts), whose frame is the body's.
+"""Turns poses of a node into the 30 values of KITTI's GPS and inertial unit (oxts), whose frame is the
+body's.
 
 **Places.** Programs that read oxts (pykitti, KITTI's own convertOxtsToPose) project latitude and longitude
 by Mercator's formula on a sphere, scaled at the first frame:
@@ -38,7 +39,8 @@ GRAVITY = 9.80665  #: m/s^2, standard gravity (CGPM 1901)
 #: Latitude, longitude (degrees) and height (m) of the first frame of a scene without georeference: a round
 #: place near Karlsruhe, where KITTI was recorded.
 DEFAULT_PLACE = (49.0, 8.4, 110.0)
-#: Values that nothing is computed for: pos_accuracy, vel_accuracy, navstat, numsats, posmode, velmode, orimode.
+#: Values that nothing is computed for: pos_accuracy, vel_accuracy, navstat, numsats, posmode, velmode,
+#: orimode.
 CONSTANTS = (0.0, 0.0, 4, 0, 0, 0, 0)
 
 #: Names and meanings of the values, for dataformat.txt.
@@ -104,8 +106,8 @@ class Places:
         self._scale = math.cos(math.radians(self._place[0]))
         if kind == "mercator" and self._scale < 1e-3:
             raise DatasetError(
-                f"latitude {self._place[0]:.4f}: expected a place farther than 0.06 degrees from a pole, where "
-                "Mercator's projection ends; write --places geodetic"
+                f"latitude {self._place[0]:.4f}: expected a place farther than 0.06 degrees from a "
+                "pole, where Mercator's projection ends; write --places geodetic"
             )
 
     def of(self, position: np.ndarray) -> np.ndarray:

@@ -122,8 +122,8 @@ def _pair(left: Record, right: Record) -> float:
     x, y, z = offset.position
     if turned > PAIR_TOLERANCE or max(abs(y), abs(z)) > PAIR_TOLERANCE or x <= 0:
         raise DatasetError(
-            f"{names}: expected a stereo pair, whose right camera (--right) is moved along the picture's rows "
-            f"to the right and not turned; found an offset of {x:.6g}, {y:.6g}, {z:.6g} m (right, down, "
+            f"{names}: expected a stereo pair, whose right camera (--right) is moved along the picture's "
+            f"rows to the right and not turned; found an offset of {x:.6g}, {y:.6g}, {z:.6g} m (right, down, "
             f"forward) and a rotation of about {turned:.2g} rad"
         )
     return float(x)
