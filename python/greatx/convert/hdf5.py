@@ -23,6 +23,7 @@ from ..layout import ArrayInfo
 from .common import Command
 from .files import Records, need, new_file, pick_sensors, selection_arguments
 from .folders import Progress
+from .hdf5_output import hdf5_file
 from .rig import sequences_of
 
 FORMAT, VERSION = "greatx-hdf5", 1
@@ -50,7 +51,8 @@ def write_hdf5(
     _check_names(dataset, names)
     counts = {"sequences": len(sequences), "sensors": len(names), "records": 0, "arrays": 0}
     progress = Progress(sum(len(s[name]) for s in sequences for name in names), "records")
-    with new_file(out) as path, h5py.File(path, "w", libver=("earliest", "v110")) as file:
+    with new_file(out) as path, hdf5_file(h5py, path) as checked:
+        file = checked.file
         file.attrs.update({"format": FORMAT, "format_version": VERSION})
         file.attrs["tick_rate_hz"] = str(dataset.tick_rate_hz)
         for text in ("dataset.json", "scenario.yaml"):
@@ -63,7 +65,9 @@ def write_hdf5(
             index.attrs["columns"] = "tick,time_ns,sensor,sample,row"
             index.attrs["sensors"] = list(each.sensors)
             for name in names:
-                counts["arrays"] += _write_sensor(h5py, group.create_group(name), each[name], level, progress)
+                counts["arrays"] += _write_sensor(
+                    checked, group.create_group(name), each[name], level, progress
+                )
                 counts["records"] += len(each[name])
     progress.end()
     return counts
@@ -84,7 +88,7 @@ def _check_names(dataset: Dataset, names: List[str]) -> None:
             raise DatasetError(f"{dataset.path}: the sensor {name} has the name of an array of {paths[name]}")
 
 
-def _write_sensor(h5py: Any, group: Any, sensor: Sensor, level: int, progress: Progress) -> int:
+def _write_sensor(checked: Any, group: Any, sensor: Sensor, level: int, progress: Progress) -> int:
     group.attrs["kind"] = sensor.kind
     group.attrs["rate_hz"] = "" if sensor.info.rate_hz is None else str(sensor.info.rate_hz)
     for key, value in sensor.metadata.items():
@@ -102,6 +106,7 @@ def _write_sensor(h5py: Any, group: Any, sensor: Sensor, level: int, progress: P
             arrays = records[row]
         for column in columns:
             column.append(arrays[column.array.name])
+        checked.check()
         progress.step()
     for column in columns:
         column.finish()

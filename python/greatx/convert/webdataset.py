@@ -102,7 +102,7 @@ def extension(sensor: str) -> str:
 def npy(array: np.ndarray) -> bytes:
     """Returns a .npy file of version 1.0."""
     out = io.BytesIO()
-    np.lib.format.write_array(out, np.ascontiguousarray(array), version=(1, 0), allow_pickle=False)
+    np.lib.format.write_array(out, np.asarray(array, order="C"), version=(1, 0), allow_pickle=False)
     return out.getvalue()
 
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from ...dataset import Sensor
 from ...errors import DatasetError
+from ..hdf5_output import hdf5_file
 from .rig import View
 
 CHUNK = 1 << 16
@@ -43,7 +44,8 @@ def write_events(h5py: Any, path: pathlib.Path, sensor: Sensor, start_us: int) -
     """Writes events.h5, and returns the number of events. Raises DatasetError if a time does not fit 32
     bits."""
     total = int(sensor["t"].offsets[-1])
-    with h5py.File(path, "w", libver=("earliest", "v110")) as file:
+    with hdf5_file(h5py, path) as checked:
+        file = checked.file
         group = file.create_group("events")
         columns = {
             n: _Column(group, n, d, total) for n, d in (("p", "u1"), ("t", "<u4"), ("x", "<u2"), ("y", "<u2"))
@@ -65,6 +67,7 @@ def write_events(h5py: Any, path: pathlib.Path, sensor: Sensor, start_us: int) -
             known += len(entries)
             for name, values in (("p", events.p), ("t", times), ("x", events.x), ("y", events.y)):
                 columns[name].append(values)
+            checked.check()
             if len(times):
                 last_us = int(times[-1])
             first += len(times)
@@ -79,8 +82,8 @@ def write_rectify_map(h5py: Any, path: pathlib.Path, view: View) -> None:
     rectified = view.rectify(view.grid())
     if not np.all(np.isfinite(rectified)):
         raise DatasetError(f"{view.name}: expected all pixels before the rectified view, found one behind it")
-    with h5py.File(path, "w", libver=("earliest", "v110")) as file:
-        file.create_dataset(
+    with hdf5_file(h5py, path) as checked:
+        checked.file.create_dataset(
             "rectify_map",
             data=rectified.astype(np.float32),
             track_times=False,
