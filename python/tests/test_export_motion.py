@@ -101,7 +101,7 @@ class Tum(Exported):
 
 class Euroc(Exported):
     def test_cameras_look_where_the_engine_sees_the_van(self):
-        """Projects the centre of the van's box, which the engine gives in the world, by what the files say."""
+        """Projects the centre of the van's box, which the engine gives in the world, by the files."""
         write_euroc(self.ds, self.out, start_ns=10**15)
         folder = self.out / "sequence_0001/mav0"
         states = rows_of(folder / "state_groundtruth_estimate0/data.csv")
@@ -187,7 +187,7 @@ class Optics(unittest.TestCase):
                     path = pathlib.Path(holder, "a.png")
                     path.write_bytes(encode_png(picture))
                     if shape == (4, 3, 3) and kind == np.uint16:
-                        continue  # greatx itself has no such pictures; tests/peer/exports_arrays.py reads them
+                        continue  # greatx has no such pictures; tests/peer/exports_data.py reads them
                     np.testing.assert_array_equal(read_png(path), picture)
         with self.assertRaises(ValueError):
             encode_png(np.zeros((2, 2, 2), np.uint8))

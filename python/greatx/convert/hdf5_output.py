@@ -3,8 +3,8 @@
 """Opens HDF5 files for writing so that a full disk is one error of the operating system.
 
 HDF5 writes parts of a file when objects are closed, and h5py reports a failure there as several errors, some
-of which cannot be caught. The file is therefore given to h5py as a Python object, which keeps the first error,
-takes everything that is written after it to nowhere, and lets the caller raise the error at the end.
+of which cannot be caught. The file is therefore given to h5py as a Python object. The object keeps the first
+error, drops everything that is written after it, and lets the caller raise the error at the end.
 """
 
 from __future__ import annotations

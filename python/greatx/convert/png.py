@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes PNG (ISO/IEC 15948) with zlib only: grey and RGB of 8 or 16 bits, with the filter Up in every line.
-"""
+"""Writes PNG (ISO/IEC 15948) with zlib only: grey and RGB of 8 or 16 bits, with the filter Up in every line."""
 
 from __future__ import annotations
 
@@ -46,7 +45,9 @@ def encode_png(picture: np.ndarray) -> bytes:
     ValueError for other arrays."""
     channels = 1 if picture.ndim == 2 else picture.shape[-1] if picture.ndim == 3 else 0
     if picture.dtype not in (np.uint8, np.uint16) or channels not in (1, 3) or 0 in picture.shape:
-        raise ValueError(f"expected uint8 or uint16 [h, w] or [h, w, 3], found {picture.dtype} {picture.shape}")
+        raise ValueError(
+            f"expected uint8 or uint16 [h, w] or [h, w, 3], found {picture.dtype} {picture.shape}"
+        )
     height, width = picture.shape[:2]
     lines = np.ascontiguousarray(picture.astype(picture.dtype.newbyteorder(">"))).view(np.uint8)
     lines = lines.reshape(height, -1)
