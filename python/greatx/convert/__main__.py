@@ -7,10 +7,11 @@ input or data, or if a package is missing that the converter needs, 130 if someb
 from __future__ import annotations
 
 import argparse
+import pathlib
 import sys
 from typing import List, Optional
 
-from .. import DatasetError, load
+from .. import Campaign, DatasetError, load
 from .catalogue import COMMANDS
 
 
@@ -29,7 +30,13 @@ def main(arguments: Optional[List[str]] = None) -> int:
         command.arguments(sub)
     given = parser.parse_args(arguments)
     try:
-        summary = by_name[given.to].run(load(given.DIR), given)
+        dataset = load(given.DIR)
+        if isinstance(dataset, Campaign):
+            raise DatasetError(
+                f"{given.DIR}: expected a data set, found a campaign; convert one of its cells, as "
+                f"{pathlib.Path(given.DIR, 'data', dataset.cells[0])}"
+            )
+        summary = by_name[given.to].run(dataset, given)
     except (DatasetError, OSError, ImportError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1

@@ -4,7 +4,19 @@
 
 from __future__ import annotations
 
-from . import coco, deepmimo, kitti, nuscenes, sionna
+from . import (
+    coco,
+    deepmimo,
+    dsec,
+    hdf5,
+    kitti,
+    mcap,
+    nuscenes,
+    radar,
+    sionna,
+    trajectories,
+    webdataset,
+)
 
 COMMANDS = (
     deepmimo.COMMAND,
@@ -12,4 +24,10 @@ COMMANDS = (
     *kitti.COMMANDS,
     nuscenes.COMMAND,
     coco.COMMAND,
+    hdf5.COMMAND,
+    webdataset.COMMAND,
+    *trajectories.COMMANDS,
+    dsec.COMMAND,
+    mcap.COMMAND,
+    *radar.COMMANDS,
 )
