@@ -303,7 +303,7 @@ class Odometry(unittest.TestCase):
 
 class Object(unittest.TestCase):
     def boxes(self, folder, frame):
-        """Returns the only label of a frame as words, size l, w, h, and centre and axes of the box in camera 0."""
+        """Returns the only label of a frame: its words, size l, w, h, centre and axes in camera 0."""
         (line,) = (folder / f"label_2/{frame:06d}.txt").read_text().splitlines()
         words = line.split()
         self.assertEqual(len(words), 15)
