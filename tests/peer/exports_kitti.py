@@ -125,7 +125,7 @@ def check_object(data, out, choice, worst, tilted):
     camera, lidar = (sequence[f"{node}/{choice[key]}"] for key in ("camera", "lidar"))
 
     class Database(KittiDB):
-        """Makes the rotation orthogonal again, which the kit rounds to 32 bits and pyquaternion then refuses."""
+        """Makes the rotation orthogonal, which the kit rounds to 32 bits and pyquaternion then refuses."""
 
         @staticmethod
         def get_transforms(token, root):

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the checks of the exporters share: an environment with the tools, data sets, and a table of differences.
+"""What the checks of the exporters share: an environment with the tools, data sets, a table of differences.
 
-The data sets are that of python/tests/export_scene.py, which is asymmetric, and, with `--scenes FOLDER`, a few
-ticks of assets/examples/etoile_seven.yaml with the file etoile.glb of FOLDER.
+The data sets are that of python/tests/export_scene.py, which is asymmetric, and, with `--scenes FOLDER`, a
+few ticks of assets/examples/etoile_seven.yaml with the file etoile.glb of FOLDER.
 """
 
 import argparse

@@ -11,6 +11,7 @@ import sys
 from typing import List, Optional
 
 from .. import DatasetError, load
+from ..files import interpreting
 from .catalogue import COMMANDS
 
 
@@ -29,7 +30,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
         command.arguments(sub)
     given = parser.parse_args(arguments)
     try:
-        summary = by_name[given.to].run(load(given.DIR), given)
+        with interpreting(given.DIR):
+            summary = by_name[given.to].run(load(given.DIR), given)
     except (DatasetError, OSError, ImportError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
