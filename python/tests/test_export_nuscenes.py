@@ -29,6 +29,7 @@ class Tables:
     def __init__(self, folder):
         self.folder = folder
         self.rows = {path.stem: json.loads(path.read_text()) for path in (folder / "v1.0-mini").iterdir()}
+        self.splits = self.rows.pop("splits")
         self._by_token = {name: {row["token"]: row for row in rows} for name, rows in self.rows.items()}
 
     def get(self, table, token):
@@ -134,6 +135,14 @@ class Structure(unittest.TestCase):
             self.assertGreaterEqual(sample["timestamp"], row["timestamp"])
             self.assertEqual(row["is_key_frame"], sample["timestamp"] == row["timestamp"])
             self.assertTrue(row["filename"].startswith("samples/" if row["is_key_frame"] else "sweeps/"))
+
+    def test_scenes_have_names_and_a_split(self):
+        self.assertEqual(ego()[0].splits, {"all": ["scene-0000"]})
+        tables, _ = converted(node="level", scene_names=("scene-0103",))
+        self.assertEqual(tables.rows["scene"][0]["name"], "scene-0103")
+        self.assertEqual(tables.splits, {"all": ["scene-0103"]})
+        with self.assertRaisesRegex(greatx.DatasetError, "expected 1 different names.*found a, b"):
+            converted(node="level", scene_names=("a", "b"))
 
     def test_keyframes_have_a_rate(self):
         _, counts = converted(node="ego")  # 2 Hz, 0.4 s

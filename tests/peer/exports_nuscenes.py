@@ -157,6 +157,8 @@ def check_one(data, out, worst, node, **arguments):
     cloud, times = LidarPointCloud.from_file_multisweep(kit, last, "LIDAR_TOP", "LIDAR_TOP", nsweeps=3)
     worst.add("multisweep: span of times missing (0 if there are several sweeps)", float(times.max() <= 0), 0)
     render(kit, kit.sample[0], out)
+    if any(row["category_name"] == "vehicle.car" for row in kit.sample_annotation):
+        check_evaluation(kit, out, worst)
     return counts, boxes
 
 
@@ -188,6 +190,49 @@ def _mean_velocity(data, sequence, node, kit, row):
     # The box's centre is fixed in the body.
     at_body = a.inverse().apply(ends[0][2] + np.array(kit.log[0]["greatx_origin_m"]))
     return (b.apply(at_body) - a.apply(at_body)) / (t1 - t0)
+
+
+def check_evaluation(kit, out, worst):
+    """Gives the kit's evaluation the annotations themselves as predictions, which are perfect: its own
+    reading of categories, attributes, velocities and points must agree with that."""
+    import json
+
+    from nuscenes.eval.common.config import config_factory
+    from nuscenes.eval.detection.evaluate import DetectionEval
+    from nuscenes.eval.detection.utils import category_to_detection_name
+
+    results = {sample["token"]: [] for sample in kit.sample}
+    for row in kit.sample_annotation:
+        name = category_to_detection_name(row["category_name"])
+        if name is None:
+            continue
+        (attribute,) = row["attribute_tokens"]
+        results[row["sample_token"]].append(
+            {
+                "sample_token": row["sample_token"],
+                **{key: row[key] for key in ("translation", "size", "rotation")},
+                "velocity": kit.box_velocity(row["token"])[:2].tolist(),
+                "detection_name": name,
+                "detection_score": 0.5,
+                "attribute_name": kit.get("attribute", attribute)["name"],
+            }
+        )
+    meta = {
+        key: key == "use_lidar" for key in ("use_camera", "use_lidar", "use_radar", "use_map", "use_external")
+    }
+    path = out / "results.json"
+    path.write_text(json.dumps({"meta": meta, "results": results}))
+    evaluation = DetectionEval(
+        kit, config_factory("detection_cvpr_2019"), str(path), "all", str(out / "evaluation"), verbose=False
+    )
+    metrics, _ = evaluation.evaluate()
+    worst.add(
+        "1 - average precision of the annotations themselves (car)", 1 - metrics.mean_dist_aps["car"], 1e-9
+    )
+    for name in ("trans_err", "scale_err", "orient_err", "vel_err", "attr_err"):
+        worst.add(
+            f"evaluation: {name} of the annotations themselves", metrics.get_label_tp("car", name), 1e-6
+        )
 
 
 def render(kit, sample, out):
