@@ -12,6 +12,7 @@ import sys
 from typing import List, Optional
 
 from .. import Campaign, DatasetError, load
+from ..files import interpreting
 from .catalogue import COMMANDS
 
 
@@ -36,7 +37,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
                 f"{given.DIR}: expected a data set, found a campaign; convert one of its cells, as "
                 f"{pathlib.Path(given.DIR, 'data', dataset.cells[0])}"
             )
-        summary = by_name[given.to].run(dataset, given)
+        with interpreting(given.DIR):
+            summary = by_name[given.to].run(dataset, given)
     except (DatasetError, OSError, ImportError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
