@@ -252,9 +252,7 @@ def check(folder, data_sets, program):
         for sequence in data.sequences:
             file = folder / f"mcap_{name}" / f"{sequence.path.name}.mcap"
             topics, count = check_sequence(file, sequence, worst)
-            print(
-                f"{name}, sequence {sequence.number}: {topics} topics, {count} messages, {file.stat().st_size} bytes"
-            )
+            print(f"{name} {sequence.number}: {topics} topics, {count} messages, {file.stat().st_size} B")
         # Another process, with another seed of hashes, writes the same bytes.
         for compression in ("zstd", "lz4"):
             files = []
