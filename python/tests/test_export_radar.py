@@ -106,7 +106,7 @@ class Carrada(Exported):
         self.assertEqual((part["sparse"], part["box"]), ([[2, 5], [2, 9]], [[1, 5], [3, 9]]))
         dense = set(map(tuple, part["dense"]))
         self.assertTrue({(0, 5), (4, 5), (4, 6), (2, 3), (2, 10)} <= dense)
-        # Distances below 3 cells: (2, 2) is at sqrt(8), (3, 0) is not near. Cells beyond the map do not count.
+        # Below 3 cells: (2, 2) is at sqrt(8), (3, 0) is not near. Cells beyond the map are left out.
         self.assertIn((4, 7), dense)
         self.assertTrue({(5, 5), (2, 12), (2, 11)}.isdisjoint(dense))
 

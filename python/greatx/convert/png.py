@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes PNG (ISO/IEC 15948) with zlib only: grey and RGB of 8 or 16 bits, with the filter Up in every line."""
+"""Writes PNG (ISO/IEC 15948) with zlib only: grey and RGB of 8 or 16 bits, filter Up in every line."""
 
 from __future__ import annotations
 
