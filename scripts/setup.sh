@@ -16,7 +16,7 @@ packages=(
   libjpeg-dev libdeflate-dev libwebp-dev libpugixml-dev libkissfft-dev libglfw3-dev libimgui-dev
   libgdal-dev libproj-dev libgeos-dev libosmium2-dev libexpat1-dev libbz2-dev
   libsqlite3-dev libgtest-dev libgmock-dev pybind11-dev python3-dev python3-numpy python3-h5py
-  python3-jsonschema python3-yaml xvfb xauth fonts-dejavu-core
+  python3-jsonschema python3-yaml xvfb xauth fonts-dejavu-core zsh fish
 )
 # lavapipe, Mesa's software Vulkan driver, runs greatx from mesa_minimum on: rays go through greatx's own
 # trees. From mesa_newer on it is twice as fast and also has ray queries and conditional rendering.
