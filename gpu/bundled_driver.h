@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A package of greatx may bring Mesa's lavapipe along, which computes on the CPU, for machines on which nobody
-// can install a driver (packaging/wheel.sh). The Vulkan loader finds the machine's own drivers by itself; this
-// adds ours to them:
+// A package of greatx may bring Mesa's lavapipe along, which computes on the CPU, for machines on which
+// nobody can install a driver (packaging/wheel.sh). The Vulkan loader finds the machine's own drivers by
+// itself; this adds ours to them:
 //
 //   folder of the program or library ─► …/vulkan/lavapipe.json ─► VK_ADD_DRIVER_FILES ─► Vulkan loader
 #pragma once

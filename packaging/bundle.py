@@ -18,6 +18,7 @@ The tag states the newest version of glibc of which a symbol is used. The files 
 so the same input gives the same bytes. It runs on Debian, whose packages say under which licence a library
 is; the wheel has the text of each.
 """
+
 import argparse
 import base64
 import hashlib
@@ -105,31 +106,37 @@ def glibc_of(path):
     return max(((int(a), int(b)) for a, b in versions), default=(2, 0))
 
 
+def owners_of(files):
+    """Returns the package of each file, by one call of dpkg-query. A library may be known to it by its place
+    before /lib became a link to /usr/lib."""
+    places = {place: file for file in files for place in (str(file), str(file).removeprefix("/usr"))}
+    found = subprocess.run(["dpkg-query", "-S", *places], capture_output=True, text=True).stdout
+    pairs = [line.rsplit(": ", 1) for line in found.splitlines()]
+    return {places[place]: package for package, place in pairs}
+
+
 def licences(engine, into):
     """Writes the licence of every bundled library, and a table of them."""
     into.mkdir(parents=True)
+    owners = owners_of(engine.sources.values())
+    # small_gdal.sh builds GDAL from the source of Debian's package.
+    names = sorted({owners.get(file, "libgdal32") for file in engine.sources.values()})
+    form = "${Package},${Version},${source:Package},${source:Version}\n"
+    fields = dict(zip(names, run("dpkg-query", "-W", "-f", form, *names).splitlines()))
     rows = ["file,package,version,source package,source version"]
     for name, file in sorted(engine.sources.items()):
-        # A library may be known by its place before /lib became a link to /usr/lib.
-        places = [str(file), str(file).removeprefix("/usr")]
-        owner = next((o for o in map(owner_of, places) if o), None)
-        package = owner or "libgdal32"  # built by small_gdal.sh from the source of this package
-        fields = run("dpkg-query", "-W", "-f", "${Package},${Version},${source:Package},${source:Version}", package)
-        rows.append(f"{name},{fields}" + ("" if owner else " (built with fewer formats)"))
-        text = pathlib.Path("/usr/share/doc") / fields.split(",")[0] / "copyright"
+        row = fields[owners.get(file, "libgdal32")]
+        rows.append(f"{name},{row}" + ("" if file in owners else " (built with fewer formats)"))
+        package = row.split(",")[0]
+        text = pathlib.Path("/usr/share/doc") / package / "copyright"
         if not text.is_file():
             sys.exit(f"{file}: expected its licence in {text}, found none")
-        shutil.copy(text, into / (fields.split(",")[0] + ".txt"))
+        shutil.copy(text, into / (package + ".txt"))
     # Copyright files of Debian name these texts instead of repeating them.
     for text in pathlib.Path("/usr/share/common-licenses").iterdir():
         if not text.is_symlink():
             shutil.copy(text, into / f"common-{text.name}.txt")
     (into / "LIBRARIES.csv").write_text("\n".join(rows) + "\n")
-
-
-def owner_of(place):
-    found = subprocess.run(["dpkg-query", "-S", place], capture_output=True, text=True).stdout
-    return found.split(": ")[0] if found else None
 
 
 def write_wheel(root, info, tag, out):
@@ -169,7 +176,7 @@ def fill(engine, base, prefix, driver, replaced):
     folder = root / "greatx_engine"
     shutil.copy(pathlib.Path(__file__).parent / "greatx_engine" / "__init__.py", folder)
     shutil.copytree(prefix / "bin", folder / "bin")
-    shutil.copytree(prefix / "share", folder / "share")
+    shutil.copytree(prefix / "share", folder / "share", ignore=shutil.ignore_patterns("images"))
     programs = [*(folder / "bin").iterdir()]
     modules = [path for path in (root / "greatx").iterdir() if is_elf(path)]
     if not modules:
@@ -179,7 +186,8 @@ def fill(engine, base, prefix, driver, replaced):
     library = pathlib.Path(description["ICD"]["library_path"])
     if not library.is_absolute():
         cache = run("ldconfig", "-p")
-        library = pathlib.Path(re.search(rf"^\s*{re.escape(library.name)} .*=> (.*)$", cache, re.MULTILINE).group(1))
+        place = re.search(rf"^\s*{re.escape(library.name)} .*=> (.*)$", cache, re.MULTILINE)
+        library = pathlib.Path(place.group(1))
     for file in [*programs, *modules, library]:
         engine.add_libraries(file, replaced)
     engine.sources[library.name] = library.resolve()

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Holds the programs of greatx and the libraries that they and the module greatx._native need. Wheels with the
-engine have this package beside the package greatx (docs/install.md).
+"""Holds the programs of greatx and the libraries that they and the module greatx._native need. Wheels with
+the engine have this package beside the package greatx (docs/install.md).
 
     bin/      greatx and greatx-places
     lib/      libraries. Most have names of their own, so that a process may have other versions of them, too
@@ -10,6 +10,7 @@ engine have this package beside the package greatx (docs/install.md).
 
 The programs find all of it by their own place. Nothing here needs NumPy, so the command starts at once.
 """
+
 import os
 import pathlib
 import sys
