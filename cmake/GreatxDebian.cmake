@@ -17,6 +17,8 @@ set(CMAKE_INSTALL_PREFIX /usr)
 if(CMAKE_LIBRARY_ARCHITECTURE)
   set(CMAKE_INSTALL_LIBDIR lib/${CMAKE_LIBRARY_ARCHITECTURE})
 endif()
+# All libraries are in the system's folders. HDF5's folder of headers has no library that is loaded.
+set(CMAKE_INSTALL_RPATH_USE_LINK_PATH OFF)
 set(greatx_python_folder lib/python3/dist-packages)
 set(greatx_zsh_folder vendor-completions)
 
@@ -56,7 +58,8 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "greatx")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libgreatx${soversion})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "This is the library for programs that embed the simulator.")
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/shlibs
+                                               ${PROJECT_BINARY_DIR}/debian/triggers)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "mesa-vulkan-drivers")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libgreatx-dev)
@@ -84,6 +87,8 @@ License: Apache-2.0
  On Debian systems, the text of this licence is in
  /usr/share/common-licenses/Apache-2.0.
 ")
+file(WRITE ${debian}/shlibs "libgreatx ${soversion} libgreatx${soversion} (>= ${PROJECT_VERSION})\n")
+file(WRITE ${debian}/triggers "activate-noawait ldconfig\n")
 find_program(GZIP gzip REQUIRED)
 set(manual ${PROJECT_BINARY_DIR}/manual)
 add_custom_target(greatx_debian ALL

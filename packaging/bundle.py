@@ -50,13 +50,21 @@ def is_elf(path):
 
 
 def needed(path):
-    """Yields the name and the file of each library that a file needs, directly or not."""
+    """Returns the names of the libraries that a file itself needs."""
+    names = re.findall(r"\(NEEDED\).*\[(.+)\]", run("readelf", "--wide", "--dynamic", path))
+    return [name for name in names if not OUTSIDE.match(name)]
+
+
+def places_of(path):
+    """Returns where the loader finds each library that a file needs, directly or not, by name."""
+    places = {}
     for line in run("ldd", path).splitlines():
         match = re.match(r"\s*(\S+) => (.+?) \(0x", line)
-        if match and not OUTSIDE.match(match.group(1)):
-            yield match.group(1), pathlib.Path(match.group(2))
+        if match:
+            places[match.group(1)] = pathlib.Path(match.group(2))
         elif "not found" in line:
             sys.exit(f"{path}: expected {line.split()[0]} to be installed, found none")
+    return places
 
 
 def own_name(name, file):
@@ -79,25 +87,32 @@ class Engine:
         self.sources = {}  # name in the wheel: file on this machine
         self.names = {}  # name on this machine: name in the wheel
 
-    def add_libraries(self, of, replaced):
-        for name, file in needed(of):
+    def add_libraries(self, of, replaced, places=None):
+        """Adds what a file needs, directly or not, with `replaced` in place of the libraries of these names."""
+        places = places_of(of) if places is None else places
+        for name in needed(of):
             if name in self.names:
                 continue
-            file = replaced.get(name, file)
+            file = replaced.get(name, places.get(name))
             self.names[name] = own_name(name, file)
             self.sources[self.names[name]] = file.resolve()
             shutil.copy(file, self.lib / self.names[name])
-            if name in replaced:  # it needs libraries of its own
-                self.add_libraries(file, replaced)
+            self.add_libraries(file, replaced, places_of(file) if name in replaced else places)
 
     def patch(self, path, rpath):
         """Makes a file look for the libraries in the wheel, by their names in it."""
         path.chmod(0o755)
-        command = ["patchelf", "--set-rpath", rpath]
-        for name in run("patchelf", "--print-needed", path).split():
-            if self.names.get(name, name) != name:
-                command += ["--replace-needed", name, self.names[name]]
-        run(*command, path)
+        before = run("patchelf", "--print-needed", path).split()
+        after = [self.names.get(name, name) for name in before]
+        pairs = [pair for pair in zip(before, after) if pair[0] != pair[1]]
+        # One change in each call: patchelf 0.14 of Debian 12 forgets some of several.
+        run("patchelf", "--set-rpath", rpath, path)
+        for old, new in pairs:
+            run("patchelf", "--replace-needed", old, new, path)
+        if path.parent == self.lib:
+            run("patchelf", "--set-soname", path.name, path)
+        if run("patchelf", "--print-needed", path).split() != after:
+            sys.exit(f"{path.name}: expected patchelf to write {after}, found others")
 
 
 def glibc_of(path):
@@ -204,8 +219,6 @@ def fill(engine, base, prefix, driver, replaced):
     for path in modules:
         engine.patch(path, "$ORIGIN/../greatx_engine/lib")
     for path in engine.lib.iterdir():
-        if path.name in engine.names.values():
-            run("patchelf", "--set-soname", path.name, path)
         engine.patch(path, "$ORIGIN")
     info = next(root.glob("*.dist-info"))
     licences(engine, info / "licenses" / "bundled")
