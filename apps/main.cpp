@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
   apps::add_calibrate(app);
   apps::add_bench(app);
   apps::add_selftest(app);
+  apps::add_manual(app);
   apps::read_numbers_strictly(app);
   try {
     app.parse(argc, argv);

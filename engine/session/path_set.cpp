@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "python/src/path_set.h"
+#include "engine/session/path_set.h"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@
 #include "sim/plan/antennas.h"
 #include "sim/plan/array_plan.h"
 
-namespace greatx::python {
+namespace greatx::engine {
 
 namespace {
 
@@ -359,4 +359,4 @@ NamedArrays PathSet::coherence(double level) const {
   return arrays;
 }
 
-}  // namespace greatx::python
+}  // namespace greatx::engine

@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "core/record.h"
-#include "python/src/session.h"
+#include "engine/session/session.h"
 #include "rf/channel/frequency_response.h"
 #include "rf/channel/statistics.h"
 #include "sim/channel/link_ends.h"
 
-namespace greatx::python {
+namespace greatx::engine {
 
 /// Describes the samples of a frequency response. A value that is not given is taken from the channel.
 struct ResponseRequest {
@@ -103,4 +103,4 @@ class PathSet {
   std::string facts_;
 };
 
-}  // namespace greatx::python
+}  // namespace greatx::engine

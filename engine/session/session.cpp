@@ -1,23 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "python/src/session.h"
+#include "engine/session/session.h"
 
 #include <cmath>
 
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "python/src/environment.h"
-#include "python/src/map_result.h"
-#include "python/src/path_set.h"
-#include "python/src/stream.h"
+#include "engine/session/environment.h"
+#include "engine/session/map_result.h"
+#include "engine/session/path_set.h"
+#include "engine/session/stream.h"
 #include "sim/channel/notes.h"
 #include "sim/plan/antennas.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/parse/override.h"
 #include "sim/scenario/sensor_kinds.h"
 
-namespace greatx::python {
+namespace greatx::engine {
 
 namespace {
 
@@ -377,4 +377,4 @@ std::unique_ptr<Stream> Session::stream(uint32_t sequence, int64_t first_tick) {
   return std::make_unique<Stream>(now, gpu, sequence, first_tick);
 }
 
-}  // namespace greatx::python
+}  // namespace greatx::engine

@@ -7,10 +7,10 @@
 #include <deque>
 #include <optional>
 
-#include "python/src/session.h"
+#include "engine/session/session.h"
 #include "sim/run/simulator.h"
 
-namespace greatx::python {
+namespace greatx::engine {
 
 class Stream {
  public:
@@ -18,6 +18,8 @@ class Stream {
          int64_t first_tick);
   ~Stream();
 
+  /// Returns what each sensor delivers; index = Record::sensor.
+  const std::vector<SensorSpec>& specs() const { return simulator_->sensors(); }
   /// Returns name, kind, rate, arrays and metadata of each sensor as JSON, in the order of Record::sensor.
   std::string sensors() const;
   /// Returns the next packet, or nullopt at the end of the sequence. Throws UserError if an earlier call
@@ -39,4 +41,4 @@ class Stream {
   std::unique_ptr<sim::Simulator> simulator_;
 };
 
-}  // namespace greatx::python
+}  // namespace greatx::engine

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "python/src/environment.h"
+#include "engine/session/environment.h"
 
 #include <functional>
 #include <map>
 
 #include "scene/georeference/georeference.h"
 
-namespace greatx::python {
+namespace greatx::engine {
 
 void change_environment(sim::Environment& to, const sim::Environment& from, const std::string& key) {
   using E = sim::Environment;
@@ -45,4 +45,4 @@ nlohmann::ordered_json reference_facts(const sim::SceneConfig& scene) {
   return nlohmann::ordered_json::parse(scene::georeference_json(*scene.georeference));
 }
 
-}  // namespace greatx::python
+}  // namespace greatx::engine

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "python/src/stream.h"
+#include "engine/session/stream.h"
 
 #include <nlohmann/json.hpp>
 
-namespace greatx::python {
+namespace greatx::engine {
 
 Stream::Stream(std::shared_ptr<const sim::Experiment> experiment, std::shared_ptr<Gpu> gpu, uint32_t sequence,
                int64_t first_tick)
@@ -63,4 +63,4 @@ std::string Stream::summary() {
   return json.dump();
 }
 
-}  // namespace greatx::python
+}  // namespace greatx::engine

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "python/src/map_result.h"
+#include "engine/session/map_result.h"
 
 #include <nlohmann/json.hpp>
 
-namespace greatx::python {
+namespace greatx::engine {
 
 MapResult map_result(const sim::RadioMapRun& run, std::span<const sim::MapLink> links,
                      const sim::ChannelConfig& config) {
@@ -49,4 +49,4 @@ MapResult map_result(const sim::RadioMapRun& run, std::span<const sim::MapLink> 
   return result;
 }
 
-}  // namespace greatx::python
+}  // namespace greatx::engine

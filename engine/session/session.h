@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Holds a scenario for the Python module. Callers may add to the scenario; its world, its plan and the device
-// are made when they are needed. This code does not depend on Python, and every function may be called from
-// any thread.
+// Holds a scenario for the Python module and for libgreatx. Callers may add to the scenario; its world, its
+// plan and the device are made when they are needed. This code depends on neither of the two, and every
+// function may be called from any thread.
 #pragma once
 
 #include <atomic>
@@ -23,7 +23,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/scenario/scenario.h"
 
-namespace greatx::python {
+namespace greatx::engine {
 
 class PathSet;
 class Stream;
@@ -137,4 +137,4 @@ class Session {
       kept_;  ///< last snapshot, kept because solving it for other points needs no new search
 };
 
-}  // namespace greatx::python
+}  // namespace greatx::engine

@@ -10,7 +10,7 @@
 
 #include "sim/scenario/scenario.h"
 
-namespace greatx::python {
+namespace greatx::engine {
 
 /// Copies the field that `key` names, e.g. "fog_g_m3" or "sun.azimuth_deg". Place and time determine the
 /// positions of the sun and the moon, so angles of the sun replace place and time, and place and time replace
@@ -25,4 +25,4 @@ nlohmann::ordered_json place_facts(const sim::Environment& environment);
 /// vertical_datum}, or null if it has none.
 nlohmann::ordered_json reference_facts(const sim::SceneConfig& scene);
 
-}  // namespace greatx::python
+}  // namespace greatx::engine
