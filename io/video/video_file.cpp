@@ -4,7 +4,7 @@
 // Videos by libavformat and libavcodec, if the program was built with them.
 #include "core/error.h"
 #include "core/text.h"
-#include "view/record/frame_file.h"
+#include "io/video/frame_file.h"
 
 #ifdef GREATX_LIBAV
 
@@ -19,7 +19,7 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
-namespace greatx::view {
+namespace greatx::io {
 
 namespace {
 
@@ -57,7 +57,7 @@ class VideoFile final : public FrameFile {
     GREATX_CHECK(stream_ != nullptr, "libavformat: no memory for a stream");
     expect(avcodec_parameters_from_context(stream_->codecpar, encoder_.get()));
     stream_->time_base = milliseconds;
-    io::File::open_for_writing(part()).close();  // it says what is wrong in the words of the system
+    File::open_for_writing(part()).close();  // it says what is wrong in the words of the system
     expect(avio_open(&muxer->pb, part().c_str(), AVIO_FLAG_WRITE));
     expect(avformat_write_header(muxer, nullptr));
     frame_.reset(av_frame_alloc());
@@ -97,7 +97,7 @@ class VideoFile final : public FrameFile {
     expect(av_write_trailer(muxer_.get()));
     bytes_ = static_cast<uint64_t>(std::max<int64_t>(0, avio_tell(muxer_->pb)));
     expect(avio_closep(&muxer_->pb));
-    io::rename_file(part(), path_);
+    rename_file(part(), path_);
     finished_ = true;
   }
   uint64_t bytes() const override {
@@ -106,7 +106,7 @@ class VideoFile final : public FrameFile {
   }
 
  private:
-  std::filesystem::path part() const { return io::part_name(path_); }
+  std::filesystem::path part() const { return part_name(path_); }
 
   void expect(int result) const {
     if (result >= 0) return;
@@ -151,6 +151,8 @@ class VideoFile final : public FrameFile {
       expect(result);
       av_packet_rescale_ts(packet_.get(), milliseconds, stream_->time_base);
       packet_->stream_index = stream_->index;
+      // An MP4 ends at the end of its last frame. Without a duration, players would leave this frame out.
+      if (packet_->duration <= 0) packet_->duration = av_rescale_q(1, milliseconds, stream_->time_base);
       expect(av_interleaved_write_frame(muxer_.get(), packet_.get()));
     }
   }
@@ -174,17 +176,17 @@ std::unique_ptr<FrameFile> open_video(const std::filesystem::path& path, int wid
   return std::make_unique<VideoFile>(path, width, height);
 }
 
-}  // namespace greatx::view
+}  // namespace greatx::io
 
 #else
 
-namespace greatx::view {
+namespace greatx::io {
 
 bool writes_video() { return false; }
 std::unique_ptr<FrameFile> open_video(const std::filesystem::path& path, int /*width*/, int /*height*/) {
   throw_user_error("{}: this greatx was built without libavformat", printable(path.string()));
 }
 
-}  // namespace greatx::view
+}  // namespace greatx::io
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "view/record/frame_file.h"
+#include "io/video/frame_file.h"
 
 #include <algorithm>
 #include <limits>
@@ -13,7 +13,7 @@
 #include "io/formats/png.h"
 #include "io/formats/webp.h"
 
-namespace greatx::view {
+namespace greatx::io {
 
 namespace {
 
@@ -26,12 +26,10 @@ bool is_video(const std::filesystem::path& path) {
 /// A folder of PNG files: 000000.png, 000001.png, …
 class PngFolder final : public FrameFile {
  public:
-  explicit PngFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
-    io::create_folders(folder_);
-  }
+  explicit PngFolder(std::filesystem::path folder) : folder_(std::move(folder)) { create_folders(folder_); }
   void add(const Array& rgb, int64_t /*start_ms*/) override {
-    const io::Bytes file = io::encode_png(rgb);
-    io::write_file_atomically(folder_ / fmt::format("{:06}.png", count_), file);
+    const Bytes file = encode_png(rgb);
+    write_file_atomically(folder_ / fmt::format("{:06}.png", count_), file);
     ++count_;
     bytes_ += file.size();
   }
@@ -51,17 +49,17 @@ class WebpFile final : public FrameFile {
  public:
   WebpFile(std::filesystem::path path, int width, int height)
       : path_(std::move(path)), animator_(width, height) {
-    io::File::open_for_writing(io::part_name(path_)).close();
+    File::open_for_writing(part_name(path_)).close();
   }
   ~WebpFile() override {
     std::error_code error;
-    if (!finished_) std::filesystem::remove(io::part_name(path_), error);
+    if (!finished_) std::filesystem::remove(part_name(path_), error);
   }
   void add(const Array& rgb, int64_t start_ms) override { animator_.add(rgb, checked(start_ms)); }
   void finish(int64_t end_ms) override {
-    const io::Bytes file = animator_.finish(checked(end_ms));
+    const Bytes file = animator_.finish(checked(end_ms));
     bytes_ = file.size();
-    io::write_file_atomically(path_, file);
+    write_file_atomically(path_, file);
     finished_ = true;
   }
   uint64_t bytes() const override { return bytes_; }
@@ -72,7 +70,7 @@ class WebpFile final : public FrameFile {
     return static_cast<int>(ms);
   }
   std::filesystem::path path_;
-  io::WebpAnimator animator_;
+  WebpAnimator animator_;
   uint64_t bytes_ = 0;
   bool finished_ = false;
 };
@@ -90,8 +88,10 @@ void check_frame_file(const std::filesystem::path& path) {
   const std::filesystem::path name = path.filename(), ending = path.extension();
   const std::string shown = printable(path.string());
   if (is_video(path) && !writes_video())
-    throw_user_error("{}: this greatx was built without libavformat; it records {} or a folder of PNG files",
-                     shown, frame_file_endings());
+    throw_user_error(
+        "{}: this greatx was built without libavformat, so it writes no videos; it writes {} or a "
+        "folder of PNG files (docs/pictures.md)",
+        shown, frame_file_endings());
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::symlink_status(path, error);
   if (ending == ".webp" || is_video(path)) {
@@ -112,10 +112,10 @@ void check_frame_file(const std::filesystem::path& path) {
 std::unique_ptr<FrameFile> open_frame_file(const std::filesystem::path& path, int width, int height) {
   if (is_video(path)) return open_video(path, width, height);
   if (path.extension() != ".webp") return std::make_unique<PngFolder>(path);
-  if (width > io::webp_longest_side || height > io::webp_longest_side)
-    throw_user_error("{}: a WebP has at most {} pixels along a side, the window has {} x {}",
-                     printable(path.string()), io::webp_longest_side, width, height);
+  if (width > webp_longest_side || height > webp_longest_side)
+    throw_user_error("{}: a WebP has at most {} pixels along a side, found {} x {}", printable(path.string()),
+                     webp_longest_side, width, height);
   return std::make_unique<WebpFile>(path, width, height);
 }
 
-}  // namespace greatx::view
+}  // namespace greatx::io

@@ -11,7 +11,7 @@
 
 #include "core/record.h"
 
-namespace greatx::view {
+namespace greatx::io {
 
 /// A file is complete after finish(). Before that it has another name, or is not there. The destructor of an
 /// unfinished one removes what it has written, except the pictures of a folder, which are complete one by
@@ -42,4 +42,4 @@ std::string frame_file_endings();
 bool writes_video();
 std::unique_ptr<FrameFile> open_video(const std::filesystem::path& path, int width, int height);
 
-}  // namespace greatx::view
+}  // namespace greatx::io
