@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -8,12 +9,69 @@
 
 #include "apps/commands.h"
 #include "apps/console/command_line.h"
+#include "apps/console/progress.h"
+#include "draw/report/report.h"
 #include "draw/sheet/animation.h"
 #include "draw/sheet/contact_sheet.h"
 #include "io/dataset/summary.h"
 #include "sim/scenario/scenario.h"
 
 namespace greatx::apps {
+
+namespace {
+
+/// The options of the report, which belong together.
+struct HtmlOptions {
+  std::string file;
+  double megabytes = io::ReportOptions{}.megabytes;
+  size_t moments = io::ReportOptions{}.moments;
+};
+
+void add_html_options(CLI::App& command, HtmlOptions& options) {
+  CLI::Option* const html =
+      command.add_option("--html", options.file, "also write a page with everything in itself, FILE.html");
+  command.add_option("--html-megabytes", options.megabytes, "size of the page, at most")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 1000.0))
+      ->needs(html);
+  command.add_option("--html-ticks", options.moments, "ticks of a sequence on the page, at most")
+      ->capture_default_str()
+      ->check(integer_of(1, 100'000))
+      ->needs(html);
+}
+
+/// Says so if the folder is a campaign, which has data sets but is none.
+void expect_no_campaign(const std::string& folder) {
+  const std::filesystem::path path(folder);
+  if (std::filesystem::exists(path / io::dataset_file) || !std::filesystem::exists(path / "cells.json")) return;
+  std::string cells;
+  std::error_code failure;
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(path / "data", failure))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  for (size_t i = 0; i < std::min<size_t>(names.size(), 5); ++i)
+    cells += fmt::format("{}{}", i == 0 ? "" : ", ", (path / "data" / names[i]).string());
+  throw_user_error("{}: expected a data set, found a campaign of {} finished cells{}{}{}", folder, names.size(),
+                   names.empty() ? "" : ": name one of them: ", cells, names.size() > 5 ? ", ..." : "");
+}
+
+void write_html(const io::DatasetReader& reader, const HtmlOptions& options,
+                const std::optional<uint32_t>& sequence, bool quiet) {
+  std::unique_ptr<Progress> shown;
+  const io::ReportFile page = io::write_html_report(
+      reader, options.file, {options.megabytes, options.moments, sequence}, [&](int64_t done, int64_t total) {
+        if (!shown) shown = std::make_unique<Progress>("report", total, quiet, "");
+        shown->update(done);
+      });
+  shown.reset();
+  for (const std::string& note : page.notes) std::cerr << "note: " << note << '\n';
+  if (!quiet)
+    std::cout << fmt::format("report: {}, {} moments, {:.2f} MB\n", options.file, page.moments,
+                             1e-6 * static_cast<double>(page.bytes));
+}
+
+}  // namespace
 
 void add_inspect(CLI::App& app) {
   CLI::App* command =
@@ -22,6 +80,7 @@ void add_inspect(CLI::App& app) {
     std::vector<std::string> folders;
     std::string picture, animation;
     size_t frames = 36;
+    HtmlOptions html;
     uint32_t sequence = 0;
     bool json = false;
   };
@@ -29,7 +88,9 @@ void add_inspect(CLI::App& app) {
   command
       ->add_option("DIR", options->folders, "folder of the data set; of several, all are drawn side by side")
       ->required();
-  command->add_option("--sequence", options->sequence, "the sequence to draw")
+  CLI::Option* const sequence =
+      command->add_option("--sequence", options->sequence, "the sequence to draw; --html shows all without it");
+  sequence
       ->capture_default_str()
       ->check(integer_of(0, sim::most_sequences));
   command->add_option("--picture", options->picture, "where the contact sheet goes [DIR/contact_sheet.png]");
@@ -39,8 +100,10 @@ void add_inspect(CLI::App& app) {
       ->capture_default_str()
       ->check(integer_of(1, 10'000))
       ->needs(animated);
+  add_html_options(*command, options->html);
   command->add_flag("--json", options->json, "print one JSON object a data set");
-  command->callback([options] {
+  command->callback([options, sequence] {
+    for (const std::string& folder : options->folders) expect_no_campaign(folder);
     std::vector<io::DatasetReader> readers;
     for (const std::string& folder : options->folders) readers.emplace_back(folder);
     if (readers.size() > 1 && options->picture.empty())
@@ -50,6 +113,8 @@ void add_inspect(CLI::App& app) {
                                  : std::filesystem::path(options->picture);
     if (readers.size() > 1 && !options->animation.empty())
       throw_user_error("inspect: --animation shows one data set, found {}", readers.size());
+    if (readers.size() > 1 && !options->html.file.empty())
+      throw_user_error("inspect: --html shows one data set, found {}", readers.size());
     std::optional<io::AnimationFile> shown;
     if (!options->animation.empty())
       shown = io::write_animation(readers[0], options->animation, options->frames, options->sequence);
@@ -57,6 +122,9 @@ void add_inspect(CLI::App& app) {
     for (const io::DatasetReader& reader : readers)
       std::cout << (options->json ? io::to_json(io::summarize(reader)) + "\n"
                                   : io::to_text(io::summarize(reader)));
+    if (!options->html.file.empty())
+      write_html(readers[0], options->html,
+                 sequence->count() > 0 ? std::optional(options->sequence) : std::nullopt, options->json);
     if (options->json) return;
     std::cout << "contact sheet: " << picture.string() << '\n';
     if (shown)
