@@ -43,7 +43,8 @@ void add_html_options(CLI::App& command, HtmlOptions& options) {
 /// Says so if the folder is a campaign, which has data sets but is none.
 void expect_no_campaign(const std::string& folder) {
   const std::filesystem::path path(folder);
-  if (std::filesystem::exists(path / io::dataset_file) || !std::filesystem::exists(path / "cells.json")) return;
+  if (std::filesystem::exists(path / io::dataset_file) || !std::filesystem::exists(path / "cells.json"))
+    return;
   std::string cells;
   std::error_code failure;
   std::vector<std::string> names;
@@ -52,12 +53,13 @@ void expect_no_campaign(const std::string& folder) {
   std::sort(names.begin(), names.end());
   for (size_t i = 0; i < std::min<size_t>(names.size(), 5); ++i)
     cells += fmt::format("{}{}", i == 0 ? "" : ", ", (path / "data" / names[i]).string());
-  throw_user_error("{}: expected a data set, found a campaign of {} finished cells{}{}{}", folder, names.size(),
-                   names.empty() ? "" : ": name one of them: ", cells, names.size() > 5 ? ", ..." : "");
+  throw_user_error("{}: expected a data set, found a campaign of {} finished cells{}{}{}", folder,
+                   names.size(), names.empty() ? "" : ": name one of them: ", cells,
+                   names.size() > 5 ? ", ..." : "");
 }
 
-void write_html(const io::DatasetReader& reader, const HtmlOptions& options,
-                const std::optional<uint32_t>& sequence, bool quiet) {
+io::ReportFile write_html(const io::DatasetReader& reader, const HtmlOptions& options,
+                          const std::optional<uint32_t>& sequence, bool quiet) {
   std::unique_ptr<Progress> shown;
   const io::ReportFile page = io::write_html_report(
       reader, options.file, {options.megabytes, options.moments, sequence}, [&](int64_t done, int64_t total) {
@@ -66,9 +68,7 @@ void write_html(const io::DatasetReader& reader, const HtmlOptions& options,
       });
   shown.reset();
   for (const std::string& note : page.notes) std::cerr << "note: " << note << '\n';
-  if (!quiet)
-    std::cout << fmt::format("report: {}, {} moments, {:.2f} MB\n", options.file, page.moments,
-                             1e-6 * static_cast<double>(page.bytes));
+  return page;
 }
 
 }  // namespace
@@ -88,11 +88,9 @@ void add_inspect(CLI::App& app) {
   command
       ->add_option("DIR", options->folders, "folder of the data set; of several, all are drawn side by side")
       ->required();
-  CLI::Option* const sequence =
-      command->add_option("--sequence", options->sequence, "the sequence to draw; --html shows all without it");
-  sequence
-      ->capture_default_str()
-      ->check(integer_of(0, sim::most_sequences));
+  CLI::Option* const sequence = command->add_option("--sequence", options->sequence,
+                                                    "the sequence to draw; --html shows all without it");
+  sequence->capture_default_str()->check(integer_of(0, sim::most_sequences));
   command->add_option("--picture", options->picture, "where the contact sheet goes [DIR/contact_sheet.png]");
   CLI::Option* const animated =
       command->add_option("--animation", options->animation, "also write an animated picture, FILE.webp");
@@ -115,6 +113,12 @@ void add_inspect(CLI::App& app) {
       throw_user_error("inspect: --animation shows one data set, found {}", readers.size());
     if (readers.size() > 1 && !options->html.file.empty())
       throw_user_error("inspect: --html shows one data set, found {}", readers.size());
+    // First, because it refuses to replace another file.
+    std::optional<io::ReportFile> page;
+    if (!options->html.file.empty())
+      page =
+          write_html(readers[0], options->html,
+                     sequence->count() > 0 ? std::optional(options->sequence) : std::nullopt, options->json);
     std::optional<io::AnimationFile> shown;
     if (!options->animation.empty())
       shown = io::write_animation(readers[0], options->animation, options->frames, options->sequence);
@@ -122,10 +126,10 @@ void add_inspect(CLI::App& app) {
     for (const io::DatasetReader& reader : readers)
       std::cout << (options->json ? io::to_json(io::summarize(reader)) + "\n"
                                   : io::to_text(io::summarize(reader)));
-    if (!options->html.file.empty())
-      write_html(readers[0], options->html,
-                 sequence->count() > 0 ? std::optional(options->sequence) : std::nullopt, options->json);
     if (options->json) return;
+    if (page)
+      std::cout << fmt::format("report: {}, {} moments, {:.2f} MB\n", options->html.file, page->moments,
+                               1e-6 * static_cast<double>(page->bytes));
     std::cout << "contact sheet: " << picture.string() << '\n';
     if (shown)
       std::cout << fmt::format("animation: {}, {} frames of {} x {} pixels, {:.3g} s, {:.2f} MB\n",

@@ -19,9 +19,8 @@ int64_t thinning(int64_t width, int64_t most) { return (width + most - 1) / most
 
 void note_thinning(const Context& context, const char* what, const SensorSpec& sensor, int64_t factor) {
   if (factor > 1)
-    context.collected.notes.insert(
-        fmt::format("{} of {} are shown at 1/{} of their width and height.", what, printable(sensor.name),
-                    factor));
+    context.collected.notes.insert(fmt::format("{} of {} are shown at 1/{} of their width and height.", what,
+                                               printable(sensor.name), factor));
 }
 
 /// Averages blocks of factor x factor pixels, as their codes are (sRGB).
@@ -88,7 +87,8 @@ Json encode_scalar(const Context& context, const PanelSource& source, const Arra
   std::vector<uint32_t> codes;
   codes.reserve(kept.size());
   for (const float value : kept) codes.push_back(code.code(value));
-  Json json = raster_json(context.blobs.add(packed(codes, 2, static_cast<size_t>(size.second))), size, factor);
+  Json json =
+      raster_json(context.blobs.add(packed(codes, 2, static_cast<size_t>(size.second))), size, factor);
   json["low"] = code.low;
   json["ratio"] = code.ratio;
   add_span(json, std::move(kept));
@@ -111,7 +111,8 @@ Json encode_flow(const Context& context, const PanelSource& source, const Array&
       if (part == 0) lengths.push_back(std::hypot(values[2 * pixel], values[2 * pixel + 1]));
     });
   note_thinning(context, "Depth, ids and other values", source.spec(), factor);
-  Json json = raster_json(context.blobs.add(packed(codes, 2, static_cast<size_t>(size.second))), size, factor);
+  Json json =
+      raster_json(context.blobs.add(packed(codes, 2, static_cast<size_t>(size.second))), size, factor);
   json["step"] = flow_step_px;
   add_span(json, std::move(lengths));
   return json;
@@ -125,7 +126,7 @@ Json encode_normals(const Context& context, const Array& normals) {
   for (const size_t part : {0, 1, 2})
     size = thin(normals, factor, [&](size_t pixel) {
       codes.push_back(
-          static_cast<uint32_t>(std::lround(128.0 + 127.0 * std::clamp(values[3 * pixel + part], -1.0f, 1.0f))));
+          static_cast<uint32_t>(nearest(128.0 + 127.0 * std::clamp(values[3 * pixel + part], -1.0f, 1.0f))));
     });
   return raster_json(context.blobs.add(packed(codes, 1, static_cast<size_t>(size.second))), size, factor);
 }
@@ -146,8 +147,8 @@ Json encode_boxes(const Context& context, const PanelSource& source, const Index
     const double* const c = center.as<double>().data() + 3 * i;
     const float* const s = size.as<float>().data() + 3 * i;
     const double* const q = turn.as<double>().data() + 4 * i;
-    Json box = {ids.as<uint32_t>()[i], rounded(r[0], 1),  rounded(r[1], 1),
-                rounded(r[2], 1),      rounded(r[3], 1),  rounded(visible.as<float>()[i], 3)};
+    Json box = {ids.as<uint32_t>()[i], rounded(r[0], 1), rounded(r[1], 1),
+                rounded(r[2], 1),      rounded(r[3], 1), rounded(visible.as<float>()[i], 3)};
     for (const Json& value : place_json(context, {c[0], c[1], c[2]})) box.push_back(value);
     for (int k = 0; k < 3; ++k) box.push_back(rounded(s[k], 3));
     for (int k = 0; k < 4; ++k) box.push_back(rounded(q[k], 6));
@@ -196,8 +197,8 @@ Json describe_camera(const PanelSource& source) {
 }
 
 Json encode_camera(const Context& context, const PanelSource& source, const IndexRow& row) {
-  Json json = {{"pose", pose_json(context, context.poses.world_from(node_of(source.spec()),
-                                                                    mount_of(source), row.tick))}};
+  Json json = {{"pose", pose_json(context, context.poses.world_from(node_of(source.spec()), mount_of(source),
+                                                                    row.tick))}};
   if (source.has("rgb")) {
     const Array rgb = source.load(row, "rgb", {DType::u8}, {0, 0, 3});
     const int64_t factor = thinning(rgb.shape[1], context.detail.picture_width);
@@ -215,14 +216,14 @@ Json encode_camera(const Context& context, const PanelSource& source, const Inde
     }
   const std::vector<DType> integers{DType::u8, DType::u16, DType::u32};
   if (source.has("instance"))
-    json["instance"] = encode_ids(context, source.load(row, "instance", integers, {0, 0}),
-                                  context.collected.instances);
+    json["instance"] =
+        encode_ids(context, source.load(row, "instance", integers, {0, 0}), context.collected.instances);
   if (source.has("semantic"))
-    json["semantic"] = encode_ids(context, source.load(row, "semantic", integers, {0, 0}),
-                                  context.collected.classes);
+    json["semantic"] =
+        encode_ids(context, source.load(row, "semantic", integers, {0, 0}), context.collected.classes);
   if (source.has("material"))
-    json["material"] = encode_ids(context, source.load(row, "material", integers, {0, 0}),
-                                  context.collected.materials);
+    json["material"] =
+        encode_ids(context, source.load(row, "material", integers, {0, 0}), context.collected.materials);
   if (source.has("flow"))
     json["flow"] = encode_flow(context, source, source.load(row, "flow", {DType::f32}, {0, 0, 2}));
   if (source.has("normals"))

@@ -88,15 +88,16 @@ Json encode_link(const Context& context, const PanelSource& source, const Array&
     const std::span<const Complex> line = row(pair / tx_ports, pair % tx_ports);
     for (size_t k = 0; k < n; k += by) {
       values.push_back(line[k]);
-      largest = std::max({largest, std::abs(double{line[k].real()}), std::abs(double{line[k].imag()})});
+      for (const float part : {line[k].real(), line[k].imag()})
+        if (std::isfinite(part)) largest = std::max(largest, std::abs(double{part}));
     }
   }
   const double step = largest > 0.0 ? largest / 32767.0 : 1.0;
   std::vector<uint32_t> codes;
   for (const bool imaginary : {false, true})
     for (const Complex& value : values)
-      codes.push_back(static_cast<uint32_t>(
-          32768 + std::lround(double{imaginary ? value.imag() : value.real()} / step)));
+      codes.push_back(
+          static_cast<uint32_t>(32768 + nearest(double{imaginary ? value.imag() : value.real()} / step)));
   const LogCode code = LogCode::of(power, power_ratio);
   std::vector<uint32_t> levels;
   for (const float value : power) levels.push_back(code.code(value));
@@ -107,9 +108,10 @@ Json encode_link(const Context& context, const PanelSource& source, const Array&
           {"pairs", std::move(pairs)},
           {"blob", context.blobs.add(packed(codes, 2, power.size()))},
           {"step", step},
-          {"mean", {{"blob", context.blobs.add(packed(levels, 2, power.size()))},
-                    {"low", code.low},
-                    {"ratio", code.ratio}}}};
+          {"mean",
+           {{"blob", context.blobs.add(packed(levels, 2, power.size()))},
+            {"low", code.low},
+            {"ratio", code.ratio}}}};
 }
 
 /// The strongest paths of a record as text, a row each: [rx, tx, delay ns, power dB, Doppler Hz, kinds,
@@ -137,15 +139,15 @@ Json encode_paths(const Context& context, const PanelSource& source, const Index
                              arrival = optional("arrival", DType::f64, {-1, 2});
   const auto count = static_cast<size_t>(rx.shape[0]), depth = static_cast<size_t>(kind.shape[1]);
   if (static_cast<size_t>(vertex.shape[1]) != depth)
-    throw_user_error("{}, tick {}: expected as many vertices as interactions, found {} and {}", source.place(),
-                     record.tick, vertex.shape[1], depth);
+    throw_user_error("{}, tick {}: expected as many vertices as interactions, found {} and {}",
+                     source.place(), record.tick, vertex.shape[1], depth);
   std::vector<double> power(count, 0.0);
   if (amplitude) {
     const auto ports = static_cast<size_t>(amplitude->shape[1] * amplitude->shape[2]);
     const std::span<const Complex> a = amplitude->as<Complex>();
     for (size_t i = 0; i < count; ++i) {
       for (size_t k = 0; k < ports; ++k) power[i] += std::norm(std::complex<double>(a[i * ports + k]));
-      power[i] /= static_cast<double>(ports);
+      power[i] = std::isfinite(power[i]) ? power[i] / static_cast<double>(ports) : 0.0;
     }
   }
   std::vector<size_t> order(count);
@@ -204,8 +206,8 @@ Json encode_sensing(const Context& context, const PanelSource& source, const Ind
     const auto cells = static_cast<size_t>(map.shape[2] * map.shape[3]);
     expect_link(source, map, rx, tx);
     link = rx * static_cast<size_t>(map.shape[1]) + tx;
-    json[name] = encode_power(context, map.as<float>().subspan(link * cells, cells), map.shape[2],
-                              map.shape[3]);
+    json[name] =
+        encode_power(context, map.as<float>().subspan(link * cells, cells), map.shape[2], map.shape[3]);
   }
   if (source.has("target_range") && targets > 0) {
     Json list = Json::array();
@@ -276,7 +278,8 @@ std::vector<std::string> targets_of(const PanelSource& source) {
 
 Json places_of(const Context& context, const std::vector<End>& ends, int64_t tick) {
   Json list = Json::array();
-  for (const End& end : ends) list.push_back(pose_json(context, context.poses.world_from(end.node, end.mount, tick)));
+  for (const End& end : ends)
+    list.push_back(pose_json(context, context.poses.world_from(end.node, end.mount, tick)));
   return list;
 }
 
@@ -316,9 +319,8 @@ Json encode_channel(const Context& context, const PanelSource& source, const Ind
   if (source.has("cfr")) {
     const Array cfr = source.load(row, "cfr", {DType::complex64}, {0, 0, 0, 0, 0, 0});
     json["links"] = Json::array();
-    each_link(static_cast<size_t>(cfr.shape[0]), static_cast<size_t>(cfr.shape[2]), [&](size_t r, size_t t) {
-      json["links"].push_back(encode_link(context, source, cfr, r, t));
-    });
+    each_link(static_cast<size_t>(cfr.shape[0]), static_cast<size_t>(cfr.shape[2]),
+              [&](size_t r, size_t t) { json["links"].push_back(encode_link(context, source, cfr, r, t)); });
   }
   if (source.has("rx") && source.has("tx") && source.has("delay") && source.has("interaction") &&
       source.has("vertex"))
@@ -331,8 +333,8 @@ Json encode_channel(const Context& context, const PanelSource& source, const Ind
     });
   }
   if (links > most_links)
-    context.collected.notes.insert(fmt::format("{}: the first {} of {} links.",
-                                               printable(source.spec().name), most_links, links));
+    context.collected.notes.insert(
+        fmt::format("{}: the first {} of {} links.", printable(source.spec().name), most_links, links));
   return json;
 }
 

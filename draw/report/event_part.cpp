@@ -57,8 +57,8 @@ Json encode_events(const Context& context, const PanelSource& source, const Inde
   }
   if (source.has("difference_picture")) {
     std::set<uint32_t> unused;
-    json["difference"] = encode_ids(
-        context, source.load(row, "difference_picture", {DType::u8}, {0, 0}), unused);
+    json["difference"] =
+        encode_ids(context, source.load(row, "difference_picture", {DType::u8}, {0, 0}), unused);
   }
   return json;
 }

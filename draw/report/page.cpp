@@ -44,14 +44,16 @@ std::string page_of(const Json& data, const Blobs& blobs, std::vector<size_t> us
       hash_source(script), html_escaped(title));
   page += page_style();
   page += fmt::format(
-      "</style></head>\n<body>\n<noscript><p>This report of the data set {} needs JavaScript. It loads nothing "
+      "</style></head>\n<body>\n<noscript><p>This report of the data set {} needs JavaScript. It loads "
+      "nothing "
       "from elsewhere.</p></noscript>\n<div id=\"app\"></div>\n",
       html_escaped(title));
   page += "<script type=\"application/json\" id=\"data\">";
   page += json_for_script(data.dump(-1, ' ', true, Json::error_handler_t::replace));
   page += "</script>\n";
   for (const size_t number : used)
-    page += fmt::format("<script type=\"text/plain\" id=\"b{}\">{}</script>\n", number, base64(blobs.at(number)));
+    page +=
+        fmt::format("<script type=\"text/plain\" id=\"b{}\">{}</script>\n", number, base64(blobs.at(number)));
   page += "<script>" + script + "</script>\n</body></html>\n";
   return page;
 }

@@ -86,6 +86,8 @@ struct Context {
   Collected& collected;
 };
 
+/// Returns round(value), or 0 if it is not finite. Metadata of a sensor may allow such values in any array.
+int64_t nearest(double value);
 /// Rounds to `digits` places behind the point, so that the JSON is short. Null if the number is not finite.
 Json rounded(double value, int digits);
 /// Returns [x, y, z] from the origin, rounded to millimetres.

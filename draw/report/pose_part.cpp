@@ -63,7 +63,8 @@ Json channel_series(const PanelSource& source, Collected& collected) {
       values.resize(links, Json::array());
       for (size_t i = 0; i < links; ++i) {
         const double value = number_at(array, i);
-        values[i].push_back(rounded(quantity.decibels ? 10.0 * std::log10(value) : quantity.factor * value, 3));
+        values[i].push_back(
+            rounded(quantity.decibels ? 10.0 * std::log10(value) : quantity.factor * value, 3));
       }
     }
     for (size_t i = 0; i < values.size(); ++i)
@@ -107,6 +108,8 @@ Json pose_series(const PoseTable& poses, Collected& collected) {
 }
 
 }  // namespace
+
+int64_t nearest(double value) { return std::isfinite(value) ? std::llround(value) : 0; }
 
 Json rounded(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
@@ -191,8 +194,7 @@ Json trajectories_json(const PoseTable& poses, Collected& collected) {
   for (const IndexRow& row : evenly(poses.rows())) {
     const std::vector<Pose> all = poses.at(row);
     for (size_t n = 0; n < std::min(nodes, all.size()); ++n)
-      for (int c = 0; c < 3; ++c)
-        places[n].push_back(rounded(all[n].position[c] - poses.origin()[c], 3));
+      for (int c = 0; c < 3; ++c) places[n].push_back(rounded(all[n].position[c] - poses.origin()[c], 3));
   }
   for (size_t n = 0; n < nodes; ++n)
     lines.push_back({{"name", shown_name(poses.nodes()[n])}, {"places", std::move(places[n])}});

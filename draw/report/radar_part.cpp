@@ -45,7 +45,8 @@ Json encode_detections(const Context& context, const PanelSource& source, const 
   if (source.has("power"))
     std::ranges::stable_sort(order, [&](size_t a, size_t b) {
       const std::span<const float> power = columns.back().second.as<float>();
-      return power[a] > power[b];
+      const auto order_of = [&](size_t i) { return std::isfinite(power[i]) ? power[i] : -1e30f; };
+      return order_of(a) > order_of(b);
     });
   if (count > most_detections) {
     order.resize(most_detections);
@@ -78,12 +79,12 @@ Json encode_power(const Context& context, std::span<const float> watts, int64_t 
     for (int64_t x = 0; x < columns; ++x) {
       const double watt = watts[static_cast<size_t>(y * columns + x)];
       double& level = levels[static_cast<size_t>(y / by_row * w + x / by_column)];
-      if (watt > 0.0) level = std::max(level, 10.0 * std::log10(watt) + 30.0);
+      if (watt > 0.0 && std::isfinite(watt)) level = std::max(level, 10.0 * std::log10(watt) + 30.0);
     }
   if (by_row * by_column > 1)
-    context.collected.notes.insert(fmt::format(
-        "A cell of a map of {} x {} cells is shown as the strongest of {} x {}.", rows, columns, by_row,
-        by_column));
+    context.collected.notes.insert(
+        fmt::format("A cell of a map of {} x {} cells is shown as the strongest of {} x {}.", rows, columns,
+                    by_row, by_column));
   const double middle = level_at(levels, 0.5), top = *std::ranges::max_element(levels);
   const double low = std::max(std::min(middle - 10.0, top - 1.0), top - 120.0),
                step = std::max(top - low, 1.0) / 254.0;
@@ -113,8 +114,8 @@ Json describe_radar(const PanelSource& source) {
 }
 
 Json encode_radar(const Context& context, const PanelSource& source, const IndexRow& row) {
-  Json json = {{"pose", pose_json(context, context.poses.world_from(node_of(source.spec()),
-                                                                    mount_of(source), row.tick))}};
+  Json json = {{"pose", pose_json(context, context.poses.world_from(node_of(source.spec()), mount_of(source),
+                                                                    row.tick))}};
   for (const char* const name : {"range_doppler", "range_azimuth"})
     if (source.has(name)) {
       const Array map = source.load(row, name, {DType::f32}, {0, 0});

@@ -64,6 +64,8 @@ class SequencePacker {
   Json pack(uint64_t most_bytes, size_t most_moments, const ReportProgress& progress, int64_t done,
             int64_t total);
   const std::vector<size_t>& blobs_used() const { return used_; }
+  /// The characters that the packed sequence takes.
+  uint64_t page_bytes() const { return page_bytes_; }
   size_t moments() const { return moments_.size(); }
   size_t ticks() const { return ticks_.size(); }
   const dvec3& origin() const { return poses_.origin(); }
@@ -82,9 +84,7 @@ class SequencePacker {
     const auto after = std::ranges::upper_bound(rows_[sensor], tick, {}, &IndexRow::tick);
     return after == rows_[sensor].begin() ? nullptr : &*(after - 1);
   }
-  report::Context context() const {
-    return {reader_, sequence_, poses_, detail_, blobs_, collected_};
-  }
+  report::Context context() const { return {reader_, sequence_, poses_, detail_, blobs_, collected_}; }
 
   const DatasetReader& reader_;
   uint32_t sequence_;
@@ -96,6 +96,7 @@ class SequencePacker {
   report::Detail detail_ = report::details[0];
   std::map<std::pair<size_t, int64_t>, PackedRecord> packed_;  ///< by sensor and row
   std::vector<size_t> used_;
+  uint64_t page_bytes_ = 0;
 };
 
 const PackedRecord& SequencePacker::record(size_t sensor, const IndexRow& row) {
@@ -111,8 +112,7 @@ const PackedRecord& SequencePacker::record(size_t sensor, const IndexRow& row) {
   result.json["tick"] = row.tick;
   result.json["time"] = report::rounded(1e-9 * static_cast<double>(row.time_ns), 9);
   result.last_blob = blobs_.size();
-  result.page_bytes =
-      result.json.dump().size() + 1 + blobs_.page_bytes(result.first_blob, result.last_blob);
+  result.page_bytes = result.json.dump().size() + 1 + blobs_.page_bytes(result.first_blob, result.last_blob);
   return packed_.emplace(key, std::move(result)).first->second;
 }
 
@@ -149,13 +149,15 @@ Json SequencePacker::pack(uint64_t most_bytes, size_t most_moments, const Report
     choose_moments(std::min<size_t>(wanted, 3));
     const uint64_t each = std::max<uint64_t>(1, pack_moments({}, 0, 0) / moments_.size());
     fitting = static_cast<size_t>(room / each);
-    if (fitting >= std::min(wanted, enough_moments)) break;
+    if (2 * fitting >= std::min(wanted, enough_moments)) break;
   }
-  for (size_t count = std::clamp<size_t>(fitting, 1, wanted);;) {
+  // Moments share records of slow sensors, so that more fit than a few moments tell.
+  for (size_t count = std::clamp<size_t>(2 * fitting, 1, wanted);;) {
     choose_moments(count);
     const Json poses = report::poses_json(context(), moments_);
     const uint64_t bytes = pack_moments(progress, done, total) + poses.dump().size() + 200 * moments_.size();
     if (bytes <= room) {
+      page_bytes_ = fixed + bytes;
       json["poses"] = poses;
       break;
     }
@@ -237,6 +239,7 @@ std::string html_report(const DatasetReader& reader, const ReportOptions& option
 
   report::Blobs blobs;
   std::vector<size_t> used;
+  uint64_t spent = 0;
   data["sequences"] = Json::array();
   const auto total = static_cast<int64_t>(sequences.size()) * 1000;
   file = {};
@@ -244,9 +247,12 @@ std::string html_report(const DatasetReader& reader, const ReportOptions& option
     SequencePacker packer(reader, sequences[i], blobs, collected);
     const auto count = static_cast<int64_t>(std::min(options.moments, packer.ticks()));
     const ReportProgress part = [&](int64_t done, int64_t) {
-      if (progress) progress(static_cast<int64_t>(i) * 1000 + std::min<int64_t>(1000, 1000 * done / count), total);
+      if (progress)
+        progress(static_cast<int64_t>(i) * 1000 + std::min<int64_t>(1000, 1000 * done / count), total);
     };
-    Json sequence = packer.pack(room / sequences.size(), options.moments, part, 0, count);
+    // Room that a sequence leaves is that of the next ones.
+    Json sequence = packer.pack((room - spent) / (sequences.size() - i), options.moments, part, 0, count);
+    spent += packer.page_bytes();
     const dvec3& own = packer.origin();
     for (int c = 0; c < 3; ++c) sequence["origin"].push_back(own[c]);
     data["sequences"].push_back(std::move(sequence));
@@ -260,9 +266,10 @@ std::string html_report(const DatasetReader& reader, const ReportOptions& option
   for (const std::string& note : collected.notes) data["notes"].push_back(note);
   std::string page = report::page_of(data, blobs, used);
   if (page.size() > most)
-    throw_user_error("{}: expected a page of at most {:.2f} MB, found {:.2f} MB of names and descriptions: "
-                     "raise --html-megabytes",
-                     reader.folder().string(), options.megabytes, 1e-6 * static_cast<double>(page.size()));
+    throw_user_error(
+        "{}: expected a page of at most {:.2f} MB, found {:.2f} MB of names and descriptions: "
+        "raise --html-megabytes",
+        reader.folder().string(), options.megabytes, 1e-6 * static_cast<double>(page.size()));
   file.sequences = sequences.size();
   file.bytes = page.size();
   file.notes.assign(collected.notes.begin(), collected.notes.end());

@@ -64,8 +64,9 @@ Json summary_json(const DatasetReader& reader, Collected& collected) {
   Json facts = Json::array();
   add_fact(facts, "Scenario", summary.title);
   add_fact(facts, "State", summary.finished ? "finished" : "unfinished: only its complete ticks are shown");
-  add_fact(facts, "Made by", fmt::format("greatx {}{}", text_of(root, "greatx"),
-                                         root.has("commit") ? " (" + text_of(root, "commit") + ")" : ""));
+  add_fact(facts, "Made by",
+           fmt::format("greatx {}{}", text_of(root, "greatx"),
+                       root.has("commit") ? " (" + text_of(root, "commit") + ")" : ""));
   add_fact(facts, "Device", text_of(root, "device"));
   add_fact(facts, "Driver", text_of(root, "driver"));
   add_fact(facts, "Seed", text_of(root, "seed"));
@@ -73,12 +74,13 @@ Json summary_json(const DatasetReader& reader, Collected& collected) {
            summary.sequences == summary.sequences_present
                ? fmt::format("{}", summary.sequences)
                : fmt::format("{} of {}", summary.sequences_present, summary.sequences));
-  add_fact(facts, "Ticks", fmt::format("{} a sequence, {} a second ({:.4g} s)", summary.ticks_per_sequence,
-                                       summary.tick_rate_hz, summary.duration_s));
+  add_fact(facts, "Ticks",
+           fmt::format("{} a sequence, {} a second ({:.4g} s)", summary.ticks_per_sequence,
+                       summary.tick_rate_hz, summary.duration_s));
   add_fact(facts, "Records", fmt::format("{}", summary.records));
   if (summary.finished)
-    add_fact(facts, "Size", fmt::format("{:.1f} MB in {} files", 1e-6 * static_cast<double>(summary.bytes),
-                                        summary.files));
+    add_fact(facts, "Size",
+             fmt::format("{:.1f} MB in {} files", 1e-6 * static_cast<double>(summary.bytes), summary.files));
   if (root.has("georeference"))
     add_fact(facts, "Georeference", root.at("georeference").dump().substr(0, 2000));
   Json sensors = Json::array();

@@ -11,24 +11,32 @@ function el(tag, attributes, ...children) {
   const node = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes || {})) {
     if (value === null || value === undefined || value === false) continue;
-    if (typeof value === 'function') node.addEventListener(name, value);
-    else node.setAttribute(name, value === true ? '' : String(value));
+    if (typeof value === 'function')
+      node.addEventListener(name, value);
+    else
+      node.setAttribute(name, value === true ? '' : String(value));
   }
   for (const child of children.flat(Infinity))
     if (child !== null && child !== undefined) node.append(child instanceof Node ? child : String(child));
   return node;
 }
-const clear = node => { while (node.firstChild) node.removeChild(node.firstChild); return node; };
+const clear = node => {
+  while (node.firstChild) node.removeChild(node.firstChild);
+  return node;
+};
 const clamp = (x, low, high) => Math.min(high, Math.max(low, x));
 const isNumber = x => typeof x === 'number' && Number.isFinite(x);
 
+/// The head of a column; those of words stand at the left.
+const wordColumns = new Set(['interactions', 'objects', 'type', 'unit', 'meaning']);
+const headOf = text => el('th', {scope: 'col', class: wordColumns.has(text) ? 'text' : null}, text);
 /// Four significant digits at most, with a true minus.
 function short(x, digits = 4) {
   if (!isNumber(x)) return '\u2013';
   if (x === 0) return '0';
   const size = Math.abs(x);
-  let text = size >= 1e6 || size < 1e-3 ? x.toExponential(Math.min(2, digits - 1))
-    : String(parseFloat(x.toPrecision(digits)));
+  let text = size >= 1e6 || size < 1e-3 ? x.toExponential(Math.min(2, digits - 1)) :
+                                          String(parseFloat(x.toPrecision(digits)));
   return text.replace('-', '\u2212').replace('e+', 'e');
 }
 const fixed = (x, digits) => isNumber(x) ? x.toFixed(digits).replace('-', '\u2212') : '\u2013';
@@ -74,14 +82,16 @@ const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a
 const length = a => Math.hypot(a[0], a[1], a[2]);
 /// The rotation of a unit quaternion as the rows of a matrix.
 function matrixOf(w, x, y, z) {
-  return [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-          [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-          [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]];
+  return [
+    [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+    [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+    [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]
+  ];
 }
 const turn = (m, p) => [dot(m[0], p), dot(m[1], p), dot(m[2], p)];
-const turnBack = (m, p) => [m[0][0] * p[0] + m[1][0] * p[1] + m[2][0] * p[2],
-                            m[0][1] * p[0] + m[1][1] * p[1] + m[2][1] * p[2],
-                            m[0][2] * p[0] + m[1][2] * p[1] + m[2][2] * p[2]];
+const turnBack = (m, p) =>
+    [m[0][0] * p[0] + m[1][0] * p[1] + m[2][0] * p[2], m[0][1] * p[0] + m[1][1] * p[1] + m[2][1] * p[2],
+     m[0][2] * p[0] + m[1][2] * p[1] + m[2][2] * p[2]];
 const poseMatrix = pose => matrixOf(pose[3], pose[4], pose[5], pose[6]);
 const toParent = (pose, p) => add(turn(poseMatrix(pose), p), pose);
 const toChild = (pose, p) => turnBack(poseMatrix(pose), sub(p, pose));
@@ -96,15 +106,23 @@ function polynomial(c, t) {
   });
 }
 const table = colour => Array.from({length: 256}, (_, i) => colour(i / 255));
-const turboTable = table(t => polynomial(
-  [[0.13572138, 0.09140261, 0.1066733], [4.6153926, 2.19418839, 12.64194608],
-   [-42.66032258, 4.84296658, -60.58204836], [132.13108234, -14.18503333, 110.36276771],
-   [-152.94239396, 4.27729857, -89.90310912], [59.28637943, 2.82956604, 27.34824973]], t));
-const viridisTable = table(t => polynomial(
-  [[0.2777273272, 0.0054073445, 0.3340998053], [0.1050930431, 1.4046135299, 1.3845901626],
-   [-0.3308618287, 0.2148475595, 0.0950951630], [-4.6342304990, -5.7991009734, -19.3324409563],
-   [6.2282699363, 14.1799333668, 56.6905526007], [4.7763849977, -13.7451453777, -65.3530326334],
-   [-5.4354558559, 4.6458526122, 26.3124352496]], t));
+const turboTable = table(
+    t => polynomial(
+        [
+          [0.13572138, 0.09140261, 0.1066733], [4.6153926, 2.19418839, 12.64194608],
+          [-42.66032258, 4.84296658, -60.58204836], [132.13108234, -14.18503333, 110.36276771],
+          [-152.94239396, 4.27729857, -89.90310912], [59.28637943, 2.82956604, 27.34824973]
+        ],
+        t));
+const viridisTable = table(
+    t => polynomial(
+        [
+          [0.2777273272, 0.0054073445, 0.3340998053], [0.1050930431, 1.4046135299, 1.3845901626],
+          [-0.3308618287, 0.2148475595, 0.0950951630], [-4.6342304990, -5.7991009734, -19.3324409563],
+          [6.2282699363, 14.1799333668, 56.6905526007], [4.7763849977, -13.7451453777, -65.3530326334],
+          [-5.4354558559, 4.6458526122, 26.3124352496]
+        ],
+        t));
 const lookUp = (colours, t) => colours[clamp(Math.round(255 * t), 0, 255)] || colours[0];
 const turbo = t => lookUp(turboTable, t), viridis = t => lookUp(viridisTable, t);
 const css = c => 'rgb(' + c[0] + ',' + c[1] + ',' + c[2] + ')';
@@ -122,13 +140,15 @@ function colourOfId(id) {
   if (id === 0) return [40, 43, 50];
   let colour = idColours.get(id);
   if (!colour) {
-    colour = fromHsv((id * 0.6180339887498949) % 1, 0.45 + 0.15 * (Math.floor(id / 3) % 3),
-                     0.95 - 0.18 * (Math.floor(id / 7) % 3));
+    colour = fromHsv(
+        (id * 0.6180339887498949) % 1, 0.45 + 0.15 * (Math.floor(id / 3) % 3),
+        0.95 - 0.18 * (Math.floor(id / 7) % 3));
     idColours.set(id, colour);
   }
   return colour;
 }
-const seriesColours = ['#e8871e', '#3d8fd1', '#3fa55b', '#d9517c', '#8f6fe0', '#b39b14', '#23a39a', '#a86a3d'];
+const seriesColours =
+    ['#e8871e', '#3d8fd1', '#3fa55b', '#d9517c', '#8f6fe0', '#b39b14', '#23a39a', '#a86a3d'];
 const colourOfSeries = n => seriesColours[n % seriesColours.length];
 /// Right is red; the hue turns with the direction, white is no motion.
 function colourOfFlow(u, v) {

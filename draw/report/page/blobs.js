@@ -22,7 +22,8 @@ function huffmanTable(lengths) {
   let bits = 1;
   for (const length of lengths) bits = Math.max(bits, length);
   const counts = new Array(16).fill(0), next = new Array(17).fill(0);
-  for (const length of lengths) if (length) ++counts[length];
+  for (const length of lengths)
+    if (length) ++counts[length];
   for (let length = 1; length <= 15; ++length) next[length + 1] = (next[length] + counts[length]) << 1;
   const entries = new Uint16Array(1 << bits);
   lengths.forEach((length, symbol) => {
@@ -33,13 +34,17 @@ function huffmanTable(lengths) {
   });
   return {entries, bits};
 }
-const lengthBase = [3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 15, 17, 19, 23, 27, 31, 35, 43, 51, 59, 67, 83, 99, 115,
-                    131, 163, 195, 227, 258];
+const lengthBase = [
+  3,  4,  5,  6,  7,  8,  9,  10, 11,  13,  15,  17,  19,  23, 27,
+  31, 35, 43, 51, 59, 67, 83, 99, 115, 131, 163, 195, 227, 258
+];
 const lengthExtra = [0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0];
-const distanceBase = [1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49, 65, 97, 129, 193, 257, 385, 513, 769, 1025,
-                      1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577];
-const distanceExtra = [0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12,
-                       12, 13, 13];
+const distanceBase = [
+  1,   2,   3,   4,   5,   7,    9,    13,   17,   25,   33,   49,   65,    97,    129,
+  193, 257, 385, 513, 769, 1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577
+];
+const distanceExtra =
+    [0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13];
 const orderOfLengths = [16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15];
 
 /// Unpacks zlib's format (RFC 1950, RFC 1951).
@@ -86,7 +91,8 @@ function inflate(from) {
     const code = huffmanTable(first), lengths = [];
     while (lengths.length < literals + distances) {
       const symbol = symbolOf(code);
-      if (symbol < 16) lengths.push(symbol);
+      if (symbol < 16)
+        lengths.push(symbol);
       else {
         const value = symbol === 16 ? lengths[lengths.length - 1] : 0;
         let times = symbol === 16 ? 3 + take(2) : symbol === 17 ? 3 + take(3) : 11 + take(7);
@@ -128,23 +134,30 @@ function inflate(from) {
 /// Undoes report::packed(): integers of `bytes` each, with rows of differences of length `row` (0: none).
 function unpack(planes, bytes, row) {
   const count = planes.length / bytes;
-  const values = bytes === 1 ? new Uint8Array(count) : bytes === 2 ? new Uint16Array(count)
-    : new Uint32Array(count);
+  const values = bytes === 1 ? new Uint8Array(count) :
+      bytes === 2            ? new Uint16Array(count) :
+                               new Uint32Array(count);
   for (let b = 0; b < bytes; ++b)
     for (let i = 0; i < count; ++i) values[i] |= planes[b * count + i] << (8 * b);
-  if (row > 0) for (let i = 0; i < count; ++i) if (i % row !== 0) values[i] += values[i - 1];
+  if (row > 0)
+    for (let i = 0; i < count; ++i)
+      if (i % row !== 0) values[i] += values[i - 1];
   return values;
 }
 
 /// Keeps what was made last.
 class Kept {
-  constructor(most) { this.most = most; this.map = new Map(); }
+  constructor(most) {
+    this.most = most;
+    this.map = new Map();
+  }
   get(key, make) {
     let value = this.map.get(key);
     if (value === undefined) {
       value = make();
       if (this.map.size >= this.most) this.map.delete(this.map.keys().next().value);
-    } else this.map.delete(key);
+    } else
+      this.map.delete(key);
     this.map.set(key, value);
     return value;
   }
@@ -152,7 +165,7 @@ class Kept {
 const keptArrays = new Kept(300), keptImages = new Kept(60);
 
 const numbersOf = (blob, bytes, row) =>
-  keptArrays.get(blob, () => unpack(inflate(bytesOfBase64(rawBlob(blob))), bytes, row));
+    keptArrays.get(blob, () => unpack(inflate(bytesOfBase64(rawBlob(blob))), bytes, row));
 const textOf = blob => keptArrays.get(blob, () => {
   const bytes = inflate(bytesOfBase64(rawBlob(blob)));
   let text = '';
@@ -167,8 +180,10 @@ function imageOf(blob, ready) {
     made.src = 'data:image/webp;base64,' + rawBlob(blob);
     return made;
   });
-  if (image.complete && image.naturalWidth > 0) ready(image);
-  else image.addEventListener('load', () => ready(image), {once: true});
+  if (image.complete && image.naturalWidth > 0)
+    ready(image);
+  else
+    image.addEventListener('load', () => ready(image), {once: true});
   return image;
 }
 /// The value of a code of report::LogCode; 0 stands for none.

@@ -4,10 +4,16 @@
 // The panels of cameras: one of its pictures, with the channel's paths, boxes and detections over it, and the
 // values under the pointer.
 
-const cameraViews = [['rgb', 'picture'], ['depth', 'depth'], ['instance', 'instances'], ['semantic', 'classes'],
-                     ['material', 'materials'], ['flow', 'optical flow'], ['normals', 'normals'],
-                     ['depth_ray', 'depth along the ray'], ['luminance', 'luminance']];
-const namesOfView = {instance: instanceName, semantic: className, material: materialName};
+const cameraViews = [
+  ['rgb', 'picture'], ['depth', 'depth'], ['instance', 'instances'], ['semantic', 'classes'],
+  ['material', 'materials'], ['flow', 'optical flow'], ['normals', 'normals'],
+  ['depth_ray', 'depth along the ray'], ['luminance', 'luminance']
+];
+const namesOfView = {
+  instance: instanceName,
+  semantic: className,
+  material: materialName
+};
 
 class CameraPanel {
   constructor(sensor) {
@@ -16,24 +22,43 @@ class CameraPanel {
     this.view = this.views.length ? this.views[0][0] : null;
     this.layers = {paths: channels().length > 0, boxes: false, detections: false};
     const first = sensor.records[0] || {}, size = this.sizeOf(first);
-    this.board = new Board('picture of camera ' + sensor.name, width => width * size[1] / size[0],
-                           (context, width, height) => this.draw(context, width, height));
+    this.board = new Board(
+        'picture of camera ' + sensor.name, width => width * size[1] / size[0],
+        (context, width, height) => this.draw(context, width, height));
     this.board.onPointer((x, y) => this.look(x, y), () => this.look(null));
     this.readout = el('p', {class: 'readout', 'aria-live': 'off'});
     this.legend = el('div', {class: 'legend'});
-    const select = el('select', {'aria-label': 'what camera ' + sensor.name + ' shows',
-                                 change: event => { this.view = event.target.value; this.update(); }},
-                      this.views.map(([key, name]) => el('option', {value: key}, name)));
-    const box = (key, text) => el('label', {}, el('input', {type: 'checkbox', checked: this.layers[key],
-      change: event => { this.layers[key] = event.target.checked; this.board.redraw(); }}), text);
-    const has = {paths: channels().length > 0 && isNumber(sensor.about.fx),
-                 boxes: sensor.records.some(record => record.boxes),
-                 detections: sequence().sensors.some(other => (other.records || []).some(r => r.detections || r.sensing))};
-    this.node = el('figure', {class: 'panel camera'},
-      el('figcaption', {}, el('h3', {}, sensor.name), this.age = el('span', {class: 'age'}),
-        el('div', {class: 'tools'}, select, has.paths ? box('paths', 'paths') : null,
-          has.boxes ? box('boxes', 'boxes') : null, has.detections ? box('detections', 'detections') : null)),
-      this.board.node, this.legend, this.readout);
+    const select =
+        el('select', {
+          'aria-label': 'what camera ' + sensor.name + ' shows',
+          change: event => {
+            this.view = event.target.value;
+            this.update();
+          }
+        },
+           this.views.map(([key, name]) => el('option', {value: key}, name)));
+    const box = (key, text) =>
+        el('label', {}, el('input', {
+             type: 'checkbox',
+             checked: this.layers[key],
+             change: event => {
+               this.layers[key] = event.target.checked;
+               this.board.redraw();
+             }
+           }),
+           text);
+    const has = {
+      paths: channels().length > 0 && isNumber(sensor.about.fx),
+      boxes: sensor.records.some(record => record.boxes),
+      detections: sequence().sensors.some(other => (other.records || []).some(r => r.detections || r.sensing))
+    };
+    this.node =
+        el('figure', {class: 'panel camera'},
+           el('figcaption', {}, el('h3', {}, sensor.name), this.age = el('span', {class: 'age'}),
+              el('div', {class: 'tools'}, select, has.paths ? box('paths', 'paths') : null,
+                 has.boxes ? box('boxes', 'boxes') : null,
+                 has.detections ? box('detections', 'detections') : null)),
+           this.board.node, this.legend, this.readout);
   }
   /// The sensor's pixels: metadata, or the extent of the first raster.
   sizeOf(record) {
@@ -56,31 +81,41 @@ class CameraPanel {
       const spans = this.sensor.records.map(record => record[view] && record[view].span).filter(Boolean);
       const low = Math.min(...spans.map(span => span[0])), high = Math.max(...spans.map(span => span[1]));
       const logarithmic = view !== 'flow' && high / low > 10;
-      this.scales[view] = spans.length ? {low, high: Math.max(high, low * 1.001), logarithmic}
-        : {low: 1, high: 10, logarithmic: false};
+      this.scales[view] = spans.length ? {low, high: Math.max(high, low * 1.001), logarithmic} :
+                                         {low: 1, high: 10, logarithmic: false};
     }
     return this.scales[view];
   }
   pixels(view, raster) {
     return keptArrays.get('pixels ' + view + raster.blob, () => {
       const count = raster.w * raster.h, image = new ImageData(raster.w, raster.h), out = image.data;
-      const put = (i, c) => { out[4 * i] = c[0]; out[4 * i + 1] = c[1]; out[4 * i + 2] = c[2]; out[4 * i + 3] = 255; };
+      const put = (i, c) => {
+        out[4 * i] = c[0];
+        out[4 * i + 1] = c[1];
+        out[4 * i + 2] = c[2];
+        out[4 * i + 3] = 255;
+      };
       if (view in namesOfView) {
         const ids = rasterOf(raster, raster.bytes, false);
         for (let i = 0; i < count; ++i) put(i, colourOfId(ids[i]));
       } else if (view === 'flow') {
         const codes = rasterOf(raster, 2, true), full = this.scaleOf('flow').high / raster.step;
         for (let i = 0; i < count; ++i)
-          put(i, codes[i] === 0 ? [0, 0, 0] : colourOfFlow((codes[i] - 32768) / full, (codes[count + i] - 32768) / full));
+          put(i,
+              codes[i] === 0 ? [0, 0, 0] :
+                               colourOfFlow((codes[i] - 32768) / full, (codes[count + i] - 32768) / full));
       } else if (view === 'normals') {
         const codes = rasterOf(raster, 1, true);
         for (let i = 0; i < count; ++i)
-          put(i, codes[i] === 128 && codes[count + i] === 128 && codes[2 * count + i] === 128 ? [48, 52, 62]
-            : [codes[i], codes[count + i], codes[2 * count + i]]);
+          put(i,
+              codes[i] === 128 && codes[count + i] === 128 && codes[2 * count + i] === 128 ?
+                  [48, 52, 62] :
+                  [codes[i], codes[count + i], codes[2 * count + i]]);
       } else {
         const codes = rasterOf(raster, 2, true), range = this.scaleOf(view);
-        const at = value => range.logarithmic ? Math.log(value / range.low) / Math.log(range.high / range.low)
-          : (value - range.low) / (range.high - range.low);
+        const at = value => range.logarithmic ?
+            Math.log(value / range.low) / Math.log(range.high / range.low) :
+            (value - range.low) / (range.high - range.low);
         const colours = view === 'luminance' ? viridis : t => turbo(1 - t), seen = new Map();
         for (let i = 0; i < count; ++i) {
           let colour = seen.get(codes[i]);
@@ -105,7 +140,9 @@ class CameraPanel {
       if (!record) return;
     } else if (this.view === 'rgb') {
       let image = null;
-      image = imageOf(raster.blob, () => { if (image && this.record === record) this.board.redraw(); });
+      image = imageOf(raster.blob, () => {
+        if (image && this.record === record) this.board.redraw();
+      });
       if (!(image.complete && image.naturalWidth > 0)) {
         context.fillStyle = theme.grid;
         context.fillRect(0, 0, width, height);
@@ -136,10 +173,8 @@ class CameraPanel {
     if (x < 0 || y < 0 || x >= raster.w || y >= raster.h) return Infinity;
     return logValue(raster, rasterOf(raster, 2, true)[y * raster.w + x]);
   }
-  /// Whether something is in front of a point: nearer by more than the depth's rounding and the size of a pixel.
-  hides(record, point) {
-    return point[2] > 1.02 * this.depthAt(record, point[0], point[1]) + 0.15;
-  }
+  /// Whether something is in front of a point, by more than the rounding of depth and the size of a pixel.
+  hides(record, point) { return point[2] > 1.02 * this.depthAt(record, point[0], point[1]) + 0.15; }
   drawPaths(context, record, camera, zoom) {
     const paths = presentPaths(), powers = powerScale(paths), [w, h] = this.sizeOf(record);
     for (const index of paths.map((_, i) => i).reverse()) {
@@ -158,15 +193,20 @@ class CameraPanel {
         context.arc(at[0], at[1], (strong ? 4.5 : 3) / zoom, 0, 7);
         context.lineWidth = 1.2 / zoom;
         context.strokeStyle = this.hides(record, at) ? colour : '#000';
-        if (!this.hides(record, at)) { context.fillStyle = colour; context.fill(); }
+        if (!this.hides(record, at)) {
+          context.fillStyle = colour;
+          context.fill();
+        }
         context.stroke();
       });
     }
     const way = link(), chosen = channel(), ends = chosen && latest(chosen);
     if (!way || !ends) return;
-    for (const [place, name] of [[ends.tx[way.tx], chosen.about.tx[way.tx].name],
-                                 [ends.rx[way.rx], chosen.about.rx[way.rx].name]]) {
-      const at = place && project(camera, place.slice(0, 3));
+    for (const [place, name] of [
+             [ends.tx[way.tx], chosen.about.tx[way.tx].name],
+             [ends.rx[way.rx], chosen.about.rx[way.rx].name]]) {
+      // The camera's own antenna is too near to be where it seems.
+      const at = place && name.split('/')[0] !== this.sensor.node && project(camera, place.slice(0, 3));
       if (!at || at[0] < 0 || at[1] < 0 || at[0] > w || at[1] > h) continue;
       context.fillStyle = '#fff';
       context.fillRect(at[0] - 3.5 / zoom, at[1] - 3.5 / zoom, 7 / zoom, 7 / zoom);
@@ -198,8 +238,12 @@ class CameraPanel {
       }
       const middle = [0, 1, 2].map(c => (points[i][c] + points[i + 1][c]) / 2);
       const behind = this.hides(record, middle);
-      if (hidden === null) start = i;
-      else if (behind !== hidden) { run(start, i, hidden); start = i; }
+      if (hidden === null)
+        start = i;
+      else if (behind !== hidden) {
+        run(start, i, hidden);
+        start = i;
+      }
       hidden = behind;
     }
     if (hidden !== null && points.length - 1 > start) run(start, points.length - 1, hidden);
@@ -241,29 +285,38 @@ class CameraPanel {
     const record = this.record;
     if (x === null || !record) {
       this.readout.textContent = 'Move over the picture to read its values.';
-      if (this.pointed) { this.pointed = false; state.path = -1; tell('path'); }
+      if (this.pointed) {
+        this.pointed = false;
+        state.path = -1;
+        tell('path');
+      }
       return;
     }
     const [w, h] = this.sizeOf(record), u = x / this.board.width * w, v = y / this.board.height * h;
     const at = raster => {
-      const i = clamp(Math.floor(u / raster.by), 0, raster.w - 1), j = clamp(Math.floor(v / raster.by), 0, raster.h - 1);
+      const i = clamp(Math.floor(u / raster.by), 0, raster.w - 1),
+            j = clamp(Math.floor(v / raster.by), 0, raster.h - 1);
       return j * raster.w + i;
     };
     const parts = ['(' + Math.floor(u) + ', ' + Math.floor(v) + ')'];
     for (const [key, text] of [['depth', ''], ['depth_ray', ' along the ray'], ['luminance', '']])
       if (record[key]) {
         const value = logValue(record[key], rasterOf(record[key], 2, true)[at(record[key])]);
-        parts.push(Number.isFinite(value) ? short(value) + (key === 'luminance' ? ' cd/m\u00b2' : ' m' + text)
-          : key === 'luminance' ? 'dark' : 'sky');
+        parts.push(
+            Number.isFinite(value)  ? short(value) + (key === 'luminance' ? ' cd/m\u00b2' : ' m' + text) :
+                key === 'luminance' ? 'dark' :
+                                      'sky');
       }
     for (const key of ['instance', 'semantic', 'material'])
       if (record[key])
         parts.push(namesOfView[key](rasterOf(record[key], record[key].bytes, false)[at(record[key])]));
     if (record.flow && this.view === 'flow') {
-      const codes = rasterOf(record.flow, 2, true), i = at(record.flow), count = record.flow.w * record.flow.h;
-      parts.push(codes[i] === 0 ? 'out of sight in the next picture'
-        : 'right ' + fixed((codes[i] - 32768) * record.flow.step, 2) + ', down '
-          + fixed((codes[count + i] - 32768) * record.flow.step, 2) + ' px a picture');
+      const codes = rasterOf(record.flow, 2, true), i = at(record.flow),
+            count = record.flow.w * record.flow.h;
+      parts.push(
+          codes[i] === 0 ? 'out of sight in the next picture' :
+                           'right ' + fixed((codes[i] - 32768) * record.flow.step, 2) + ', down ' +
+                  fixed((codes[count + i] - 32768) * record.flow.step, 2) + ' px a picture');
     }
     let nearby = 8, found = null;
     for (const [px, py, what] of this.drawn || []) {
@@ -271,13 +324,17 @@ class CameraPanel {
       if (distance < nearby) [nearby, found] = [distance, what];
     }
     if (found !== null && typeof found === 'object')
-      parts.push('detection of ' + found.sensor + ': ' + fixed(found.range, 2) + ' m, ' + fixed(found.velocity, 2)
-        + ' m/s, ' + (found.id ? instanceName(found.id) : 'false alarm'));
+      parts.push(
+          'detection of ' + found.sensor + ': ' + fixed(found.range, 2) + ' m, ' + fixed(found.velocity, 2) +
+          ' m/s, ' + (found.id ? instanceName(found.id) : 'false alarm'));
     const path = typeof found === 'number' ? found : -1;
     if (path >= 0) parts.push('path ' + (path + 1) + ': ' + pathText(presentPaths()[path]));
     this.readout.textContent = parts.join('  \u00b7  ');
     this.pointed = true;
-    if (path !== state.path) { state.path = path; tell('path'); }
+    if (path !== state.path) {
+      state.path = path;
+      tell('path');
+    }
   }
   drawLegend() {
     clear(this.legend);
@@ -285,8 +342,10 @@ class CameraPanel {
     if (this.layers.paths && this.view === 'rgb') {
       const paths = presentPaths(), powers = powerScale(paths);
       if (paths.length && isNumber(paths[0].power))
-        this.legend.append(colourBar(t => turbo(0.1 + 0.8 * t), powers.low, powers.high, 'dB, power of paths', false),
-          el('p', {class: 'dim'}, 'Dashed: behind what the camera sees. Dots: interactions; hollow ones are hidden.'));
+        this.legend.append(
+            colourBar(t => turbo(0.1 + 0.8 * t), powers.low, powers.high, 'dB, power of paths', false),
+            el('p', {class: 'dim'},
+               'Dashed: behind what the camera sees. Dots: interactions; hollow ones are hidden.'));
       return;
     }
     if (!raster || this.view === 'rgb') return;
@@ -294,19 +353,27 @@ class CameraPanel {
       const counts = new Map();
       for (const id of rasterOf(raster, raster.bytes, false)) counts.set(id, (counts.get(id) || 0) + 1);
       const ids = [...counts.entries()].sort((a, b) => b[1] - a[1]), shown = ids.slice(0, 14);
-      this.legend.append(el('ul', {class: 'swatches'}, shown.map(([id]) => el('li', {},
-        el('i', {style: 'background:' + css(colourOfId(id))}), namesOfView[this.view](id)))));
+      this.legend.append(
+          el('ul', {class: 'swatches'},
+             shown.map(
+                 ([id]) =>
+                     el('li', {}, el('i', {style: 'background:' + css(colourOfId(id))}),
+                        namesOfView[this.view](id)))));
       if (ids.length > shown.length)
-        this.legend.append(el('p', {class: 'dim'}, 'and ' + (ids.length - shown.length) + ' more; the pointer names each.'));
+        this.legend.append(
+            el('p', {class: 'dim'}, 'and ' + (ids.length - shown.length) + ' more; the pointer names each.'));
     } else if (this.view === 'flow') {
-      this.legend.append(el('p', {class: 'dim'}, 'Hue: direction (red: right). Full colour: '
-        + short(this.scaleOf('flow').high, 3) + ' px a picture. White: no motion. Black: out of sight in the next picture.'));
+      this.legend.append(
+          el('p', {class: 'dim'},
+             'Hue: direction (red: right). Full colour: ' + short(this.scaleOf('flow').high, 3) +
+                 ' px a picture. White: no motion. Black: out of sight in the next picture.'));
     } else if (this.view === 'normals') {
       this.legend.append(el('p', {class: 'dim'}, 'East, north and up are red, green and blue.'));
     } else {
       const range = this.scaleOf(this.view), luminance = this.view === 'luminance';
-      this.legend.append(colourBar(luminance ? viridis : t => turbo(1 - t), range.low, range.high,
-        luminance ? 'cd/m\u00b2' : 'm', range.logarithmic));
+      this.legend.append(colourBar(
+          luminance ? viridis : t => turbo(1 - t), range.low, range.high, luminance ? 'cd/m\u00b2' : 'm',
+          range.logarithmic));
     }
   }
 }

@@ -27,13 +27,22 @@ class Board {
         if (this.seen && this.stale) this.now();
       }, {rootMargin: '200px'}).observe(this.node);
     if (typeof ResizeObserver !== 'undefined')
-      new ResizeObserver(() => { if (this.node.clientWidth !== this.width) this.redraw(); }).observe(this.node);
+      new ResizeObserver(() => requestAnimationFrame(() => {
+                           if (this.node.clientWidth === this.width) return;
+                           // The place is taken before anything is drawn, so that the page does not jump.
+                           this.canvas.style.height = Math.round(this.heightOf(this.node.clientWidth)) + 'px';
+                           this.redraw();
+                         }))
+          .observe(this.node);
   }
   redraw() {
     this.stale = true;
     if (this.seen && !this.asked) {
       this.asked = true;
-      requestAnimationFrame(() => { this.asked = false; if (this.stale) this.now(); });
+      requestAnimationFrame(() => {
+        this.asked = false;
+        if (this.stale) this.now();
+      });
     }
   }
   now() {
@@ -43,7 +52,8 @@ class Board {
     const height = Math.round(this.heightOf(width)), ratio = Math.min(window.devicePixelRatio || 1, 2);
     this.width = width;
     this.height = height;
-    if (this.canvas.width !== Math.round(width * ratio) || this.canvas.height !== Math.round(height * ratio)) {
+    if (this.canvas.width !== Math.round(width * ratio) ||
+        this.canvas.height !== Math.round(height * ratio)) {
       this.canvas.width = Math.round(width * ratio);
       this.canvas.height = Math.round(height * ratio);
       this.canvas.style.height = height + 'px';
@@ -59,7 +69,8 @@ class Board {
   onPointer(at, away) {
     this.canvas.addEventListener('pointermove', event => {
       const box = this.canvas.getBoundingClientRect();
-      at((event.clientX - box.left) * this.width / box.width, (event.clientY - box.top) * this.height / box.height);
+      at((event.clientX - box.left) * this.width / box.width,
+         (event.clientY - box.top) * this.height / box.height);
     });
     this.canvas.addEventListener('pointerleave', away);
   }
@@ -87,10 +98,16 @@ function colourBar(colours, low, high, unit, logarithmic) {
   const ticks = logarithmic ? logTicksOf(low, high) : ticksOf(low, high, 4);
   const at = x => 100 * (logarithmic ? Math.log(x / low) / Math.log(high / low) : (x - low) / (high - low));
   const chosen = ticks.filter((x, i) => ticks.length <= 6 || i % Math.ceil(ticks.length / 6) === 0);
-  return el('div', {class: 'bar', role: 'img',
-                    'aria-label': 'colours from ' + short(low) + ' to ' + short(high) + ' ' + unit},
-            canvas, el('div', {class: 'ticks'}, chosen.map(x =>
-              el('span', {style: 'left:' + at(x).toFixed(2) + '%'}, short(x)))), el('span', {class: 'unit'}, unit));
+  return el(
+      'div', {
+        class: 'bar',
+        role: 'img',
+        'aria-label': 'colours from ' + short(low) + ' to ' + short(high) + ' ' + unit
+      },
+      canvas,
+      el('div', {class: 'ticks'},
+         chosen.map(x => el('span', {style: 'left:' + at(x).toFixed(2) + '%'}, short(x)))),
+      el('span', {class: 'unit'}, unit));
 }
 
 /// A plot of lines: {x, y, colour, name, dots}. `axes`: {x: [low, high], y: [low, high], xUnit, yUnit, mark}.
@@ -105,13 +122,19 @@ function drawLines(context, width, height, lines, axes) {
   context.strokeStyle = axes.faint ? 'rgba(140,150,165,0.25)' : theme.grid;
   context.textAlign = 'center';
   for (const x of ticksOf(x0, x1, Math.max(2, (box.right - box.left) / 90))) {
-    context.beginPath(); context.moveTo(px(x), box.top); context.lineTo(px(x), box.bottom); context.stroke();
+    context.beginPath();
+    context.moveTo(px(x), box.top);
+    context.lineTo(px(x), box.bottom);
+    context.stroke();
     context.fillText(short(x), px(x), box.bottom + 11);
   }
   context.fillText(axes.xUnit, (box.left + box.right) / 2, height - 8);
   context.textAlign = 'right';
   for (const y of ticksOf(y0, y1, Math.max(2, (box.bottom - box.top) / 40))) {
-    context.beginPath(); context.moveTo(box.left, py(y)); context.lineTo(box.right, py(y)); context.stroke();
+    context.beginPath();
+    context.moveTo(box.left, py(y));
+    context.lineTo(box.right, py(y));
+    context.stroke();
     context.fillText(short(y), box.left - 6, py(y));
   }
   context.save();
@@ -132,24 +155,37 @@ function drawLines(context, width, height, lines, axes) {
     let pen = false;
     line.x.forEach((x, i) => {
       const y = line.y[i];
-      if (!isNumber(y)) { pen = false; return; }
-      if (line.stems) { context.moveTo(px(x), box.bottom); context.lineTo(px(x), py(y)); return; }
-      if (pen) context.lineTo(px(x), py(y));
-      else context.moveTo(px(x), py(y));
+      if (!isNumber(y)) {
+        pen = false;
+        return;
+      }
+      if (line.stems) {
+        context.moveTo(px(x), box.bottom);
+        context.lineTo(px(x), py(y));
+        return;
+      }
+      if (pen)
+        context.lineTo(px(x), py(y));
+      else
+        context.moveTo(px(x), py(y));
       pen = true;
     });
     context.stroke();
     if (line.stems || line.x.length < 40)
       line.x.forEach((x, i) => {
         if (!isNumber(line.y[i])) return;
-        context.beginPath(); context.arc(px(x), py(line.y[i]), line.stems ? 2.5 : 2, 0, 7); context.fill();
+        context.beginPath();
+        context.arc(px(x), py(line.y[i]), line.stems ? 2.5 : 2, 0, 7);
+        context.fill();
       });
   }
   context.globalAlpha = 1;
   if (isNumber(axes.mark)) {
     context.strokeStyle = theme.mark;
     context.lineWidth = 1.5;
-    context.beginPath(); context.moveTo(px(axes.mark), box.top); context.lineTo(px(axes.mark), box.bottom);
+    context.beginPath();
+    context.moveTo(px(axes.mark), box.top);
+    context.lineTo(px(axes.mark), box.bottom);
     context.stroke();
   }
   context.restore();
@@ -158,8 +194,12 @@ function drawLines(context, width, height, lines, axes) {
 /// The extent of values with a margin; null without any.
 function extentOf(lists, margin = 0.06) {
   let low = Infinity, high = -Infinity;
-  for (const list of lists) for (const value of list)
-    if (isNumber(value)) { low = Math.min(low, value); high = Math.max(high, value); }
+  for (const list of lists)
+    for (const value of list)
+      if (isNumber(value)) {
+        low = Math.min(low, value);
+        high = Math.max(high, value);
+      }
   if (!(high >= low)) return null;
   const wide = high > low ? (high - low) * margin : Math.max(1e-6, Math.abs(high) * 0.05, 0.5);
   return [low - wide, high + wide];

@@ -10,9 +10,18 @@ function cameraOf(sensor, record) {
   const about = sensor.about;
   if (!record || !record.pose || !isNumber(about.fx) || !isNumber(about.cx)) return null;
   const lens = about.distortion || null;
-  return {matrix: poseMatrix(record.pose), place: record.pose.slice(0, 3), fx: about.fx, fy: about.fy,
-          cx: about.cx, cy: about.cy, width: about.width, height: about.height, lens,
-          fold: lens ? foldRadius(lens) : Infinity};
+  return {
+    matrix: poseMatrix(record.pose),
+    place: record.pose.slice(0, 3),
+    fx: about.fx,
+    fy: about.fy,
+    cx: about.cx,
+    cy: about.cy,
+    width: about.width,
+    height: about.height,
+    lens,
+    fold: lens ? foldRadius(lens) : Infinity
+  };
 }
 /// The undistorted radius up to which the radial part grows: beyond it the formula folds back.
 function foldRadius([k1, k2, , , k3]) {
@@ -33,8 +42,9 @@ function pixelOf(camera, p) {
     const [k1, k2, p1, p2, k3] = camera.lens, s = x * x + y * y;
     if (s > camera.fold * camera.fold) return null;
     const radial = 1 + s * (k1 + s * (k2 + s * k3));
-    [x, y] = [x * radial + 2 * p1 * x * y + p2 * (s + 2 * x * x),
-              y * radial + p1 * (s + 2 * y * y) + 2 * p2 * x * y];
+    [x, y] = [
+      x * radial + 2 * p1 * x * y + p2 * (s + 2 * x * x), y * radial + p1 * (s + 2 * y * y) + 2 * p2 * x * y
+    ];
   }
   return [camera.cx + camera.fx * x, camera.cy + camera.fy * y];
 }
@@ -62,18 +72,21 @@ function projectLine(camera, a, b, step) {
   const parts = Math.round(clamp(pixels / step, 1, 600)), points = [];
   for (let i = 0; i <= parts; ++i) {
     const s = i / parts, z = 1 / ((1 - s) / p[2] + s / q[2]);
-    const at = [((1 - s) * p[0] / p[2] + s * q[0] / q[2]) * z, ((1 - s) * p[1] / p[2] + s * q[1] / q[2]) * z, z];
+    const at =
+        [((1 - s) * p[0] / p[2] + s * q[0] / q[2]) * z, ((1 - s) * p[1] / p[2] + s * q[1] / q[2]) * z, z];
     const pixel = pixelOf(camera, at);
     points.push(pixel ? [pixel[0], pixel[1], z] : null);
   }
   return points;
 }
 /// The twelve edges of a box, as pairs of its corners (bit 0: x, bit 1: y, bit 2: z).
-const edgesOfBox = [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
+const edgesOfBox =
+    [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
 function cornersOfBox(box) {
   if (box.low)
     return Array.from({length: 8}, (_, i) => [0, 1, 2].map(c => (i >> c & 1 ? box.high : box.low)[c]));
   const m = matrixOf(...box.turn);
-  return Array.from({length: 8}, (_, i) =>
-    add(box.center, turn(m, [0, 1, 2].map(c => (i >> c & 1 ? 0.5 : -0.5) * box.size[c]))));
+  return Array.from(
+      {length: 8},
+      (_, i) => add(box.center, turn(m, [0, 1, 2].map(c => (i >> c & 1 ? 0.5 : -0.5) * box.size[c]))));
 }

@@ -5,7 +5,14 @@
 // events of `state` and ask the functions below; nothing flows back.
 
 const data = JSON.parse(document.getElementById('data').textContent);
-const state = {sequence: 0, moment: 0, channel: 0, link: 0, path: -1, listeners: []};
+const state = {
+  sequence: 0,
+  moment: 0,
+  channel: 0,
+  link: 0,
+  path: -1,
+  listeners: []
+};
 greatx.data = data;
 greatx.state = state;
 
@@ -13,7 +20,9 @@ const sequence = () => data.sequences[state.sequence];
 const moments = () => sequence().moments;
 const present = () => moments()[state.moment] || [0, 0];
 /// Lets every panel draw again. `what`: 'moment', 'sequence', 'channel', 'path' or 'theme'.
-function tell(what) { for (const listener of state.listeners) listener(what); }
+function tell(what) {
+  for (const listener of state.listeners) listener(what);
+}
 
 /// The latest record of a sensor at the present moment, or null.
 function latest(sensor) {
@@ -21,8 +30,10 @@ function latest(sensor) {
   let low = 0, high = records.length;
   while (low < high) {
     const middle = low + high >> 1;
-    if (records[middle].tick <= tick) low = middle + 1;
-    else high = middle;
+    if (records[middle].tick <= tick)
+      low = middle + 1;
+    else
+      high = middle;
   }
   return low > 0 ? records[low - 1] : null;
 }
@@ -38,8 +49,9 @@ const channel = () => channels()[state.channel] || null;
 /// The links of a channel, receiver by receiver.
 function linksOf(sensor) {
   const links = [];
-  sensor.about.rx.forEach((rx, r) => sensor.about.tx.forEach((tx, t) =>
-    links.push({rx: r, tx: t, name: rx.name + ' \u2190 ' + tx.name})));
+  sensor.about.rx.forEach(
+      (rx, r) => sensor.about.tx.forEach(
+          (tx, t) => links.push({rx: r, tx: t, name: rx.name + ' \u2190 ' + tx.name})));
   return links;
 }
 const link = () => channel() ? linksOf(channel())[state.link] || null : null;
@@ -58,8 +70,18 @@ function presentPaths() {
     for (let i = 0; i + 2 < row[6].length; i += 3)
       if (row[6][i] !== null) points.push(row[6].slice(i, i + 3));
     if (ends[1]) points.push(ends[1].slice(0, 3));
-    return {delay: row[2], power: row[3], doppler: row[4], kinds: row[5], objects: row[7], materials: row[8],
-            departure: [row[9], row[10]], arrival: [row[11], row[12]], points, first: ends[0] ? 1 : 0};
+    return {
+      delay: row[2],
+      power: row[3],
+      doppler: row[4],
+      kinds: row[5],
+      objects: row[7],
+      materials: row[8],
+      departure: [row[9], row[10]],
+      arrival: [row[11], row[12]],
+      points,
+      first: ends[0] ? 1 : 0
+    };
   });
 }
 /// The scale of the powers of paths: the upper 40 dB.
@@ -84,8 +106,9 @@ const worldOf = p => add(p, sequence().origin);
 /// The scene's boxes from the origin of the sequence: {id, kind, low, high}.
 function sceneObjects() {
   const shift = sub(data.origin, sequence().origin);
-  return data.objects.map(row => ({id: row[0], kind: row[1], low: add(row.slice(2, 5), shift),
-                                   high: add(row.slice(5, 8), shift)}));
+  return data.objects.map(
+      row =>
+          ({id: row[0], kind: row[1], low: add(row.slice(2, 5), shift), high: add(row.slice(5, 8), shift)}));
 }
 /// The boxes that the cameras know at the present moment, each once.
 function presentBoxes() {
@@ -95,7 +118,8 @@ function presentBoxes() {
     if (!record || !record.boxes) continue;
     for (const row of textOf(record.boxes.blob))
       if (!found.has(row[0]))
-        found.set(row[0], {id: row[0], center: row.slice(6, 9), size: row.slice(9, 12), turn: row.slice(12, 16)});
+        found.set(
+            row[0], {id: row[0], center: row.slice(6, 9), size: row.slice(9, 12), turn: row.slice(12, 16)});
   }
   return [...found.values()];
 }
@@ -105,8 +129,14 @@ function presentDetections() {
   const take = (sensor, pose, list) => {
     for (const row of list)
       if (pose && isNumber(row[0]))
-        found.push({at: toParent(pose, row.slice(0, 3)), sensor: sensor.name, range: row[3], velocity: row[4],
-                    snr: row[7], id: row[10]});
+        found.push({
+          at: toParent(pose, row.slice(0, 3)),
+          sensor: sensor.name,
+          range: row[3],
+          velocity: row[4],
+          snr: row[7],
+          id: row[10]
+        });
   };
   for (const sensor of sequence().sensors) {
     const record = (sensor.kind === 'radar' || sensor.kind === 'csi') && latest(sensor);
