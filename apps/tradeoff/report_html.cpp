@@ -12,6 +12,7 @@
 
 #include "apps/tradeoff/report_parts.h"
 #include "io/files/file.h"
+#include "io/formats/html_text.h"
 #include "io/formats/png.h"
 
 namespace greatx::apps {
@@ -19,6 +20,7 @@ namespace greatx::apps {
 namespace {
 
 using Json = nlohmann::json;
+using io::base64;
 using io::Bytes;
 
 constexpr const char* style = R"(
@@ -47,21 +49,6 @@ figure { margin: 0; flex: 1 1 240px; max-width: 420px; } figure img { width: 100
   image-rendering: auto; } figcaption { font-size: 13px; color: var(--dim); }
 .maps figure { flex: 0 1 200px; } .maps img { image-rendering: pixelated; }
 )";
-
-/// RFC 4648, section 4.
-std::string base64(const Bytes& bytes) {
-  constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(4 * ((bytes.size() + 2) / 3));
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    const size_t count = std::min<size_t>(3, bytes.size() - i);
-    uint32_t word = 0;
-    for (size_t k = 0; k < 3; ++k)
-      word = word << 8 | (k < count ? std::to_integer<uint32_t>(bytes[i + k]) : 0u);
-    for (size_t k = 0; k < 4; ++k) text += k <= count ? letters[word >> (18 - 6 * k) & 63u] : '=';
-  }
-  return text;
-}
 
 /// Lets a narrow window scroll what cannot become narrower.
 std::string in_scroller(const std::string& html) { return "<div class=\"scroll\">" + html + "</div>\n"; }

@@ -12,6 +12,7 @@
 
 #include "apps/tradeoff/report_parts.h"
 #include "draw/canvas/plot.h"
+#include "io/formats/html_text.h"
 
 namespace greatx::apps {
 
@@ -149,22 +150,7 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 
 }  // namespace
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
+std::string escaped(const std::string& text) { return io::html_escaped(text); }
 
 std::string device_line(const nlohmann::json& report) {
   return fmt::format("{}, {} cores", report["device"].get<std::string>(), report["cores"].get<uint32_t>());

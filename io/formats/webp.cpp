@@ -20,6 +20,22 @@ constexpr int shortest_between_keys = 5, longest_between_keys = 10;
 
 }  // namespace
 
+Bytes encode_webp(const Array& rgb, float wanted_quality) {
+  GREATX_CHECK(rgb.dtype == DType::u8 && rgb.shape.size() == 3 && rgb.shape[2] == 3, "a picture of {} axes",
+               rgb.shape.size());
+  const auto height = static_cast<int>(rgb.shape[0]), width = static_cast<int>(rgb.shape[1]);
+  GREATX_CHECK(width > 0 && height > 0 && width <= webp_longest_side && height <= webp_longest_side,
+               "WebP of {} x {} pixels", width, height);
+  uint8_t* data = nullptr;
+  const size_t size =
+      WebPEncodeRGB(rgb.as<uint8_t>().data(), width, height, 3 * width, wanted_quality, &data);
+  GREATX_CHECK(size > 0, "libwebp: no memory for {} x {} pixels", width, height);
+  Bytes file;
+  append(file, std::as_bytes(std::span(data, size)));
+  WebPFree(data);
+  return file;
+}
+
 struct WebpAnimator::State {
   int width, height;
   int last_ms = -1;

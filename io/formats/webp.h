@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes animated pictures as lossy WebP (RFC 9649) by libwebp. With the same version of libwebp, the same
-// frames always give the same bytes.
+// Writes pictures and animations as lossy WebP (RFC 9649) by libwebp. With the same version of libwebp, the
+// same pictures always give the same bytes.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,10 @@ namespace greatx::io {
 
 /// Longest side of a WebP picture, pixels (RFC 9649, section 2.5).
 inline constexpr int webp_longest_side = 16383;
+
+/// Encodes one picture, u8 [height, width, 3], whose sides are from 1 to webp_longest_side. `quality` is
+/// libwebp's, from 0 to 100.
+Bytes encode_webp(const Array& rgb, float quality);
 
 /// Encodes frames, which are added in order, to a file. The animation repeats for ever.
 class WebpAnimator {

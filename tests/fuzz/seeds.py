@@ -740,6 +740,11 @@ def dataset(program: str, folder: pathlib.Path, env: dict) -> list[Case]:
         + [Case("dataset", ["inspect", "data", *sheet], whole)] * 3
         + [Case("dataset", ["inspect", "data", *sheet, "--animation", "out/a.webp", "--frames", "2"], whole)]
         * 2
+        + [
+            Case("dataset", ["inspect", "data", *sheet, "--html", "out/r.html"], files)
+            for files in (whole, packed)
+        ]
+        * 2
         + [Case("dataset", resume, cut, keeps_files=False)] * 3
     )
 

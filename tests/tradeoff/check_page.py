@@ -9,7 +9,6 @@ plot and every picture. Each check is then tried on pages that are spoilt on pur
 (BROWSER is empty or ends in NOTFOUND) the exit code is 77, which ctest counts as skipped.
 """
 
-import base64
 import html
 import json
 import pathlib
@@ -19,19 +18,12 @@ import sys
 import tempfile
 from dataclasses import dataclass, field
 
-SKIPPED = 77
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from page_browser import LISTENER, SKIPPED, Browser, outside  # noqa: E402
+
 # The first one is also spoilt.
 STUDIES = [["city", "--only", "lidar", "--knob", "beam.rings"], ["canyon", "--only", "map"]]
 WIDTH = 1160
-HIGHEST = 16000  # pixels; beyond some height Chromium's screenshots are blank
-
-# Stands before everything else in the page, so that it sees every fault.
-LISTENER = """<script>
-window.greatxFaults = [];
-window.addEventListener("error", event => greatxFaults.push(
-  "fault: " + (event.message || "cannot load " + (event.target.src || event.target.href))), true);
-window.addEventListener("unhandledrejection", event => greatxFaults.push("fault: " + event.reason));
-</script>"""
 
 # Describes what is rendered, as JSON in the last element.
 PROBE = """<script>
@@ -60,59 +52,6 @@ window.addEventListener("load", () => {
 });
 </script>"""
 
-# Counts the colours of rectangles of a screenshot. Chromium itself decodes the picture.
-COUNTER = """<!DOCTYPE html><img id="shot" src="data:image/png;base64,{png}"/><script>
-window.addEventListener("load", () => {{
-  const shot = document.getElementById("shot"), canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [shot.naturalWidth, shot.naturalHeight];
-  const context = canvas.getContext("2d");
-  context.drawImage(shot, 0, 0);
-  const counts = {boxes}.map(([x, y, width, height]) => {{
-    const bytes = context.getImageData(x, y, Math.max(1, width), Math.max(1, height)).data;
-    return new Set(new Uint32Array(bytes.buffer)).size;
-  }});
-  document.body.innerHTML = '<pre id="greatx-probe"></pre>';
-  document.getElementById("greatx-probe").textContent = JSON.stringify(counts);
-}});
-</script>"""
-
-
-@dataclass
-class Browser:
-    """Runs the browser on files of one folder, without a network."""
-
-    program: str
-    folder: pathlib.Path
-
-    def run(self, page: str, *options: str) -> subprocess.CompletedProcess:
-        file = self.folder / "page.html"
-        file.write_text(page)
-        command = [self.program, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"]
-        command += ["--enable-logging=stderr", "--host-resolver-rules=MAP * ~NOTFOUND"]
-        command += [f"--user-data-dir={self.folder / 'profile'}", "--virtual-time-budget=5000", *options]
-        return subprocess.run([*command, file.as_uri()], capture_output=True, text=True, timeout=120)
-
-    def probe(self, page: str, *options: str) -> tuple[object, list[str]]:
-        """Returns what a script of the page has written into #greatx-probe, and the lines of the console."""
-        done = self.run(page, "--dump-dom", *options)
-        found = re.search(r'<pre id="greatx-probe">(.*?)</pre>', done.stdout, re.DOTALL)
-        if found is None:
-            sys.exit(f"expected a rendered page, exit code {done.returncode}:\n{done.stderr}")
-        console = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
-        return json.loads(html.unescape(found[1])), console
-
-    def colours(self, page: str, boxes: list[list[int]], height: int) -> list[int]:
-        """Returns how many colours each rectangle of a screenshot of the page has."""
-        if height > HIGHEST:
-            sys.exit(f"expected a page of at most {HIGHEST} pixels for a screenshot, found {height}")
-        picture = self.folder / "shot.png"
-        picture.unlink(missing_ok=True)
-        done = self.run(page, f"--screenshot={picture}", f"--window-size={WIDTH},{height}")
-        if not picture.exists():
-            sys.exit(f"expected a screenshot, exit code {done.returncode}:\n{done.stderr}")
-        counter = COUNTER.format(png=base64.b64encode(picture.read_bytes()).decode(), boxes=json.dumps(boxes))
-        return self.probe(counter)[0]
-
 
 @dataclass
 class Faults:
@@ -123,14 +62,6 @@ class Faults:
     def expect(self, holds: bool, words: str) -> None:
         if not holds:
             self.found.append(words)
-
-
-def outside(page: str) -> list[str]:
-    """Returns addresses in the text of the page that would be loaded and are not within the page."""
-    attribute = r'(?:src|href|srcset)\s*=\s*["\']?([^"\'\s>]+)'
-    loaded = re.findall(r"<(?:[^a\s>][^\s>]*|a[^\s>]+)\s[^>]*?" + attribute, page)  # of all tags but <a>
-    loaded += re.findall(r'url\(\s*["\']?([^"\')]+)', page) + re.findall(r'@import\s+["\']?([^"\';]+)', page)
-    return [address for address in loaded if not address.startswith(("data:", "#"))]
 
 
 def check_knob(knob: dict, report: dict, section: dict, faults: Faults) -> None:
@@ -188,7 +119,7 @@ def faults_of(page: str, report: dict, browser: Browser, look: bool = True) -> l
         return faults.found
     boxes = [[0, 0, WIDTH, seen["height"]]] + [item["box"] for item in drawn]
     names = ["the page"] + [f"'{item.get('alt', item.get('text'))[:60]}'" for item in drawn]
-    for name, colours in zip(names, browser.colours(page, boxes, seen["height"])):
+    for name, colours in zip(names, browser.colours(page, boxes, WIDTH, seen["height"])):
         faults.expect(colours > 2, f"expected {name} in the screenshot, found it blank")
     return faults.found
 
