@@ -353,9 +353,13 @@ class Taxonomy(unittest.TestCase):
     def test_sensors_alone(self):
         dataset = greatx.load(export_scene.plain())
         out = export_scene.out_folder()
-        # The camera with distortion cannot be written; leave it out by its own node.
+        # The camera with distortion cannot be written, and is left out.
         with self.assertRaisesRegex(greatx.DatasetError, "pole/bent.*distortion"):
             write_nuscenes(dataset, out, without_annotations=True)
+        counts = write_nuscenes(dataset, out, without_annotations=True, sensors=["eye"], keyframes_hz=0.0)
+        self.assertEqual((counts["scenes"], counts["samples"], counts["files"]), (2, 4, 4))
+        with self.assertRaisesRegex(greatx.DatasetError, "expected a sensor 'rear' .--sensor.*pole/eye"):
+            write_nuscenes(dataset, export_scene.out_folder(), sensors=["rear"])
         tables, counts = converted(node="level", without_annotations=True)
         self.assertEqual((counts["annotations"], tables.rows["sample_annotation"]), (0, []))
         self.assertTrue(math.isclose(tables.rows["ego_pose"][0]["translation"][2], 1.6))
