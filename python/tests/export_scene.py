@@ -86,8 +86,8 @@ def scene(compression: str = "none") -> pathlib.Path:
 
 
 def plain() -> pathlib.Path:
-    """Returns the folder of a data set of PLAIN."""
-    return support.made("export_plain", PLAIN, "--compression", "fast")
+    """Returns the folder of a data set of PLAIN, which has two sequences."""
+    return support.made("export_plain", PLAIN, "--compression", "fast", "--sequences", "2")
 
 
 def out_folder() -> pathlib.Path:

@@ -108,6 +108,15 @@ class Export(unittest.TestCase):
                 category[ids == segment["id"]] = segment["category_id"]
             np.testing.assert_array_equal(category, record["semantic"])
 
+    def test_pictures_of_all_sequences_are_one_set(self):
+        """Also from a compressed data set and a camera with distortion."""
+        out = export_scene.out_folder()
+        self.assertEqual(write_coco(greatx.load(export_scene.plain()), out)["pictures"], 8)
+        images = json.loads((out / "annotations/instances.json").read_text())["images"]
+        self.assertEqual([image["id"] for image in images], list(range(1, 9)))
+        self.assertEqual(images[-1]["file_name"], "sequence_0001/pole/bent/000001.png")
+        self.assertTrue(all((out / "images" / image["file_name"]).is_file() for image in images))
+
     def test_classes_of_objects_can_be_chosen(self):
         out = export_scene.out_folder()
         counts = write_coco(self.dataset, out, cameras=["level/left"], things=["building"], panoptic=False)

@@ -376,6 +376,16 @@ class Commands(unittest.TestCase):
         self.assertIn("000001.png", said)
         self.assertEqual(list(out.parent.iterdir()), [])
 
+    def test_a_damaged_array_is_an_error_that_names_the_data_set(self):
+        folder = support.copy_of(export_scene.scene())
+        path = folder / "sequence_0000/level/left/boxes/size.npy"
+        np.save(path, np.load(path)[:, :2])
+        out = export_scene.out_folder()
+        code, said = command("kitti-object", folder, out, "--node", "level", "--camera", "left")
+        self.assertEqual(code, 1)
+        self.assertIn("size.npy", said)
+        self.assertEqual(list(out.parent.iterdir()), [])
+
     def test_the_same_data_set_gives_the_same_bytes(self):
         for tool in ("kitti-tracking", "nuscenes"):
             found = []

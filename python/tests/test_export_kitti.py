@@ -295,7 +295,8 @@ class Odometry(unittest.TestCase):
         counts = write_kitti_odometry(
             greatx.load(export_scene.plain()), out, camera="eye", without_lidar=True
         )
-        self.assertEqual((counts["frames"], counts["points"]), (2, 0))
+        self.assertEqual((counts["sequences"], counts["frames"], counts["points"]), (2, 4, 0))
+        self.assertEqual(sorted(p.name for p in (out / "poses").iterdir()), ["00.txt", "01.txt"])
         self.assertFalse((out / "sequences/00/velodyne").exists())
         tr = rigid(entries(out / "sequences/00/calib.txt")["Tr"])
         np.testing.assert_allclose(tr[:3, :3], OPTICAL_FROM_BODY, atol=1e-12)
@@ -303,7 +304,7 @@ class Odometry(unittest.TestCase):
 
 class Object(unittest.TestCase):
     def boxes(self, folder, frame):
-        """Returns the only label of a frame as words, size l, w, h, and centre and axes of the box in camera 0."""
+        """Returns the only label of a frame: its words, size l, w, h, centre and axes in camera 0."""
         (line,) = (folder / f"label_2/{frame:06d}.txt").read_text().splitlines()
         words = line.split()
         self.assertEqual(len(words), 15)
@@ -400,11 +401,26 @@ class Object(unittest.TestCase):
         write_kitti_object(dataset, out, types=["vehicle=Van"], **LEVEL)
         self.assertTrue((out / "training/label_2/000000.txt").read_text().startswith("Van "))
         out = export_scene.out_folder()
+        write_kitti_raw(dataset, out, types=["vehicle=Van"], date="2011_09_26", **LEVEL)
+        drive = out / "2011_09_26/2011_09_26_drive_0000_sync"
+        self.assertIn("<objectType>Van</objectType>", (drive / "tracklet_labels.xml").read_text())
+        out = export_scene.out_folder()
         counts = write_kitti_object(dataset, out, types=["vehicle="], **LEVEL)
         self.assertEqual(counts["labels"], 0)
         out = export_scene.out_folder()
         write_kitti_object(dataset, out, without_labels=True, node="level", camera="right")
         self.assertFalse((out / "training/label_2").exists())
+
+    def test_frames_of_all_sequences_follow_one_another(self):
+        plain = {"camera": "eye", "without_lidar": True, "without_labels": True}
+        for sequence, wanted in ((None, ["0,0", "0,1", "1,0", "1,1"]), (1, ["1,0", "1,1"])):
+            out = export_scene.out_folder()
+            write_kitti_object(greatx.load(export_scene.plain()), out, sequence=sequence, **plain)
+            lines = (out / "frames.csv").read_text().splitlines()[1:]
+            self.assertEqual(
+                [line.rpartition(",")[0] for line in lines], [f"{i:06d},{w}" for i, w in enumerate(wanted)]
+            )
+            self.assertEqual(len(list((out / "training/image_2").iterdir())), len(wanted))
 
 
 class Tracking(unittest.TestCase):

@@ -11,7 +11,14 @@ import pathlib
 import sys
 from typing import List, Optional
 
-from .. import Campaign, DatasetError, load
+        with interpreting(given.DIR):
+            dataset = load(given.DIR)
+            if isinstance(dataset, Campaign):
+                raise DatasetError(
+                    f"{given.DIR}: expected a data set, found a campaign; convert one of its cells, as "
+                    f"{pathlib.Path(given.DIR, 'data', dataset.cells[0])}"
+                )
+            summary = by_name[given.to].run(dataset, given)
 from .catalogue import COMMANDS
 
 
@@ -30,6 +37,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
         command.arguments(sub)
     given = parser.parse_args(arguments)
     try:
+<<<<<<< HEAD
         dataset = load(given.DIR)
         if isinstance(dataset, Campaign):
             raise DatasetError(
@@ -37,7 +45,15 @@ def main(arguments: Optional[List[str]] = None) -> int:
                 f"{pathlib.Path(given.DIR, 'data', dataset.cells[0])}"
             )
         summary = by_name[given.to].run(dataset, given)
-    except (DatasetError, OSError, ImportError) as error:
+=======
+        with interpreting(given.DIR):
+            summary = by_name[given.to].run(load(given.DIR), given)
+>>>>>>> f78590fccc7d6328f9dafdac944af5494111bd4c
+    except OSError as error:
+        place = "" if error.filename else f"{given.OUT}: "  # writes do not know their file
+        print(f"error: {place}{error}", file=sys.stderr)
+        return 1
+    except (DatasetError, ImportError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:

@@ -22,8 +22,9 @@ from ..links import rotation
 from .poses import Pose
 from .rig import Track
 
-#: Classes that count as objects unless an argument says otherwise.
-OBJECT_CLASSES = ("vehicle", "person", "uav")
+#: Boxes touch their objects, so that points on a face lie in or out by their rounding. Points this near count
+#: as inside, m.
+ON_FACE = 1e-3
 
 
 @dataclasses.dataclass(frozen=True)
@@ -152,10 +153,10 @@ class Inventory:
 
 
 def points_inside(points: np.ndarray, frame_from_box: Pose, size: np.ndarray, axes: int = 3) -> np.ndarray:
-    """Returns a mask [n] of the points [n, 3] of a frame that lie in a box. With axes = 2 the box has no
-    bottom and no top."""
+    """Returns a mask [n] of the points [n, 3] of a frame that lie in a box or within ON_FACE of it. With
+    axes = 2 the box has no bottom and no top."""
     at_box = frame_from_box.inverse().apply(points)
-    return np.all(np.abs(at_box[:, :axes]) <= size[:axes] / 2, axis=1)
+    return np.all(np.abs(at_box[:, :axes]) <= size[:axes] / 2 + ON_FACE, axis=1)
 
 
 def class_arguments(pairs: Optional[List[str]], default: Dict[str, str], option: str) -> Dict[str, str]:

@@ -139,8 +139,9 @@ def _writable(dataset: Dataset, name: str) -> bool:
 
 
 def pick_rig(dataset: Dataset, node: Optional[str], needs_camera: bool, needs_lidar: bool) -> Rig:
-    """Returns a node with all its cameras that have pictures, and its LiDARs and radars. Without a name, it
-    is the only node that has what is needed. Raises DatasetError if there is none, or if there are several.
+    """Returns a node with all its cameras that have pictures, its LiDARs, and its radars that have
+    detections. Without a name, it is the only node that has what is needed. Raises DatasetError if there is
+    none, or if there are several.
     """
     nodes = nodes_of(dataset.sequences[0])
     if node is not None and node not in nodes:
@@ -152,7 +153,11 @@ def pick_rig(dataset: Dataset, node: Optional[str], needs_camera: bool, needs_li
             name,
             tuple(cameras),
             tuple(_kinds(dataset, name, nodes, "lidar")),
-            tuple(_kinds(dataset, name, nodes, "radar")),
+            tuple(
+                radar
+                for radar in _kinds(dataset, name, nodes, "radar")
+                if "detections" in dataset.sensors[radar].arrays
+            ),
         )
         if (node is None or name == node) and rig.sensors:
             if (rig.cameras or not needs_camera) and (rig.lidars or not needs_lidar):

@@ -16,6 +16,7 @@ axis and the camera's -y axis. Tracklets of the raw layout lose nothing.
 
 from __future__ import annotations
 
+import argparse
 import dataclasses
 import math
 from typing import Dict, List, Optional
@@ -31,6 +32,18 @@ from .source import Calibration
 TYPES = {"vehicle": "Car", "person": "Pedestrian", "uav": "Misc"}
 #: Least visibility of KITTI's occlusion levels 0 (fully visible) and 1 (partly occluded); 2 below.
 OCCLUSION = (0.9, 0.5)
+
+
+def type_argument(parser: argparse.ArgumentParser) -> None:
+    """Adds --type."""
+    parser.add_argument(
+        "--type",
+        action="append",
+        metavar="CLASS=TYPE",
+        help="KITTI's type of a class, for each class that differs from "
+        + ", ".join(f"{name}={kind}" for name, kind in TYPES.items())
+        + "; an empty type leaves a class out",
+    )
 
 
 def wrapped(angle: float) -> float:

@@ -19,7 +19,7 @@ import datetime
 import os
 import pathlib
 import re
-from typing import Any, Callable, Dict, List, Optional, Tuple, Union
+from typing import Any, Dict, List, Optional, Tuple, Union
 
 import numpy as np
 
@@ -28,12 +28,13 @@ from ...errors import DatasetError
 from ...geodesy import LocalFrame
 from ..common import Command
 from ..folders import Progress, new_folder
-from ..objects import has_boxes
+from ..objects import class_arguments, has_boxes
 from ..rig import Track, time_ns
 from . import calibration as files
+from .labels import TYPES, type_argument
 from .oxts import DEFAULT_PLACE, Places, dataformat, line, local_frame, packet
 from .source import Source, check_numbers, choice, choose, source_arguments
-from .tracklets import TRACKLET_TYPES, Tracklets
+from .tracklets import Tracklets
 
 DEFAULT_DATE = "2000_01_01"
 
@@ -44,6 +45,7 @@ def write_kitti_raw(
     date: str = DEFAULT_DATE,
     origin: Optional[Tuple[float, float, float]] = None,
     places: str = "mercator",
+    types: Optional[List[str]] = None,
     **chosen: Any,
 ) -> Dict[str, Any]:
     """Writes drives of KITTI's raw layout. Returns counts of the written objects.
@@ -51,19 +53,20 @@ def write_kitti_raw(
     `date` (YYYY_MM_DD) is the day on which each sequence begins at midnight. `origin` is latitude and
     longitude in degrees and height in m of the first frame of the first sequence, for a scene without
     georeference. `places` says what latitudes and longitudes are for (see oxts.py): "mercator" or "geodetic".
-    The other arguments are those of source.choose(). Raises DatasetError, or FileExistsError if `out` is not
-    empty.
+    `types` are CLASS=TYPE, which change or add to labels.TYPES for tracklets. The other arguments are those
+    of source.choose(). Raises DatasetError, or FileExistsError if `out` is not empty.
     """
     day = _day(date)
     if places not in ("mercator", "geodetic"):
         raise DatasetError(f"--places: expected mercator or geodetic, found {places!r}")
     source = choose(dataset, **chosen)
+    named = class_arguments(types, TYPES, "--type")
     check_numbers(source.sequences, 9999, "drives")
     frame = local_frame(dataset, origin)
     anchor = np.zeros(3)
     if frame is None:
         frame = LocalFrame(*(origin or DEFAULT_PLACE))
-        anchor = _first_position(source)
+        anchor = _Drive(source, source.sequences[0], pathlib.Path(), day, named).first_position()
     counts: Dict[str, Any] = {"drives": 0, "frames": 0, "points": 0, "tracklets": 0}
     progress = Progress(sum(len(source.ticks(s)) for s in source.sequences), "frames")
     with new_folder(out) as root:
@@ -73,13 +76,9 @@ def write_kitti_raw(
         (folder / "calib_velo_to_cam.txt").write_text(files.velo_to_cam(source.calibration))
         (folder / "calib_imu_to_velo.txt").write_text(files.imu_to_velo(source.calibration))
         for sequence in source.sequences:
-            drive = folder / f"{date}_drive_{sequence.number:04d}_sync"
-            track = Track(sequence)
-            node = track.nodes.index(source.rig.node)
-            first = track.pose(node, int(source.ticks(sequence)[0])).position
-            _drive(
-                source, sequence, drive, day, track, Places(frame, anchor, first, places), counts, progress
-            )
+            name = f"{date}_drive_{sequence.number:04d}_sync"
+            drive = _Drive(source, sequence, folder / name, day, named)
+            drive.write(Places(frame, anchor, drive.first_position(), places), counts, progress)
             counts["drives"] += 1
     progress.end()
     return counts
@@ -94,12 +93,6 @@ def _day(date: str) -> datetime.datetime:
         raise DatasetError(f"--date: expected a day as YYYY_MM_DD, found {date!r}") from None
 
 
-def _first_position(source: Source) -> np.ndarray:
-    sequence = source.sequences[0]
-    track = Track(sequence)
-    return track.pose(track.nodes.index(source.rig.node), int(source.ticks(sequence)[0])).position
-
-
 def stamp(day: datetime.datetime, nanoseconds: int) -> str:
     """Returns a time as KITTI writes it, with nine digits after the point."""
     seconds, rest = divmod(nanoseconds, 10**9)
@@ -107,64 +100,74 @@ def stamp(day: datetime.datetime, nanoseconds: int) -> str:
     return f"{moment:%Y-%m-%d %H:%M:%S}.{rest:09d}\n"
 
 
-def _drive(
-    source: Source,
-    sequence: Sequence,
-    folder: pathlib.Path,
-    day: datetime.datetime,
-    track: Track,
-    places: Places,
-    counts: Dict[str, Any],
-    progress: Progress,
-) -> None:
-    ticks = [int(tick) for tick in source.ticks(sequence)]
-    node = track.nodes.index(source.rig.node)
-    left = sequence[source.left]
-    tracklets = Tracklets(TRACKLET_TYPES, source.calibration) if has_boxes(sequence, source.left) else None
-    oxts = folder / "oxts"
-    (oxts / "data").mkdir(parents=True)
-    (oxts / "dataformat.txt").write_text(dataformat())
-    for frame, tick in enumerate(ticks):
-        name = f"{frame:010d}"
-        for camera in source.cameras():
-            source.picture(sequence, camera, tick, folder / f"image_{camera:02d}/data/{name}.png")
-        if source.lidar:
-            target = folder / f"velodyne_points/data/{name}.bin"
-            counts["points"] += source.velodyne(sequence, tick, track, target)
-        pose = track.pose(node, tick)
-        values = packet(pose, places.of(pose.position), track, node, tick)
-        (oxts / f"data/{name}.txt").write_text(line(values))
+class _Drive:
+    """Writes one sequence."""
+
+    def __init__(
+        self,
+        source: Source,
+        sequence: Sequence,
+        folder: pathlib.Path,
+        day: datetime.datetime,
+        types: Dict[str, str],
+    ):
+        self._source, self._sequence, self._folder, self._day = source, sequence, folder, day
+        self._types = types
+        self._track = Track(sequence)
+        self._node = self._track.nodes.index(source.rig.node)
+        self._ticks = [int(tick) for tick in source.ticks(sequence)]
+
+    def first_position(self) -> np.ndarray:
+        """Returns the position of the carrier in the first frame, [3] m in the world."""
+        return self._track.pose(self._node, self._ticks[0]).position
+
+    def write(self, places: Places, counts: Dict[str, Any], progress: Progress) -> None:
+        source, sequence, folder = self._source, self._sequence, self._folder
+        left = sequence[source.left]
+        tracklets = Tracklets(self._types, source.calibration) if has_boxes(sequence, source.left) else None
+        oxts = folder / "oxts"
+        (oxts / "data").mkdir(parents=True)
+        (oxts / "dataformat.txt").write_text(dataformat())
+        for frame, tick in enumerate(self._ticks):
+            name = f"{frame:010d}"
+            for camera in source.cameras():
+                source.picture(sequence, camera, tick, folder / f"image_{camera:02d}/data/{name}.png")
+            if source.lidar:
+                target = folder / f"velodyne_points/data/{name}.bin"
+                counts["points"] += source.velodyne(sequence, tick, self._track, target)
+            pose = self._track.pose(self._node, tick)
+            values = packet(pose, places.of(pose.position), self._track, self._node, tick)
+            (oxts / f"data/{name}.txt").write_text(line(values))
+            if tracklets is not None:
+                tracklets.add(frame, left.at(tick))
+            counts["frames"] += 1
+            progress.step()
+        self._timestamps()
         if tracklets is not None:
-            tracklets.add(frame, left.at(tick))
-        counts["frames"] += 1
-        progress.step()
-    _timestamps(source, sequence, folder, [time_ns(sequence, tick) for tick in ticks], day)
-    if tracklets is not None:
-        (folder / "tracklet_labels.xml").write_text(tracklets.xml())
-        counts["tracklets"] += len(tracklets.all)
+            (folder / "tracklet_labels.xml").write_text(tracklets.xml())
+            counts["tracklets"] += len(tracklets.all)
 
+    def _timestamps(self) -> None:
+        """Writes the times of all sensors. Poses, pictures and points of a frame belong to its tick, at which
+        a sweep begins."""
+        times = [time_ns(self._sequence, tick) for tick in self._ticks]
 
-def _timestamps(
-    source: Source, sequence: Sequence, folder: pathlib.Path, times: List[int], day: datetime.datetime
-) -> None:
-    """Writes the times of all sensors. Poses, pictures and points of a frame belong to its tick, at which a
-    sweep begins."""
+        def write(path: str, later_ns: int = 0) -> None:
+            lines = "".join(stamp(self._day, ns + later_ns) for ns in times)
+            (self._folder / path).write_text(lines)
 
-    def write(path: str, of: Callable[[int], int] = lambda ns: ns) -> None:
-        (folder / path).write_text("".join(stamp(day, of(ns)) for ns in times))
-
-    sweep = round(source.sweep_s(sequence) * 1e9)
-    write("oxts/timestamps.txt")
-    for camera in source.cameras():
-        write(f"image_{camera:02d}/timestamps.txt")
-    if source.lidar:
-        write("velodyne_points/timestamps.txt")
-        write("velodyne_points/timestamps_start.txt")
-        write("velodyne_points/timestamps_end.txt", lambda ns: ns + sweep)
+        write("oxts/timestamps.txt")
+        for camera in self._source.cameras():
+            write(f"image_{camera:02d}/timestamps.txt")
+        if self._source.lidar:
+            write("velodyne_points/timestamps.txt")
+            write("velodyne_points/timestamps_start.txt")
+            write("velodyne_points/timestamps_end.txt", round(self._source.sweep_s(self._sequence) * 1e9))
 
 
 def _arguments(parser: argparse.ArgumentParser) -> None:
     source_arguments(parser)
+    type_argument(parser)
     parser.add_argument("--date", default=DEFAULT_DATE, help="day of the drives, YYYY_MM_DD (%(default)s)")
     parser.add_argument(
         "--origin",
@@ -192,6 +195,7 @@ COMMAND = Command(
         date=given.date,
         origin=tuple(given.origin) if given.origin else None,
         places=given.places,
+        types=given.type,
         **choice(given),
     ),
     _arguments,

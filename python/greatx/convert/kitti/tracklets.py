@@ -23,9 +23,6 @@ from .labels import occlusion
 from .oxts import angles
 from .source import Calibration
 
-#: KITTI's types of our classes.
-TRACKLET_TYPES = {"vehicle": "Car", "person": "Pedestrian", "uav": "Misc"}
-
 
 @dataclasses.dataclass
 class Tracklet:

@@ -20,15 +20,15 @@ import pathlib
 from typing import Any, Dict, List, Optional, Union
 
 from ...dataset import Dataset, Record, Sequence
+from ...geodesy import LocalFrame
 from ..common import Command
 from ..folders import Progress, new_folder
 from ..objects import class_arguments, require_boxes
 from ..rig import Track, time_ns
 from . import calibration as files
-from .labels import TYPES, Label, labels
+from .labels import TYPES, Label, labels, type_argument
 from .oxts import DEFAULT_PLACE, Places, line, local_frame, packet
 from .source import Source, check_numbers, choice, choose, source_arguments
-from ...geodesy import LocalFrame
 
 
 class _Labels:
@@ -165,14 +165,7 @@ def _tracking_sequence(
 
 def _arguments(parser: argparse.ArgumentParser) -> None:
     source_arguments(parser)
-    parser.add_argument(
-        "--type",
-        action="append",
-        metavar="CLASS=TYPE",
-        help="KITTI's type of a class, for each class that differs from "
-        + ", ".join(f"{name}={kind}" for name, kind in TYPES.items())
-        + "; an empty type leaves a class out",
-    )
+    type_argument(parser)
     parser.add_argument("--without-labels", action="store_true", help="write no labels")
 
 

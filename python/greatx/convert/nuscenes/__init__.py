@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes data sets in the format of nuScenes (docs/exports.md)."""
 
-from .write import COMMAND, write_nuscenes
+from .command import COMMAND
+from .write import write_nuscenes
 
 __all__ = ["COMMAND", "write_nuscenes"]

@@ -3,6 +3,7 @@
 """Writes a data set as nuScenes' tables and files, which nuscenes-devkit reads.
 
     OUT/v1.0-mini/scene.json sample.json sample_data.json ...   thirteen tables, and lidarseg.json
+    OUT/v1.0-mini/splits.json                                   a split "all" of all scenes
     OUT/samples/CAM_FRONT/...  LIDAR_TOP/...  RADAR_FRONT/...   files of keyframes
     OUT/sweeps/CAM_FRONT/...                                    files of all other ticks
     OUT/lidarseg/v1.0-mini/TOKEN_lidarseg.bin                   classes of the points of keyframes
@@ -17,8 +18,8 @@ coordinates.
 
 from __future__ import annotations
 
-import argparse
 import datetime
+import json
 import os
 import pathlib
 from typing import Any, Dict, List, Optional, Union
@@ -28,7 +29,6 @@ import numpy as np
 from ...dataset import Dataset, Record, Sequence
 from ...errors import DatasetError
 from ..clouds import Cloud, cloud, untwisted
-from ..common import Command
 from ..folders import Progress, new_folder, place
 from ..objects import Inventory, class_arguments, has_boxes, require_boxes
 from ..png import write_png
@@ -40,7 +40,6 @@ from ..rig import (
     optics,
     pick_rig,
     picture_file,
-    rig_arguments,
     sequences_of,
     time_ns,
 )
@@ -70,12 +69,14 @@ def write_nuscenes(
     version: str = "v1.0-mini",
     link: bool = False,
     untwist: bool = False,
+    scene_names: Optional[List[str]] = None,
 ) -> Dict[str, Any]:
     """Writes the sequences of a data set as nuScenes' scenes. Returns counts of the written objects.
 
     A sample comes every 1 / keyframes_hz s, or at every common tick if it is 0. Objects up to `range_m` from
     the carrier are annotated, if any camera of the node ever has a box for them. `channels` are
     SENSOR=CHANNEL (see channels.py) and `categories` CLASS=CATEGORY, which change categories.ANNOTATED.
+    `scene_names` are the names of the sequences, in their order (default: scene-0000, scene-0001, ...).
     Raises DatasetError, or FileExistsError if `out` is not empty.
     """
     return Writer(
@@ -90,6 +91,7 @@ def write_nuscenes(
         version,
         link,
         untwist,
+        scene_names,
     ).write(out)
 
 
@@ -124,6 +126,7 @@ class Writer:
         version: str,
         link: bool,
         untwist: bool,
+        scene_names: Optional[List[str]],
     ):
         if not 0 <= keyframes_hz <= 1e6:
             raise DatasetError(f"--keyframes: expected a rate from 0 to 1e6 Hz, found {keyframes_hz}")
@@ -131,6 +134,13 @@ class Writer:
             raise DatasetError(f"--range: expected a range up to 1e6 m, found {range_m}")
         if not version or "/" in version or version.startswith("."):
             raise DatasetError(f"--version: expected the name of a folder, found {version!r}")
+        names = scene_names if scene_names is not None else [f"scene-{s.number:04d}" for s in sequences]
+        if len(set(names)) != len(sequences) or len(names) != len(sequences):
+            raise DatasetError(
+                f"--scene-name: expected {len(sequences)} different names, one for each sequence, found "
+                f"{', '.join(names)}"
+            )
+        self.scene_names = {s.number: name for s, name in zip(sequences, names)}
         self.dataset, self.rig, self.sequences = dataset, rig, sequences
         self.categories, self.range_m, self.version = categories, range_m, version
         self.link, self.untwist = link, untwist
@@ -181,6 +191,8 @@ class Writer:
                 self._scene(root, sequence, progress)
             self._map(root)
             self.tables.write(root / self.version)
+            splits = {"all": [row["name"] for row in self.tables.rows["scene"]]}
+            (root / self.version / "splits.json").write_text(json.dumps(splits) + "\n")
         progress.end()
         return self.counts
 
@@ -235,7 +247,7 @@ class Writer:
             nbr_samples=len(samples),
             first_sample_token=samples[0]["token"],
             last_sample_token=samples[-1]["token"],
-            name=f"scene-{number:04d}",
+            name=self.scene_names[number],
             description=f"sequence {number} of the scenario {self.dataset.run.get('scenario', '')}",
         )
         track = Track(sequence)
@@ -362,54 +374,3 @@ class Writer:
             filename="maps/empty.png",
             log_tokens=[log["token"] for log in self.tables.rows["log"]],
         )
-
-
-def _arguments(parser: argparse.ArgumentParser) -> None:
-    rig_arguments(parser)
-    parser.add_argument(
-        "--keyframes",
-        type=float,
-        default=2.0,
-        metavar="HZ",
-        help="rate of samples; 0: every tick at which all sensors fire (default: %(default)s)",
-    )
-    parser.add_argument(
-        "--range", type=float, default=100.0, metavar="M", help="of annotated objects (default: %(default)s)"
-    )
-    parser.add_argument(
-        "--channel", action="append", metavar="SENSOR=CHANNEL", help="nuScenes' channel of a sensor"
-    )
-    parser.add_argument(
-        "--category",
-        action="append",
-        metavar="CLASS=CATEGORY",
-        help="category of annotations of a class, for each class that differs from "
-        + ", ".join(f"{name}={category}" for name, category in ANNOTATED.items())
-        + "; an empty category leaves a class out",
-    )
-    parser.add_argument("--without-annotations", action="store_true", help="write sensors alone")
-    parser.add_argument("--version", default="v1.0-mini", help="name of the tables' folder (%(default)s)")
-    parser.add_argument(
-        "--untwist", action="store_true", help="undo the motion of the LiDAR during each sweep"
-    )
-
-
-COMMAND = Command(
-    "nuscenes",
-    "nuScenes' tables and files, for nuscenes-devkit",
-    lambda dataset, given: write_nuscenes(
-        dataset,
-        given.OUT,
-        node=given.node,
-        sequence=given.sequence,
-        keyframes_hz=given.keyframes,
-        range_m=given.range,
-        channels=given.channel,
-        categories=given.category,
-        without_annotations=given.without_annotations,
-        version=given.version,
-        link=given.link,
-        untwist=given.untwist,
-    ),
-    _arguments,
-)
