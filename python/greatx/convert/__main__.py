@@ -11,14 +11,8 @@ import pathlib
 import sys
 from typing import List, Optional
 
-        with interpreting(given.DIR):
-            dataset = load(given.DIR)
-            if isinstance(dataset, Campaign):
-                raise DatasetError(
-                    f"{given.DIR}: expected a data set, found a campaign; convert one of its cells, as "
-                    f"{pathlib.Path(given.DIR, 'data', dataset.cells[0])}"
-                )
-            summary = by_name[given.to].run(dataset, given)
+from .. import Campaign, DatasetError, load
+from ..files import interpreting
 from .catalogue import COMMANDS
 
 
@@ -37,20 +31,16 @@ def main(arguments: Optional[List[str]] = None) -> int:
         command.arguments(sub)
     given = parser.parse_args(arguments)
     try:
-<<<<<<< HEAD
-        dataset = load(given.DIR)
-        if isinstance(dataset, Campaign):
-            raise DatasetError(
-                f"{given.DIR}: expected a data set, found a campaign; convert one of its cells, as "
-                f"{pathlib.Path(given.DIR, 'data', dataset.cells[0])}"
-            )
-        summary = by_name[given.to].run(dataset, given)
-=======
         with interpreting(given.DIR):
-            summary = by_name[given.to].run(load(given.DIR), given)
->>>>>>> f78590fccc7d6328f9dafdac944af5494111bd4c
+            dataset = load(given.DIR)
+            if isinstance(dataset, Campaign):
+                raise DatasetError(
+                    f"{given.DIR}: expected a data set, found a campaign; convert one of its cells, as "
+                    f"{pathlib.Path(given.DIR, 'data', dataset.cells[0])}"
+                )
+            summary = by_name[given.to].run(dataset, given)
     except OSError as error:
-        place = "" if error.filename else f"{given.OUT}: "  # writes do not know their file
+        place = "" if error.filename else f"{given.OUT}: "  # a write does not know its file
         print(f"error: {place}{error}", file=sys.stderr)
         return 1
     except (DatasetError, ImportError) as error:
