@@ -11,6 +11,7 @@ import subprocess
 import sys
 import types
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -19,6 +20,7 @@ import greatx
 import support
 from greatx.convert import folders, poses
 from greatx.convert.__main__ import main
+from greatx.convert.common import Command
 from greatx.convert.clouds import cloud, rotations, sweep_s, untwisted
 from greatx.convert.png import write_rgb
 from greatx.convert.rig import Track, common_ticks, optics, pick_rig, pick_sensor, picture_file, time_ns
@@ -360,6 +362,18 @@ class Commands(unittest.TestCase):
             self.assertEqual(code, 1, tool)
             self.assertIn("nothing is overwritten", said)
             self.assertEqual([p.name for p in out.parent.iterdir()], ["out"])
+
+    def test_an_interrupted_command_says_so(self):
+        def stop(dataset, given):
+            with folders.new_folder(given.OUT):
+                raise KeyboardInterrupt
+
+        out = export_scene.out_folder()
+        with unittest.mock.patch("greatx.convert.__main__.COMMANDS", (Command("stop", "", stop),)):
+            code, said = command("stop", export_scene.plain(), out)
+        self.assertEqual(code, 130)
+        self.assertIn("interrupted", said)
+        self.assertEqual(list(out.parent.iterdir()), [])
 
     def test_an_unknown_tool_is_refused(self):
         code, said = command("kity", export_scene.scene(), export_scene.out_folder())

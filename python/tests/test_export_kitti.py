@@ -18,11 +18,13 @@ from greatx.convert import (
     write_kitti_raw,
     write_kitti_tracking,
 )
+from greatx.convert.clouds import untwisted
 from greatx.convert.kitti.labels import label, wrapped
 from greatx.convert.kitti.oxts import GRAVITY, Places, angles
 from greatx.convert.kitti.source import choose
 from greatx.convert.objects import Seen
 from greatx.convert.poses import OPTICAL_FROM_BODY, Pose, optical_pose, sensor_pose
+from greatx.convert.rig import Track
 from greatx.geodesy import LocalFrame
 from greatx.links import rotation
 from test_export_common import turn
@@ -201,6 +203,33 @@ class Raw(unittest.TestCase):
         for name in ("00", "01", "03"):
             np.testing.assert_array_equal(camera[f"P_rect_{name}"], camera["P_rect_02"])
         self.assertFalse((self.drive / "image_03").exists())
+
+    def test_a_stereo_pair(self):
+        out = export_scene.out_folder()
+        write_kitti_raw(self.sequence.dataset, out, right="right", **LEVEL)
+        camera = entries(out / "2000_01_01/calib_cam_to_cam.txt")
+        np.testing.assert_allclose(camera["P_rect_03"].reshape(3, 4)[:, 3], [-16, 0, 0], atol=1e-9)
+        np.testing.assert_allclose(camera["T_03"], [-0.5, 0, 0], atol=1e-12)
+        drive = out / "2000_01_01/2000_01_01_drive_0000_sync"
+        self.assertEqual(len(list((drive / "image_03/data").iterdir())), 5)
+        self.assertTrue((drive / "image_03/timestamps.txt").is_file())
+
+    def test_a_sweep_ends_later_and_can_be_untwisted(self):
+        scans = []
+        for untwist in (False, True):
+            out = export_scene.out_folder()
+            choice = {**EGO, "lidar": "spin", "untwist": untwist}
+            write_kitti_raw(self.sequence.dataset, out, **choice)
+            folder = out / "2000_01_01/2000_01_01_drive_0000_sync/velodyne_points"
+            starts = (folder / "timestamps_start.txt").read_text().splitlines()
+            ends = (folder / "timestamps_end.txt").read_text().splitlines()
+            self.assertEqual(starts[1], "2000-01-01 00:00:00.200000000")
+            self.assertEqual(ends[1], "2000-01-01 00:00:00.300000000")
+            scans.append(np.fromfile(folder / "data/0000000001.bin", "<f4").reshape(-1, 4))
+        record = self.sequence["ego/spin"].record(1)
+        np.testing.assert_array_equal(scans[0], record["points"])
+        np.testing.assert_array_equal(scans[1], untwisted(record, Track(self.sequence)).points)
+        self.assertGreater(np.abs(scans[0] - scans[1]).max(), 0.5)
 
 
 class Oxts(unittest.TestCase):

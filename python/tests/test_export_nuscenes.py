@@ -224,6 +224,24 @@ class Geometry(unittest.TestCase):
             (attribute,) = row["attribute_tokens"]
             self.assertEqual(self.tables.get("attribute", attribute)["name"], "vehicle.moving")
 
+    def test_radar_detections_are_counted_above_and_below_a_box(self):
+        """The car is above the radar's plane, in which all detections lie."""
+        counts = []
+        for row in self.tables.rows["sample_annotation"]:
+            data = self.tables.keyframe(self.tables.get("sample", row["sample_token"]), "RADAR_FRONT")
+            path = export_scene.out_folder()
+            path.write_bytes((self.tables.folder / data["filename"]).read_bytes()[:-1])
+            points = read_pcd(path)
+            at, turned = self.tables.global_from_sensor(data)
+            world = np.stack([points["x"], points["y"], points["z"]], -1).astype(float) @ turned.T + at
+            local = np.abs((world - row["translation"]) @ rotation(row["rotation"]))
+            width, length, height = row["size"]
+            inside = (local[:, 0] <= length / 2) & (local[:, 1] <= width / 2)
+            self.assertTrue(np.all(local[inside, 2] > height / 2))
+            counts.append(int(inside.sum()))
+        self.assertEqual([row["num_radar_pts"] for row in self.tables.rows["sample_annotation"]], counts)
+        self.assertGreater(sum(counts), 0)
+
     def test_velocities_are_differences_of_positions(self):
         rows = self.tables.rows["sample_annotation"]
         step = np.array(rows[2]["translation"]) - rows[0]["translation"]
@@ -335,9 +353,13 @@ class Taxonomy(unittest.TestCase):
     def test_sensors_alone(self):
         dataset = greatx.load(export_scene.plain())
         out = export_scene.out_folder()
-        # The camera with distortion cannot be written; leave it out by its own node.
+        # The camera with distortion cannot be written, and is left out.
         with self.assertRaisesRegex(greatx.DatasetError, "pole/bent.*distortion"):
             write_nuscenes(dataset, out, without_annotations=True)
+        counts = write_nuscenes(dataset, out, without_annotations=True, sensors=["eye"], keyframes_hz=0.0)
+        self.assertEqual((counts["scenes"], counts["samples"], counts["files"]), (2, 4, 4))
+        with self.assertRaisesRegex(greatx.DatasetError, "expected a sensor 'rear' .--sensor.*pole/eye"):
+            write_nuscenes(dataset, export_scene.out_folder(), sensors=["rear"])
         tables, counts = converted(node="level", without_annotations=True)
         self.assertEqual((counts["annotations"], tables.rows["sample_annotation"]), (0, []))
         self.assertTrue(math.isclose(tables.rows["ego_pose"][0]["translation"][2], 1.6))

@@ -192,6 +192,16 @@ def pick_sensor(rig: Rig, names: Iterable[str], name: Optional[str], what: str, 
     raise DatasetError(f"{rig.node}: expected a {what} {name!r} ({option}), found {found}")
 
 
+def restricted(rig: Rig, names: Optional[List[str]]) -> Rig:
+    """Returns a rig with only the named sensors (with or without the node); None stands for all. Raises
+    DatasetError if the rig has no sensor of a name."""
+    if names is None:
+        return rig
+    chosen = {pick_sensor(rig, rig.sensors, name, "sensor", "--sensor") for name in names}
+    kinds = (tuple(name for name in kind if name in chosen) for kind in (rig.cameras, rig.lidars, rig.radars))
+    return Rig(rig.node, *kinds)
+
+
 def common_ticks(sequence: Sequence, names: Iterable[str]) -> np.ndarray:
     """Returns the ticks at which all these sensors have records, int64 [n]. Raises DatasetError if there is
     none."""

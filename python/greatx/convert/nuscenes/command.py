@@ -15,6 +15,12 @@ from .write import write_nuscenes
 def _arguments(parser: argparse.ArgumentParser) -> None:
     rig_arguments(parser)
     parser.add_argument(
+        "--sensor",
+        action="append",
+        metavar="NAME",
+        help="sensor to write, once or more; default: all of the node",
+    )
+    parser.add_argument(
         "--keyframes",
         type=float,
         default=2.0,
@@ -66,6 +72,7 @@ COMMAND = Command(
         link=given.link,
         untwist=given.untwist,
         scene_names=given.scene_name,
+        sensors=given.sensor,
     ),
     _arguments,
 )

@@ -40,6 +40,7 @@ from ..rig import (
     optics,
     pick_rig,
     picture_file,
+    restricted,
     sequences_of,
     time_ns,
 )
@@ -70,18 +71,20 @@ def write_nuscenes(
     link: bool = False,
     untwist: bool = False,
     scene_names: Optional[List[str]] = None,
+    sensors: Optional[List[str]] = None,
 ) -> Dict[str, Any]:
     """Writes the sequences of a data set as nuScenes' scenes. Returns counts of the written objects.
 
     A sample comes every 1 / keyframes_hz s, or at every common tick if it is 0. Objects up to `range_m` from
     the carrier are annotated, if any camera of the node ever has a box for them. `channels` are
     SENSOR=CHANNEL (see channels.py) and `categories` CLASS=CATEGORY, which change categories.ANNOTATED.
+    `sensors` are the only ones to write (default: all of the node).
     `scene_names` are the names of the sequences, in their order (default: scene-0000, scene-0001, ...).
     Raises DatasetError, or FileExistsError if `out` is not empty.
     """
     return Writer(
         dataset,
-        pick_rig(dataset, node, needs_camera=False, needs_lidar=False),
+        restricted(pick_rig(dataset, node, needs_camera=False, needs_lidar=False), sensors),
         sequences_of(dataset, sequence),
         keyframes_hz,
         range_m,
