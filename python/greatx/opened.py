@@ -7,7 +7,7 @@ read by a process that may open few files.
 from __future__ import annotations
 
 import collections
-import threading
+import contextlib
 from typing import Any, Callable, Hashable, Tuple
 
 #: Arrays that stay open. An array takes up to two file handles; Linux allows a process 1024 by default.
@@ -16,7 +16,10 @@ MOST_OPEN = 256
 
 class OpenArrays:
     """Holds opened objects by key. Beyond `most`, lets go of those that were used longest ago; their files
-    close when nothing else refers to them. A pickled or forked copy opens files of its own.
+    close when nothing else refers to them. A pickled copy opens files of its own.
+
+    Several threads may use it: two of them may then open an object twice, of which one stays. There is no
+    lock, which a forked process could find held for ever.
     """
 
     def __init__(self, most: int = MOST_OPEN):
@@ -24,25 +27,26 @@ class OpenArrays:
             raise ValueError(f"expected 1 or more open arrays, found {most}")
         self.most = most
         self._objects: "collections.OrderedDict[Hashable, Any]" = collections.OrderedDict()
-        self._lock = threading.RLock()
 
     def get(self, key: Hashable, make: Callable[[], Any]) -> Any:
         """Returns the object of this key; calls make() if there is none."""
-        with self._lock:
-            if key in self._objects:
-                self._objects.move_to_end(key)
-                return self._objects[key]
-            made = make()
-            self._objects[key] = made
+        try:
+            found = self._objects[key]
+            self._objects.move_to_end(key)
+            return found
+        except KeyError:
+            pass
+        made = make()
+        self._objects[key] = made
+        with contextlib.suppress(KeyError):  # another thread has taken the last one
             while len(self._objects) > self.most:
                 self._objects.popitem(last=False)
-            return made
+        return made
 
     def drop(self, wanted: Callable[[Any], bool]) -> None:
         """Lets go of the objects whose keys are wanted."""
-        with self._lock:
-            for key in [k for k in self._objects if wanted(k)]:
-                del self._objects[key]
+        for key in [k for k in list(self._objects) if wanted(k)]:
+            self._objects.pop(key, None)
 
     def __len__(self) -> int:
         return len(self._objects)

@@ -22,6 +22,8 @@ import greatx
 import support
 from greatx.convert.__main__ import main
 from greatx.convert.hdf5 import write_hdf5
+from greatx.convert.mcap.output import plain
+from greatx.convert.mcap.scene import path_lines, statistics
 from greatx.convert.webdataset import write_webdataset
 from greatx.frames import read_ply, read_png
 
@@ -190,6 +192,47 @@ class WebDataset(Exported):
         with self.assertRaisesRegex(FileExistsError, "nothing is overwritten"):
             write_webdataset(ds, self.out)
         self.assertFalse(other.exists())
+
+
+class Mcap(unittest.TestCase):
+    """What needs no packages; tests/peer/exports_mcap.py reads whole files by MCAP's own reader."""
+
+    def test_lines_are_as_long_as_the_delays_of_their_paths(self):
+        for folder in (support.street(), support.rig()):
+            for record in greatx.load(folder).sequences[0]["csi"]:
+                paths = record.paths()
+                lines, left_out = path_lines(record, 1000)
+                self.assertEqual((len(lines), left_out), (len(paths["delay"]), 0))
+                power = np.mean(np.abs(paths["amplitude"].astype(complex)) ** 2, axis=(1, 2))
+                order = np.argsort(-power, kind="stable")
+                for (points, below), number in zip(lines, order):
+                    length = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
+                    self.assertAlmostEqual(length / (support.C * paths["delay"][number]), 1, 9)
+                    self.assertAlmostEqual(below, 10 * np.log10(power[number] / power[order[0]]), 9)
+                self.assertEqual([len(lines[0][0]), path_lines(record, 1)[1]], [2, len(lines) - 1])
+
+    def test_links_of_a_channel(self):
+        record = greatx.load(support.street())["csi"].record(2)
+        schema, value = statistics(record)
+        links = json.loads(json.dumps(value, allow_nan=False))["links"]
+        names = [(link["rx"], link["tx"]) for link in links]
+        ends = ("car/antenna", "walker/antenna"), ("bs/panel", "corner/panel")
+        self.assertEqual(names, [(rx, tx) for rx in ends[0] for tx in ends[1]])
+        for number, link in enumerate(links):
+            rx, tx = divmod(number, 2)
+            self.assertEqual(set(link), set(schema["properties"]["links"]["items"]["properties"]))
+            self.assertEqual(link["path_count"], record.path_count[rx, tx])
+            self.assertEqual(link["delay_spread"], record.delay_spread[rx, tx])
+            self.assertAlmostEqual(link["path_gain_db"], 10 * np.log10(record.path_gain[rx, tx]), 12)
+        self.assertEqual(
+            [plain(v) for v in (np.nan, np.inf, np.float32(0.5), np.uint8(3))], [None, None, 0.5, 3]
+        )
+
+    def test_no_paths_and_missing_arrays(self):
+        second = greatx.load(support.two_transmitters())["csi"].record(1)
+        self.assertEqual(path_lines(second, 10), ([], 0))
+        links = statistics(second)[1]["links"]
+        self.assertEqual([len(links), links[5]["path_count"]], [6, 0])
 
 
 class Failures(Exported):

@@ -39,21 +39,22 @@ def contents(sequence):
 class Unfinished(unittest.TestCase):
     def start(self, *arguments):
         """Starts a run and stops it when it has committed some ticks of its second sequence."""
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.out = pathlib.Path(holder.name, "data")
         scenario = support.scenario_file("street", support.STREET)
-        command = [os.environ["GREATX_PROGRAM"], "generate", scenario, "-o", self.out, "-q"]
-        self.run = subprocess.Popen([*map(str, command), "--ticks", "12", "--sequences", "2", *arguments])
-        self.addCleanup(self.run.wait)
-        self.addCleanup(self.run.kill)
-        journal = self.out / "journal.txt"
-        while self.run.poll() is None and not (
-            journal.is_file() and b'{"packet":[1,2,' in journal.read_bytes()
-        ):
-            time.sleep(0.002)
-        if self.run.poll() is None:
-            self.run.send_signal(signal.SIGSTOP)
+        for _ in range(5):  # on a busy machine a run may end before it is stopped
+            holder = tempfile.TemporaryDirectory()
+            self.addCleanup(holder.cleanup)
+            self.out = pathlib.Path(holder.name, "data")
+            command = [os.environ["GREATX_PROGRAM"], "generate", scenario, "-o", self.out, "-q"]
+            self.run = subprocess.Popen([*map(str, command), "--ticks", "24", "--sequences", "2", *arguments])
+            self.addCleanup(self.run.wait)
+            self.addCleanup(self.run.kill)
+            journal = self.out / "journal.txt"
+            while self.run.poll() is None:
+                if journal.is_file() and b'{"packet":[1,2,' in journal.read_bytes():
+                    self.run.send_signal(signal.SIGSTOP)
+                    return
+                time.sleep(0.002)
+        self.fail("no run could be stopped within its second sequence")
 
     def check_prefix(self, before, whole):
         for key, records in before.items():

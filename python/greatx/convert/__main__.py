@@ -31,15 +31,19 @@ def main(arguments: Optional[List[str]] = None) -> int:
         command.arguments(sub)
     given = parser.parse_args(arguments)
     try:
-        dataset = load(given.DIR)
-        if isinstance(dataset, Campaign):
-            raise DatasetError(
-                f"{given.DIR}: expected a data set, found a campaign; convert one of its cells, as "
-                f"{pathlib.Path(given.DIR, 'data', dataset.cells[0])}"
-            )
         with interpreting(given.DIR):
+            dataset = load(given.DIR)
+            if isinstance(dataset, Campaign):
+                raise DatasetError(
+                    f"{given.DIR}: expected a data set, found a campaign; convert one of its cells, as "
+                    f"{pathlib.Path(given.DIR, 'data', dataset.cells[0])}"
+                )
             summary = by_name[given.to].run(dataset, given)
-    except (DatasetError, OSError, ImportError) as error:
+    except OSError as error:
+        place = "" if error.filename else f"{given.OUT}: "  # a write does not know its file
+        print(f"error: {place}{error}", file=sys.stderr)
+        return 1
+    except (DatasetError, ImportError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:

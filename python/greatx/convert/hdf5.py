@@ -97,8 +97,8 @@ def _write_sensor(checked: Any, group: Any, sensor: Sensor, level: int, progress
             group.attrs[f"metadata.{key}"] = value
         elif len(text := json.dumps(value, sort_keys=True)) <= 4096:
             group.attrs[f"metadata.{key}"] = text
-    for column, values in zip(INDEX_COLUMNS, sensor.index[:, [0, 1, 3]].T):
-        group.create_dataset(column, data=np.ascontiguousarray(values), track_times=False)
+    for key, values in zip(INDEX_COLUMNS, sensor.index[:, [0, 1, 3]].T):
+        group.create_dataset(key, data=np.ascontiguousarray(values), track_times=False)
     columns = [_Column(group, array, len(sensor), level) for array in sensor.arrays.values()]
     records = Records(sensor)
     for row in range(len(sensor)):
