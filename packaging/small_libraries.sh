@@ -20,7 +20,7 @@ rm -rf gdal* libxml2*
 apt-get -qq source gdal libxml2 # unpacks and patches them
 
 drivers=()
-for name in AAIGRID RAW XYZ DTED SRTMHGT PNG JPEG OPENJPEG; do
+for name in AAIGRID RAW XYZ DTED SRTMHGT PNG JPEG JP2OPENJPEG; do
   drivers+=("-DGDAL_ENABLE_DRIVER_$name=ON")
 done
 for name in GPKG FLATGEOBUF SQLITE; do drivers+=("-DOGR_ENABLE_DRIVER_$name=ON"); done
@@ -39,4 +39,18 @@ cmake --build gdal-build --target GDAL
 
 strip --strip-unneeded -o "lib/$(basename gdal-build/libgdal.so.[0-9][0-9])" gdal-build/libgdal.so.[0-9][0-9]
 strip --strip-unneeded -o lib/libxml2.so.2 libxml2-*/.libs/libxml2.so.2
+
+# The formats of scene/place/source.
+python3 - lib/libgdal.so.* <<'PYTHON'
+import ctypes, sys
+
+gdal = ctypes.CDLL(sys.argv[1])
+gdal.GDALAllRegister()
+gdal.GDALGetDriverByName.restype = ctypes.c_void_p
+formats = "GTiff SRTMHGT AAIGrid EHdr XYZ DTED PNG JPEG JP2OpenJPEG GeoJSON GeoJSONSeq GPKG FlatGeobuf".split()
+missing = [name for name in [*formats, "ESRI Shapefile"] if not gdal.GDALGetDriverByName(name.encode())]
+if missing:
+    sys.exit(f"{sys.argv[1]}: expected the formats {missing}, found none of them")
+print(gdal.GDALGetDriverCount(), "formats")
+PYTHON
 touch whole
