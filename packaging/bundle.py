@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes a wheel with the engine from the wheel of the Python package and an installed prefix.
 
-usage: bundle.py BASE_WHEEL PREFIX --driver ICD_JSON [--replace NAME=FILE] --out FOLDER
+usage: bundle.py BASE_WHEEL PREFIX --driver ICD_JSON [--replace FOLDER] --out FOLDER
 
     BASE_WHEEL ─► greatx/ with _native ┐
     PREFIX     ─► bin/, share/         ├─► libraries that they need (ldd), without those of every Linux
@@ -85,17 +85,21 @@ class Engine:
         self.lib = root / "greatx_engine" / "lib"
         self.lib.mkdir(parents=True)
         self.sources = {}  # name in the wheel: file on this machine
+        self.built = set()  # names in the wheel of those that small_libraries.sh has built instead
         self.names = {}  # name on this machine: name in the wheel
 
     def add_libraries(self, of, replaced, places=None):
-        """Adds what a file needs, directly or not, with `replaced` in place of the libraries of these names."""
+        """Adds what a file needs, directly or not, with `replaced` in place of the libraries of these
+        names."""
         places = places_of(of) if places is None else places
         for name in needed(of):
             if name in self.names:
                 continue
             file = replaced.get(name, places.get(name))
             self.names[name] = own_name(name, file)
-            self.sources[self.names[name]] = file.resolve()
+            self.sources[self.names[name]] = places[name].resolve()
+            if name in replaced:
+                self.built.add(self.names[name])
             shutil.copy(file, self.lib / self.names[name])
             self.add_libraries(file, replaced, places_of(file) if name in replaced else places)
 
@@ -134,14 +138,14 @@ def licences(engine, into):
     """Writes the licence of every bundled library, and a table of them."""
     into.mkdir(parents=True)
     owners = owners_of(engine.sources.values())
-    # small_gdal.sh builds GDAL from the source of Debian's package.
-    names = sorted({owners.get(file, "libgdal32") for file in engine.sources.values()})
+    names = sorted(set(owners.values()))
     form = "${Package},${Version},${source:Package},${source:Version}\n"
-    fields = dict(zip(names, run("dpkg-query", "-W", "-f", form, *names).splitlines()))
-    rows = ["file,package,version,source package,source version"]
+    fields = {line.split(",")[0]: line for line in run("dpkg-query", "-W", "-f", form, *names).splitlines()}
+    rows = ["file,package,version,source package,source version,how"]
     for name, file in sorted(engine.sources.items()):
-        row = fields[owners.get(file, "libgdal32")]
-        rows.append(f"{name},{row}" + ("" if file in owners else " (built with fewer formats)"))
+        row = fields[owners[file].split(":")[0]]
+        how = "built from this source with less in it" if name in engine.built else "as it is"
+        rows.append(f"{name},{row},{how}")
         package = row.split(",")[0]
         text = pathlib.Path("/usr/share/doc") / package / "copyright"
         if not text.is_file():
@@ -231,10 +235,10 @@ def main():
     parser.add_argument("base", type=pathlib.Path)
     parser.add_argument("prefix", type=pathlib.Path)
     parser.add_argument("--driver", type=pathlib.Path, required=True)
-    parser.add_argument("--replace", action="append", default=[])
+    parser.add_argument("--replace", type=pathlib.Path, help="libraries that take the place of Debian's")
     parser.add_argument("--out", type=pathlib.Path, required=True)
     options = parser.parse_args()
-    replaced = {name: pathlib.Path(file) for name, file in (pair.split("=") for pair in options.replace)}
+    replaced = {file.name: file for file in (options.replace.iterdir() if options.replace else ())}
     options.out.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         engine = Engine(pathlib.Path(folder))

@@ -33,14 +33,15 @@ step() { # step MESSAGE COMMAND...
 # The newer Mesa of the release's backports, where there is one, computes twice as fast.
 step "installing packages" within env GREATX_BACKPORTS=1 scripts/setup.sh
 packages "$name" patchelf python3-pip python3-setuptools python3-wheel git ca-certificates dpkg-dev
-mkdir -p "$chroots/$name/build/gdal"
-step "building a GDAL with the formats that are needed" within packaging/small_gdal.sh /build/gdal
+within git config --global safe.directory "$project" # it may belong to another user
+step "building smaller libraries" within packaging/small_libraries.sh /build/small
 step "configuring" within cmake --preset release -DGREATX_TESTS=OFF -DGREATX_VIDEO=OFF -DGREATX_EMBREE=OFF
 step "building greatx" within cmake --build build/release
 step "installing" within sh -c 'rm -rf build/prefix build/base
   cmake --install build/release --prefix build/prefix --strip
   GREATX_NATIVE=1 python3 -m pip -q wheel --no-index --no-deps --no-build-isolation -w build/base ./python'
-within sh -c 'gdal=$(ls /build/gdal/build/libgdal.so.[0-9][0-9])
+step "making the wheel" within sh -c 'rm -rf build/wheels
   packaging/bundle.py build/base/*.whl build/prefix --driver "$(ls /usr/share/vulkan/icd.d/lvp_icd*.json)" \
-    --replace "$(basename "$gdal")=$gdal" --out build/wheels'
+    --replace /build/small/lib --out build/wheels'
+cat "$chroots/$name.log"
 cp "$chroots/$name.out/wheels/"*.whl "$chroots/wheels/"
