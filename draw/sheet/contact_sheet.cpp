@@ -16,7 +16,7 @@ namespace {
 using namespace sheet;
 
 constexpr int header_height = 74;
-constexpr size_t least_columns = 3;  ///< so that header and plots have room
+constexpr size_t least_columns = 2, least_with_plots = 3;  ///< so that header and plots have room
 constexpr int title_scale = 3;
 
 /// Returns the panels of all sensors in one list.
@@ -98,7 +98,7 @@ Canvas drawn_contact_sheet(const DatasetReader& reader, uint32_t sequence, const
   wish.moments = moments.size();
   wish.plots = panels.series.size();
   wish.header = header_height;
-  wish.least_columns = least_columns;
+  wish.least_columns = panels.series.empty() ? least_columns : least_with_plots;
   const SheetLayout layout = sheet_layout(wish);
   check_size(reader, layout.width, layout.height, options.factor);
   Canvas canvas(layout.width, layout.height, *options.theme, options.factor);

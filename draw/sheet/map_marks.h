@@ -38,19 +38,24 @@ std::vector<std::string> mark_label(const std::string& name, double range_m, dou
 template <typename Place>
 void draw_outlines(Canvas& canvas, const std::vector<OutlineLine>& lines, const Pose& world_from_sensor,
                    double far_m, double azimuth_min, double azimuth_max, const Place& place) {
-  constexpr double step_m = 2.0;  // the picture of a straight wall is bent
+  const double step_m = std::max(2.0, far_m / 200.0);  // the picture of a straight wall is bent
   const Pose sensor_from_world = world_from_sensor.inverse();
   for (const OutlineLine& line : lines) {
-    const dvec3 from = sensor_from_world.apply(line.from), to = sensor_from_world.apply(line.to);
-    const double length = glm::length(to - from);
-    if (0.5 * glm::length(from + to) - 0.5 * length > far_m) continue;
-    const int steps = std::max(1, static_cast<int>(std::min(1e4, std::ceil(length / step_m))));
+    const dvec3 start = sensor_from_world.apply(line.from), along = sensor_from_world.apply(line.to) - start;
+    // The part of the line within `far_m`: |start + t along| = far_m.
+    const double square = glm::dot(along, along), middle = glm::dot(start, along);
+    const double root = middle * middle - square * (glm::dot(start, start) - far_m * far_m);
+    if (!(square > 0.0 && root > 0.0)) continue;
+    const double first = std::max(0.0, (-middle - std::sqrt(root)) / square),
+                 end = std::min(1.0, (-middle + std::sqrt(root)) / square);
+    if (!(end > first)) continue;
+    const int steps = std::max(1, static_cast<int>(std::ceil((end - first) * std::sqrt(square) / step_m)));
     std::optional<dvec2> last;
     for (int i = 0; i <= steps; ++i) {
-      const dvec3 at = from + (to - from) * (static_cast<double>(i) / steps);
+      const dvec3 at = start + along * (first + (end - first) * i / steps);
       const double range = glm::length(at), azimuth = std::atan2(at.y, at.x);
       std::optional<dvec2> next;
-      if (range <= far_m && azimuth >= azimuth_min && azimuth <= azimuth_max) next = place(range, azimuth);
+      if (azimuth >= azimuth_min && azimuth <= azimuth_max) next = place(range, azimuth);
       if (last && next) canvas.line(last->x, last->y, next->x, next->y, 1.3, canvas.theme().outline);
       last = next;
     }

@@ -53,6 +53,9 @@ class RadarOverlayPanel : public FramePanel {
     canvas.unclip();
     draw_color_bar(canvas, legend, scale_, canvas.theme().velocities, "m/s");
   }
+  std::vector<KeyEntry> key(const Theme&) override {
+    return {{KeyEntry::Mark::none, {}, "dots: detections by range rate"}};
+  }
   std::string nothing_of(size_t row) override { return detections_[row].empty() ? "no detections" : ""; }
 
   std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames& names) override {

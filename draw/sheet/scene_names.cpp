@@ -33,7 +33,7 @@ std::vector<std::string> texts(const JsonValue& root, const char* key) {
 }
 
 constexpr double farthest_m = 1e9;
-constexpr size_t most_outline_lines = 4'000'000;
+constexpr size_t most_outline_lines = 1'000'000;
 
 void add_sides(const JsonValue& box, std::vector<OutlineLine>& lines) {
   dvec3 corners[2];

@@ -90,12 +90,13 @@ int add_plots(SheetLayout& layout, size_t plots, int y) {
 }  // namespace
 
 size_t columns_for(size_t tiles, bool animation) {
-  if (animation) {
-    if (tiles <= 3 || tiles == 4) return tiles == 4 ? 2 : std::max<size_t>(tiles, 1);
-    return tiles <= 9 ? 3 : tiles <= 16 ? 4 : tiles <= 30 ? 6 : 8;
-  }
-  if (tiles <= one_row) return std::max<size_t>(tiles, 1);
-  return tiles <= 8 ? 4 : tiles <= 10 ? 5 : tiles <= 24 ? 6 : 8;
+  size_t most = 0;
+  if (animation)
+    most = tiles == 4 ? 2 : tiles <= 9 ? 3 : tiles <= 16 ? 4 : tiles <= 30 ? 6 : 8;
+  else
+    most = tiles <= one_row ? one_row : tiles <= 8 ? 4 : tiles <= 10 ? 5 : tiles <= 24 ? 6 : 8;
+  const size_t bands = std::max<size_t>(1, (tiles + most - 1) / most);
+  return std::max<size_t>(1, (tiles + bands - 1) / bands);
 }
 
 size_t moments_for(size_t frame_panels) {

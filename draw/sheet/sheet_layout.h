@@ -50,8 +50,9 @@ struct SheetLayout {
   std::vector<std::vector<Rect>> times;  ///< [band][moment], in the gutter; empty in an animation
 };
 
-/// Returns how many tiles stand side by side: all of up to five; 4 of up to 8, 5 of up to 10, 6 of up to 24,
-/// 8 of more. In an animation 3 of up to 9, but 2 of 4; 4 of up to 16, 6 of up to 30, 8 of more.
+/// Returns how many tiles stand side by side: at most five of up to five; 4 of up to 8, 5 of up to 10, 6 of
+/// up to 24, 8 of more. In an animation 3 of up to 9, but 2 of 4; 4 of up to 16, 6 of up to 30, 8 of more.
+/// Rows are as even as they can be: six tiles are three by two.
 size_t columns_for(size_t tiles, bool animation);
 /// Returns how many moments a contact sheet shows: sheet::most_moments, but fewer if the bands of its panels
 /// would then have more than sheet::most_rows rows.

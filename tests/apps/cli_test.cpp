@@ -148,8 +148,17 @@ TEST_F(Cli, GenerateVerifyInspect) {
   EXPECT_THAT(animated.out, HasSubstr("animation.webp, 2 frames of "));
   EXPECT_EQ(greatx("verify " + path("a")).code, 0) << "nor is the animation";
   EXPECT_THAT(greatx(fmt::format("inspect {} --animation {}", path("a"), path("a.gif"))).err,
-              HasSubstr("ends in .webp, found"));
+              HasSubstr("ends in .webp"));
   EXPECT_EQ(greatx(fmt::format("inspect {} --frames 2", path("a"))).code, 1) << "of what animation?";
+  const Outcome paper = greatx(fmt::format(
+      "inspect {} --theme light --scale 2 --sensor uav/lidar --picture {}", path("a"), path("paper.png")));
+  EXPECT_EQ(paper.code, 0) << paper.err;
+  EXPECT_TRUE(fs::exists(folder_ / "paper.png"));
+  EXPECT_THAT(greatx(fmt::format("inspect {} --sensor uav/lidra", path("a"))).err,
+              HasSubstr("found 'uav/lidra' (did you mean 'uav/lidar'?)"));
+  EXPECT_THAT(greatx(fmt::format("inspect {} --link bs:nobody", path("a"))).err,
+              HasSubstr("no channel has the link"));
+  EXPECT_EQ(greatx(fmt::format("inspect {} --theme grey", path("a"))).code, 1);
 
   fs::resize_file(folder_ / "a/sequence_0000/uav/camera/rgb/000002.png", 100);
   const Outcome damaged = greatx("verify " + path("a"));

@@ -211,6 +211,37 @@ TEST(Labels, TheFirstMarkIsNamedFirst) {
   EXPECT_EQ(canvas.texts()[1].text, "123 m +5.0 m/s");
 }
 
+/// A wall ahead is drawn at its distance in space and its azimuth in the sensor's frame, however long it is;
+/// what lies behind the sensor or beyond the map is not drawn.
+TEST(Outlines, LieWhereTheirEchoesDo) {
+  const Pose sensor{{100.0, 200.0, 30.0},
+                    glm::angleAxis(0.5 * 3.14159265358979, dvec3(0, 0, 1))};  // looks north
+  const auto places_of = [&](const OutlineLine& line) {
+    Canvas canvas(10, 10, dark_theme());
+    std::vector<dvec2> places;
+    draw_outlines(canvas, {line}, sensor, 50.0, -1.5, 1.5, [&](double range, double azimuth) {
+      places.emplace_back(range, azimuth);
+      return dvec2(0.0);
+    });
+    return places;
+  };
+  // 40 m north and 30 m lower: 50 m at the nearest point, so that nothing is within the map.
+  EXPECT_TRUE(places_of({{60, 240.1, 0}, {140, 240.1, 0}}).empty());
+  const std::vector<dvec2> wall = places_of({{-1e6, 224, 12}, {1e6, 224, 12}});
+  ASSERT_GT(wall.size(), 20u);
+  ASSERT_LT(wall.size(), 200u) << "a long wall costs no more than its part in the map";
+  double nearest = 1e9;
+  for (const dvec2& at : wall) {
+    nearest = std::min(nearest, at.x);
+    EXPECT_LT(at.x, 50.001);
+    // Forward 24 m, down 18 m, so range and azimuth determine each other: (24 / cos a)^2 + 18^2 = r^2.
+    EXPECT_NEAR(std::hypot(24.0 / std::cos(at.y), 18.0), at.x, 1e-3);
+  }
+  EXPECT_NEAR(nearest, 30.0, 0.1);
+  EXPECT_GT(wall.front().y, 0.5) << "west is to the left";
+  EXPECT_TRUE(places_of({{90, 190, 30}, {110, 190, 30}}).empty()) << "behind the sensor";
+}
+
 TEST(Key, StaysInItsArea) {
   Canvas canvas(300, 200, light_theme());
   std::vector<KeyEntry> entries;
