@@ -39,7 +39,7 @@ struct Detail {
   size_t paths;           ///< of a channel's record, the strongest
   float quality;          ///< of colour pictures, libwebp's
 };
-inline constexpr Detail details[] = {{960, 640, 60000, 1 << 16, 400, 80.0f},
+inline constexpr Detail details[] = {{1280, 640, 60000, 1 << 16, 400, 80.0f},
                                      {640, 320, 20000, 1 << 14, 300, 74.0f},
                                      {400, 240, 6000, 1 << 13, 150, 66.0f},
                                      {240, 160, 2000, 1 << 12, 60, 55.0f}};

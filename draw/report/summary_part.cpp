@@ -81,8 +81,15 @@ Json summary_json(const DatasetReader& reader, Collected& collected) {
   if (summary.finished)
     add_fact(facts, "Size",
              fmt::format("{:.1f} MB in {} files", 1e-6 * static_cast<double>(summary.bytes), summary.files));
-  if (root.has("georeference"))
-    add_fact(facts, "Georeference", root.at("georeference").dump().substr(0, 2000));
+  if (root.has("georeference")) {
+    const JsonValue place = root.at("georeference");
+    std::string text;
+    for (const auto& [key, words] : {std::pair{"latitude_deg", "latitude {:.8g}\u00b0"},
+                                     {"longitude_deg", ", longitude {:.8g}\u00b0"},
+                                     {"height_m", ", {:.6g} m above the ellipsoid"}})
+      if (place.has(key)) text += fmt::format(fmt::runtime(words), place.at(key).number(-1e9, 1e9));
+    add_fact(facts, "Origin of the scene", text);
+  }
   Json sensors = Json::array();
   for (size_t i = 0; i < summary.sensors.size(); ++i) {
     const Summary::Sensor& sensor = summary.sensors[i];

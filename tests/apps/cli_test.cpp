@@ -159,6 +159,21 @@ TEST_F(Cli, GenerateVerifyInspect) {
   EXPECT_THAT(greatx(fmt::format("inspect {} --link bs:nobody", path("a"))).err,
               HasSubstr("no channel has the link"));
   EXPECT_EQ(greatx(fmt::format("inspect {} --theme grey", path("a"))).code, 1);
+  const Outcome page = greatx(fmt::format("inspect {0} --html {0}/report.html --html-ticks 2", path("a")));
+  EXPECT_EQ(page.code, 0) << page.err;
+  EXPECT_THAT(page.out, HasSubstr("report.html, 2 moments, "));
+  EXPECT_THAT(page.err, HasSubstr("note: Sequence 0: 2 of 6 ticks with records are shown"));
+  EXPECT_EQ(greatx("verify " + path("a")).code, 0) << "nor is the report";
+  EXPECT_THAT(greatx(fmt::format("inspect {0} {0} --picture {1} --html {2}", path("a"), path("both.png"),
+                                 path("both.html")))
+                  .err,
+              HasSubstr("--html shows one data set, found 2"));
+  EXPECT_THAT(greatx(fmt::format("inspect {0} --html {0}/dataset.json", path("a"))).err,
+              HasSubstr("another file, which is not overwritten"));
+  fs::create_directories(folder_ / "campaign/data/rain");
+  std::ofstream(folder_ / "campaign/cells.json") << "{}";
+  EXPECT_THAT(greatx("inspect " + path("campaign")).err,
+              HasSubstr("found a campaign of 1 finished cells: name one of them: "));
 
   fs::resize_file(folder_ / "a/sequence_0000/uav/camera/rgb/000002.png", 100);
   const Outcome damaged = greatx("verify " + path("a"));

@@ -97,6 +97,11 @@ function colourBar(colours, low, high, unit, logarithmic) {
   context.putImageData(image, 0, 0);
   const ticks = logarithmic ? logTicksOf(low, high) : ticksOf(low, high, 4);
   const at = x => 100 * (logarithmic ? Math.log(x / low) / Math.log(high / low) : (x - low) / (high - low));
+  // Values at the ends stay within the bar.
+  const placeOf = share => 'left:' + share.toFixed(2) + '%' +
+      (share > 95    ? ';transform:translateX(-100%)' :
+           share < 5 ? ';transform:none' :
+                       '');
   const chosen = ticks.filter((x, i) => ticks.length <= 6 || i % Math.ceil(ticks.length / 6) === 0);
   return el(
       'div', {
@@ -104,9 +109,7 @@ function colourBar(colours, low, high, unit, logarithmic) {
         role: 'img',
         'aria-label': 'colours from ' + short(low) + ' to ' + short(high) + ' ' + unit
       },
-      canvas,
-      el('div', {class: 'ticks'},
-         chosen.map(x => el('span', {style: 'left:' + at(x).toFixed(2) + '%'}, short(x)))),
+      canvas, el('div', {class: 'ticks'}, chosen.map(x => el('span', {style: placeOf(at(x))}, short(x)))),
       el('span', {class: 'unit'}, unit));
 }
 

@@ -208,7 +208,8 @@ class ChannelPanel {
     profile.forEach((value, i) => {
       if (value > top - 45 && times[i] < 0.9 * span) last = Math.max(last, times[i]);
     });
-    const first = Math.min(last, ...powers.map(delayOf)), wide = Math.max(last - first, 20);
+    const first = powers.length ? Math.min(last, ...powers.map(delayOf)) : 0,
+          wide = Math.max(last - first, 20);
     const x = [Math.max(0, first - 0.1 * wide), Math.min(span, last + 0.15 * wide)];
     const scale = powerScale(paths), lines = [];
     lines.push({x: times, y: profile, colour: colourOfSeries(1)});

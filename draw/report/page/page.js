@@ -197,11 +197,12 @@ function build() {
   const plots = keep(seriesPanels()), nodes = sequence().poses.some(Boolean) ? new PoseTableView() : null;
   if (nodes) keep([nodes]);
   bar.main.append(...[section('summary', 'Summary', summarySection()),
-                      section('cameras', 'Cameras', grid(cameras, 'large')),
+                      section(
+                          'cameras', events.length ? 'Cameras and events' : 'Cameras',
+                          grid(cameras.concat(events), 'large')),
                       section('scene', 'Scene', scene.any ? scene.node : null),
                       section('above', 'Map', above && above.node, nodes && nodes.node),
                       section('radar', 'Radar and sensing', grid(maps), tables.map(table => table.node)),
-                      section('events', 'Events', grid(events)),
                       section('channel', 'Channel', response && response.node, paths && paths.node),
                       section('time', 'Over time', grid(plots))]
                       .filter(Boolean));
@@ -278,8 +279,8 @@ greatx.drawAll = () => {
   for (const panel of panels)
     for (const board of boardsOf(panel)) board.now();
 };
-/// Resolves when all pictures that were asked for are decoded.
-greatx.ready = () => Promise.all([...keptImages.map.values()].map(image => image.decode()));
+/// Whether all pictures that were asked for are there.
+greatx.ready = () => [...keptImages.map.values()].every(image => image.complete);
 greatx.panels = () => panels;
 Object.assign(greatx, {inflate, bytesOfBase64, textOf});
 window.greatx = greatx;
