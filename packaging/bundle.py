@@ -247,10 +247,10 @@ def main():
         python, abi, _ = options.base.stem.split("-")[-3:]
         tag = f"{python}-{abi}-manylinux_{glibc[0]}_{glibc[1]}_x86_64"
         wheel = write_wheel(engine.root, info, tag, options.out)
-        installed = sum(path.stat().st_size for path in engine.root.rglob("*") if path.is_file())
-    print(f"{wheel}: {wheel.stat().st_size / 1e6:.1f} MB, installed {installed / 1e6:.1f} MB")
-    for name, file in sorted(engine.sources.items(), key=lambda item: -item[1].stat().st_size)[:8]:
-        print(f"  {file.stat().st_size / 1e6:6.1f} MB  {name}")
+        sizes = {path: path.stat().st_size for path in engine.root.rglob("*") if path.is_file()}
+    print(f"{wheel}: {wheel.stat().st_size / 1e6:.1f} MB, installed {sum(sizes.values()) / 1e6:.1f} MB")
+    for path in sorted(sizes, key=lambda path: -sizes[path])[:8]:
+        print(f"  {sizes[path] / 1e6:6.1f} MB  {path.name}")
 
 
 if __name__ == "__main__":

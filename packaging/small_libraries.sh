@@ -47,8 +47,9 @@ import ctypes, sys
 gdal = ctypes.CDLL(sys.argv[1])
 gdal.GDALAllRegister()
 gdal.GDALGetDriverByName.restype = ctypes.c_void_p
-formats = "GTiff SRTMHGT AAIGrid EHdr XYZ DTED PNG JPEG JP2OpenJPEG GeoJSON GeoJSONSeq GPKG FlatGeobuf".split()
-missing = [name for name in [*formats, "ESRI Shapefile"] if not gdal.GDALGetDriverByName(name.encode())]
+formats = "GTiff SRTMHGT AAIGrid EHdr XYZ DTED PNG JPEG JP2OpenJPEG".split()
+formats += ["GeoJSON", "GeoJSONSeq", "GPKG", "ESRI Shapefile", "FlatGeobuf"]
+missing = [name for name in formats if not gdal.GDALGetDriverByName(name.encode())]
 if missing:
     sys.exit(f"{sys.argv[1]}: expected the formats {missing}, found none of them")
 print(gdal.GDALGetDriverCount(), "formats")

@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # try_container.sh [docker|apptainer]: carries out the last stage of the recipe of a container in a fresh
-# chroot, for machines on which no container can be built: the commands of the Dockerfile's RUN lines, or of %post in
-# greatx.def, on the smallest Debian. It then uses the result as the container's user. The packages are those
-# of deb.sh, which does what the first stage does. It needs root and debootstrap.
+# chroot, for machines on which no container can be built: the commands of the Dockerfile's RUN lines, or of
+# %post in greatx.def, on the smallest Debian. It then uses the result as the container's user. The packages
+# are those of deb.sh, which does what the first stage does. It needs root and debootstrap.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/chroot.sh"
 kind=${1:-docker}
@@ -25,8 +25,9 @@ make_chroot "$name" "$suite"
 mkdir -p "$chroots/$name/debs"
 cp "$chroots/debs/"*.deb "$project/scripts/setup.sh" "$chroots/$name/debs/"
 run() {
-  say "running $(printf '%.60s' "$1") ..."
-  enter "$name" sh -c "$1" >"$chroots/$name.log" 2>&1 || { tail -n 20 "$chroots/$name.log" >&2; die "failed"; }
+  say "running $(tr -s ' \n' ' ' <<<"$1" | cut -c1-70) ..."
+  enter "$name" sh -c "$1" >"$chroots/$name.log" 2>&1 ||
+    { tail -n 20 "$chroots/$name.log" >&2; die "failed"; }
 }
 user=tester
 settings=()
