@@ -15,7 +15,7 @@ from .antenna import Array
 from .arrays import Frames, Ragged
 from .campaign import Campaign, campaign
 from .dataset import Dataset, Record, Sensor, Sequence, Tick, load
-from .errors import DatasetError, Error
+from .errors import DatasetError, Error, print_errors_plainly
 from .events import Events
 from .packed import PackedRagged, PackedStack, PackedTable
 from .paths import Paths
@@ -49,6 +49,7 @@ __all__ = [
     "campaign",
     "geodesy",
     "load",
+    "print_errors_plainly",
 ]
 
 #: Names that need greatx._native.

@@ -7,15 +7,37 @@ input or data, or if a package is missing that the converter needs.
 from __future__ import annotations
 
 import argparse
+import errno
+import re
 import sys
-from typing import List, Optional
+from typing import List, NoReturn, Optional
 
 from .. import DatasetError, load
+from ..errors import nearest
 from .catalogue import COMMANDS
 
 
+class _Parser(argparse.ArgumentParser):
+    """A parser that ends like greatx: a wrong argument has the exit code 1, and a name comes with the one
+    that was probably meant."""
+
+    def error(self, message: str) -> NoReturn:
+        found = re.search(r"invalid choice: '(.*?)'", message)
+        names = [name for name in re.findall(r"'(.*?)'", message[found.end() :])] if found else []
+        hint = nearest(found[1], names) if found else ""
+        self.exit(1, f"error: {message}{hint}\n`{self.prog} --help` tells what there is.\n")
+
+
+def _words(error: Exception, out: str) -> str:
+    """Returns the message of an error. A full disk and a limit on the size of files name no file."""
+    full = {errno.ENOSPC, errno.EFBIG, errno.EDQUOT}
+    if isinstance(error, OSError) and error.errno in full and error.filename is None:
+        return f"{out}: cannot be written: {error.strerror}; it is incomplete: remove it and try again"
+    return str(error)
+
+
 def main(arguments: Optional[List[str]] = None) -> int:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="python3 -m greatx.convert",
         description="Writes a data set in the conventions of another tool (docs/converters.md). Nothing is "
         "normalised.",
@@ -31,7 +53,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     try:
         summary = by_name[given.to].run(load(given.DIR), given)
     except (DatasetError, OSError, ImportError) as error:
-        print(f"error: {error}", file=sys.stderr)
+        print(f"error: {_words(error, given.OUT)}", file=sys.stderr)
         return 1
     print(f"{given.OUT}: " + ", ".join(f"{value} {key}" for key, value in summary.items()))
     return 0

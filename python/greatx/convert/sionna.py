@@ -28,7 +28,7 @@ from ..links import (
     receivers,
     transmitters,
 )
-from .common import Command, channel_arguments, make_folder, pick_channel, pick_sequence, turns
+from .common import Command, channel_arguments, make_folder, pick_channel, pick_sequence, save_npz, turns
 
 #: Values of sionna.rt.constants.InteractionType of our interactions: SPECULAR, DIFFUSE, REFRACTION,
 #: DIFFRACTION.
@@ -151,9 +151,7 @@ def write_sionna(
         folder.mkdir()
         for record in sensor:
             arrays = vars(sionna_paths(record))
-            np.savez_compressed(
-                folder / f"{record.sample:06d}.npz", tick=record.tick, time_s=record.time_s, **arrays
-            )
+            save_npz(folder / f"{record.sample:06d}.npz", tick=record.tick, time_s=record.time_s, **arrays)
             written += 1
     return {"sequences": len(sensors), "files": written}
 
