@@ -8,7 +8,7 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 scripts/setup.sh
-scripts/build.sh release greatx greatx_python
+scripts/build.sh release greatx greatx_python greatx_engine_library
 
 demo() { build/release/greatx generate --output out/demo --resume "$@"; }
 if ! demo "$@"; then

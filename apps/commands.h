@@ -25,5 +25,6 @@ void add_calibrate(CLI::App& app);
 void add_view(CLI::App& app);
 void add_selftest(CLI::App& app);
 void add_rcs(CLI::App& app);
+void add_manual(CLI::App& app);
 
 }  // namespace greatx::apps

@@ -30,7 +30,7 @@ void add_commands(CLI::App& app) {
   group("Look", {add_inspect, add_view});
   group("Check and measure", {add_check, add_verify, add_explain, add_calibrate, add_tradeoff, add_bench});
   group("Radio", {add_paths, add_map, add_rcs});
-  group("Machine", {add_info, add_selftest, add_cache});
+  group("Machine", {add_info, add_selftest, add_cache, add_manual});
 }
 
 }  // namespace

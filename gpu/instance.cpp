@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "gpu/bundled_driver.h"
 
 namespace greatx::gpu {
 
@@ -60,6 +61,7 @@ bool has_layer(const char* name) {
 }  // namespace
 
 bool has_instance_extension(const char* name) {
+  offer_bundled_driver();
   uint32_t count = 0;
   GREATX_VK(vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr));
   std::vector<VkExtensionProperties> extensions(count);
@@ -69,6 +71,7 @@ bool has_instance_extension(const char* name) {
 }
 
 VkInstance make_instance(bool validation, std::span<const std::string> extra, ValidationLog* log) {
+  offer_bundled_driver();
   if (validation && !has_layer(validation_layer))
     throw_user_error(
         "validation was asked for, but the layer {} is not installed (Debian: vulkan-validationlayers)",

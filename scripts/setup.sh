@@ -6,7 +6,8 @@
 # nothing to do. It supports Debian 12 or newer and Ubuntu 24.04 or newer, as root or with sudo.
 #
 # The release's own Mesa is enough. GREATX_BACKPORTS=1 takes a newer one from the backports suite if the
-# release's own is older than 24.1: a run then needs half of the time.
+# release's own is older than 24.1: a run then needs half of the time. GREATX_PACKAGES="" installs Mesa alone,
+# for a machine that gets greatx as a package.
 set -euo pipefail
 
 packages=(
@@ -16,8 +17,9 @@ packages=(
   libjpeg-dev libdeflate-dev libwebp-dev libpugixml-dev libkissfft-dev libglfw3-dev libimgui-dev
   libgdal-dev libproj-dev libgeos-dev libosmium2-dev libexpat1-dev libbz2-dev
   libsqlite3-dev libgtest-dev libgmock-dev pybind11-dev python3-dev python3-numpy python3-h5py
-  python3-jsonschema python3-yaml xvfb xauth fonts-dejavu-core
+  python3-jsonschema python3-yaml xvfb xauth fonts-dejavu-core zsh fish
 )
+[ "${GREATX_PACKAGES-all}" = all ] || packages=()
 # lavapipe, Mesa's software Vulkan driver, runs greatx from mesa_minimum on: rays go through greatx's own
 # trees. From mesa_newer on it is twice as fast and also has ray queries and conditional rendering.
 mesa_package=mesa-vulkan-drivers

@@ -65,15 +65,15 @@ void draw_x_axis(Canvas& canvas, const Rect& plot, const Scale& scale, const std
   int taken = std::numeric_limits<int>::min();  // by numbers; one that has no room is left out
   for (const double value : scale.ticks(std::max(2, plot.width / 110))) {
     const int x = pixel(plot.x, plot.width, scale.at(value));
-    canvas.fill({x, plot.bottom(), 1, 5}, theme::dim);
+    canvas.fill({x, plot.bottom(), 1, 5}, canvas.theme().dim);
     const std::string text = tick_text(value);
     const int width = Canvas::text_width(text, theme::text_scale);
     if (x - width / 2 < taken) continue;
     taken = x + width / 2 + glyph / 2;
-    canvas.text(x, plot.bottom() + 9, text, theme::text_scale, theme::dim, Align::center);
+    canvas.text(x, plot.bottom() + 9, text, theme::text_scale, canvas.theme().dim, Align::center);
   }
   canvas.text(plot.x + plot.width / 2, plot.bottom() + 9 + theme::line_height, label, theme::text_scale,
-              theme::text, Align::center);
+              canvas.theme().text, Align::center);
 }
 
 void draw_y_axis(Canvas& canvas, const Rect& plot, const Scale& scale, const std::string& label) {
@@ -82,14 +82,22 @@ void draw_y_axis(Canvas& canvas, const Rect& plot, const Scale& scale, const std
     const int y = pixel(plot.y, plot.height, 1.0 - scale.at(value));
     const std::string text = tick_text(value);
     longest = std::max(longest, text.size());
-    canvas.fill({plot.x - 6, y, 5, 1}, theme::dim);
-    canvas.text(plot.x - 10, y - text_height / 2, text, theme::text_scale, theme::dim, Align::right);
+    canvas.fill({plot.x - 6, y, 5, 1}, canvas.theme().dim);
+    canvas.text(plot.x - 10, y - text_height / 2, text, theme::text_scale, canvas.theme().dim, Align::right);
   }
   canvas.vertical_text(plot.x - 16 - static_cast<int>(longest) * glyph - text_height,
-                       plot.y + plot.height / 2, label, theme::text_scale, theme::text);
+                       plot.y + plot.height / 2, label, theme::text_scale, canvas.theme().text);
 }
 
-void draw_color_bar(Canvas& canvas, const Rect& rect, const Scale& scale, Color (*map)(double),
+void mark_time_in(Canvas& canvas, const Rect& plot, const Scale& time, double time_s, Color color) {
+  const double t = time.at(time_s);
+  if (!(t >= 0.0 && t <= 1.0)) return;
+  const int x = pixel(plot.x, plot.width, t);
+  canvas.fill({x - 1, plot.y, 3, plot.height}, canvas.theme().halo, 0.6);
+  canvas.fill({x, plot.y, 1, plot.height}, color);
+}
+
+void draw_color_bar(Canvas& canvas, const Rect& rect, const Scale& scale, ColorMap map,
                     const std::string& unit) {
   const auto end_text = [&](double value) {
     if (std::abs(value) < 1e-3 * (scale.high - scale.low)) return std::string("0");
@@ -97,8 +105,8 @@ void draw_color_bar(Canvas& canvas, const Rect& rect, const Scale& scale, Color 
   };
   const std::string low = end_text(scale.low), high = end_text(scale.high) + " " + unit;
   const int text_y = rect.y + (rect.height - text_height) / 2;
-  canvas.text(rect.x, text_y, low, theme::text_scale, theme::dim);
-  canvas.text(rect.right(), text_y, high, theme::text_scale, theme::dim, Align::right);
+  canvas.text(rect.x, text_y, low, theme::text_scale, canvas.theme().dim);
+  canvas.text(rect.right(), text_y, high, theme::text_scale, canvas.theme().dim, Align::right);
   const int left = rect.x + static_cast<int>(low.size()) * glyph + 6;
   const Rect bar{left, rect.y + 4, rect.right() - static_cast<int>(high.size()) * glyph - 6 - left,
                  rect.height - 8};
@@ -107,20 +115,21 @@ void draw_color_bar(Canvas& canvas, const Rect& rect, const Scale& scale, Color 
   for (const double value : scale.ticks(5)) {
     const double t = scale.at(value);
     if (t <= 0.02 || t >= 0.98) continue;
-    canvas.fill({pixel(bar.x, bar.width, t), bar.bottom() - 4, 1, 4}, theme::page);
+    canvas.fill({pixel(bar.x, bar.width, t), bar.bottom() - 4, 1, 4}, canvas.theme().page);
   }
 }
 
-void draw_color_scale(Canvas& canvas, const Rect& bar, const Scale& scale, Color (*map)(double),
+void draw_color_scale(Canvas& canvas, const Rect& bar, const Scale& scale, ColorMap map,
                       const std::string& label) {
   canvas.raster(bar, 1, bar.height, [&](int, int y) { return map(1.0 - y / (bar.height - 1.0)); });
-  canvas.frame(bar, theme::border);
+  canvas.frame(bar, canvas.theme().border);
   for (const double value : scale.ticks(std::max(2, bar.height / 60))) {
     const int y = pixel(bar.y, bar.height, 1.0 - scale.at(value));
-    canvas.fill({bar.right() + 1, y, 4, 1}, theme::dim);
-    canvas.text(bar.right() + 8, y - text_height / 2, tick_text(value), theme::text_scale, theme::dim);
+    canvas.fill({bar.right() + 1, y, 4, 1}, canvas.theme().dim);
+    canvas.text(bar.right() + 8, y - text_height / 2, tick_text(value), theme::text_scale,
+                canvas.theme().dim);
   }
-  canvas.text(bar.x, bar.y - theme::line_height, label, theme::text_scale, theme::dim);
+  canvas.text(bar.x, bar.y - theme::line_height, label, theme::text_scale, canvas.theme().dim);
 }
 
 }  // namespace greatx::io

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws axes and colour bars on a Canvas, and defines the colours of the contact sheet.
+// Draws axes and colour bars on a Canvas, and says how large text is.
 #pragma once
 
 #include <string>
@@ -11,13 +11,11 @@
 
 namespace greatx::io {
 
+/// What draws on a canvas of the dark theme alone takes its colours from here, the others from
+/// Canvas::theme().
 namespace theme {
-inline constexpr Color page{17, 19, 24};
-inline constexpr Color panel{26, 29, 36};
-inline constexpr Color border{62, 67, 78};
-inline constexpr Color grid{44, 48, 58};
-inline constexpr Color text{226, 230, 238};
-inline constexpr Color dim{150, 157, 170};
+inline const Color page = dark_theme().page, panel = dark_theme().panel, border = dark_theme().border,
+                   grid = dark_theme().grid, text = dark_theme().text, dim = dark_theme().dim;
 inline constexpr int text_scale = 2;
 inline constexpr int line_height = 22;  ///< of text at text_scale, pixels
 }  // namespace theme
@@ -44,12 +42,14 @@ std::string tick_text(double value);
 void draw_x_axis(Canvas& canvas, const Rect& plot, const Scale& scale, const std::string& label);
 /// Draws ticks and a label at the left of a plot.
 void draw_y_axis(Canvas& canvas, const Rect& plot, const Scale& scale, const std::string& label);
+/// Draws a line at an instant over a plot with time from left to right; nothing outside of the scale.
+void mark_time_in(Canvas& canvas, const Rect& plot, const Scale& time, double time_s, Color color);
 /// Draws a horizontal bar of colours into `rect` (one line of text high). The values of its ends and the unit
 /// are at its sides.
-void draw_color_bar(Canvas& canvas, const Rect& rect, const Scale& scale, Color (*map)(double),
+void draw_color_bar(Canvas& canvas, const Rect& rect, const Scale& scale, ColorMap map,
                     const std::string& unit);
 /// Draws a vertical bar of colours with ticks at its right and `label` above.
-void draw_color_scale(Canvas& canvas, const Rect& bar, const Scale& scale, Color (*map)(double),
+void draw_color_scale(Canvas& canvas, const Rect& bar, const Scale& scale, ColorMap map,
                       const std::string& label);
 
 }  // namespace greatx::io

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "draw/sheet/animation.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "io/dataset/summary.h"
-#include "io/formats/webp.h"
+#include "io/video/frame_file.h"
 
 namespace greatx::io {
 
@@ -14,9 +16,8 @@ namespace {
 using namespace sheet;
 
 constexpr int frame_header_height = 84, bar_height = 4;
+constexpr int bar_top = 64;  ///< below the top of the header
 constexpr int shortest_own_step_ms = 25, longest_own_step_ms = 150, step_otherwise_ms = 100;
-
-size_t columns_for(size_t panels) { return panels == 4 ? 2 : std::min<size_t>(panels, 3); }
 
 std::string speed_text(double speed) {
   return std::abs(speed - 1.0) < 0.005 ? "real time" : fmt::format("{:.3g} x real time", speed);
@@ -24,115 +25,125 @@ std::string speed_text(double speed) {
 
 }  // namespace
 
-Playback playback_of(const std::vector<SheetMoment>& moments) {
+Playback playback_of(const std::vector<SheetMoment>& moments, double rate_hz) {
   GREATX_CHECK(!moments.empty(), "no moments");
-  if (moments.size() == 1) return {{0}, step_otherwise_ms, 1.0};
-  const double total_ms = 1e-6 * static_cast<double>(moments.back().time_ns - moments.front().time_ns);
-  const double own_step_ms = total_ms / static_cast<double>(moments.size() - 1);
-  const bool own = own_step_ms >= shortest_own_step_ms && own_step_ms <= longest_own_step_ms;
   for (size_t i = 1; i < moments.size(); ++i)
     if (moments[i].time_ns <= moments[i - 1].time_ns)
       throw_user_error("animation: expected times that ascend, found {} ns behind {} ns", moments[i].time_ns,
                        moments[i - 1].time_ns);
+  const double total_ms = 1e-6 * static_cast<double>(moments.back().time_ns - moments.front().time_ns);
+  const double own_step_ms = moments.size() < 2 ? 0.0 : total_ms / static_cast<double>(moments.size() - 1);
+  const bool own =
+      rate_hz == 0.0 && own_step_ms >= shortest_own_step_ms && own_step_ms <= longest_own_step_ms;
+  const double step_ms = rate_hz > 0.0 ? 1e3 / rate_hz : own ? own_step_ms : step_otherwise_ms;
   Playback playback;
-  playback.speed = own ? 1.0 : own_step_ms / step_otherwise_ms;
+  playback.speed = own || moments.size() < 2 ? 1.0 : own_step_ms / step_ms;
   for (size_t i = 0; i < moments.size(); ++i) {
-    const auto since_first = static_cast<double>(moments[i].time_ns - moments[0].time_ns);
-    playback.start_ms.push_back(own ? static_cast<int>(std::lround(1e-6 * since_first))
-                                    : static_cast<int>(i) * step_otherwise_ms);
+    const double since_first_ms = 1e-6 * static_cast<double>(moments[i].time_ns - moments[0].time_ns);
+    playback.start_ms.push_back(
+        static_cast<int>(std::lround(own ? since_first_ms : static_cast<double>(i) * step_ms)));
   }
   playback.end_ms =
-      playback.start_ms.back() + (own ? static_cast<int>(std::lround(own_step_ms)) : step_otherwise_ms);
+      std::max(playback.start_ms.back() + 1,
+               static_cast<int>(std::lround(own ? playback.start_ms.back() + step_ms
+                                                : static_cast<double>(moments.size()) * step_ms)));
   return playback;
 }
 
-Animation::Animation(const DatasetReader& reader, size_t frames, uint32_t sequence) {
-  if (frames == 0) throw_user_error("animation: expected 1 frame or more, found 0");
+Animation::Animation(const DatasetReader& reader, const AnimationOptions& options, uint32_t sequence) {
+  if (options.frames == 0) throw_user_error("animation: expected 1 frame or more, found 0");
   check_has_records(reader, sequence);
-  moments_ = choose_moments(reader, sequence, frames);
+  const std::vector<size_t> sensors = shown_sensors(reader, options.sheet.sensors);
+  moments_ = choose_moments(reader, sequence, sensors, options.frames);
+  if (moments_.empty())
+    throw_user_error("{}: the chosen sensors have no records in sequence {}", reader.folder().string(),
+                     sequence);
   try {
-    playback_ = playback_of(moments_);
+    playback_ = playback_of(moments_, options.rate_hz);
   } catch (const UserError& error) {
     throw_user_error("{}: {}", (reader.folder() / sequence_folder(sequence)).string(), error.what());
   }
-  choose_panels(reader, sequence);
-  draw_background(summarize(reader).title);
+  choose_panels(reader, sequence, sensors, options.sheet);
+  draw_background(summarize(reader).title, options.sheet);
 }
 
-void Animation::choose_panels(const DatasetReader& reader, uint32_t sequence) {
-  std::vector<Panels> all = panels_by_sensor(reader, sequence, moments_);
-  for (Panels& panels : all)
-    for (auto& panel : panels.frames) panels_.frames.push_back(std::move(panel));
-  const size_t count = panels_.frames.size();
-  if (count == 0)
+void Animation::choose_panels(const DatasetReader& reader, uint32_t sequence,
+                              const std::vector<size_t>& sensors, const SheetOptions& options) {
+  std::vector<std::unique_ptr<SeriesPanel>> further;
+  for (Panels& panels : panels_by_sensor(reader, sequence, sensors, moments_, options.panels)) {
+    std::ranges::move(panels.frames, std::back_inserter(panels_.frames));
+    for (size_t i = 0; i < panels.series.size(); ++i)
+      (i == 0 ? panels_.series : further).push_back(std::move(panels.series[i]));
+  }
+  if (panels_.frames.empty())
     throw_user_error("{}: no sensor of sequence {} is drawn moment by moment, so there is nothing to animate",
                      reader.folder().string(), sequence);
-  const size_t columns = columns_for(count);
-  bands_ = make_bands(panels_.frames, columns);
-  const size_t free = bands_.size() * columns - count;
-  for (Panels& panels : all)
-    if (!panels.series.empty() && panels_.series.size() < free)
-      panels_.series.push_back(std::move(panels.series[0]));
+  const size_t tiles = panels_.frames.size() + panels_.series.size(), columns = columns_for(tiles, true);
+  const size_t free = (columns - tiles % columns) % columns;
+  for (size_t i = 0; i < std::min(free, further.size()); ++i) panels_.series.push_back(std::move(further[i]));
+}
 
-  int y = margin + frame_header_height;
-  for (const Band& band : bands_) {
-    tops_.push_back(y + title_height);
-    y += title_height + band.picture_height + legend_height + row_gap;
+void Animation::draw_background(const std::string& title, const SheetOptions& options) {
+  LayoutWish wish;
+  std::vector<std::vector<KeyEntry>> keys;
+  for (const auto& panel : panels_.frames) {
+    keys.push_back(panel->key(*options.theme));
+    wish.aspects.push_back(panel->aspect());
+    wish.key_lines.push_back(keys.back().size());
   }
-  const auto wide = static_cast<int>(columns);
-  background_ = Canvas(2 * margin + wide * (tile_width + gap) - gap, y - row_gap + margin / 2, theme::page);
-}
-
-Rect Animation::tile(const Band& band, size_t column) const {
-  return {margin + static_cast<int>(column) * (tile_width + gap),
-          tops_[static_cast<size_t>(&band - bands_.data())], tile_width, band.picture_height};
-}
-
-void Animation::draw_background(const std::string& title) {
-  background_.text(margin, margin, title, 3, theme::text);
-  background_.fill({margin, margin + 64, width() - 2 * margin, bar_height}, theme::grid);
-  for (const Band& band : bands_)
-    for (size_t c = 0; c < band.count; ++c) {
-      const Rect at = tile(band, c);
-      draw_title(background_, at.x, at.y - title_height, panels_.frames[band.first + c]->title());
-    }
+  wish.plots = panels_.series.size();
+  wish.header = frame_header_height;
+  wish.animation = true;
+  layout_ = sheet_layout(wish);
+  constexpr int64_t most_pixels = int64_t{1} << 26;  // of a frame: 200 MB
+  if (int64_t{layout_.width} * layout_.height * options.factor * options.factor > most_pixels)
+    throw_user_error("animation: expected frames of at most {} pixels, found {} x {}; choose some sensors",
+                     most_pixels, layout_.width * options.factor, layout_.height * options.factor);
+  background_ = Canvas(layout_.width, layout_.height, *options.theme, options.factor);
+  const Rect& head = layout_.header;
+  background_.text(head.x, head.y, fitted(title, head.width, 3), 3, options.theme->text);
+  background_.fill({head.x, head.y + bar_top, head.width, bar_height}, options.theme->grid);
+  for (size_t i = 0; i < panels_.frames.size(); ++i) {
+    draw_title(background_, layout_.tiles[i].title, panels_.frames[i]->title());
+    draw_key(background_, layout_.tiles[i].key, keys[i]);
+  }
   for (size_t i = 0; i < panels_.series.size(); ++i) {
-    const Rect at = tile(bands_.back(), bands_.back().count + i);
-    draw_title(background_, at.x, at.y - title_height, panels_.series[i]->title());
-    panels_.series[i]->draw(background_, {at.x, at.y, at.width, at.height + legend_height});
+    draw_title(background_, layout_.plots[i].title, panels_.series[i]->title());
+    panels_.series[i]->draw(background_, layout_.plots[i].area);
   }
 }
 
 Array Animation::frame(size_t i) const {
   const SheetMoment& moment = moments_.at(i);
+  const double time_s = 1e-9 * static_cast<double>(moment.time_ns);
   Canvas canvas = background_;
-  const std::string line =
-      fmt::format("{:.3f} s   tick {}   frame {} of {}   {}", 1e-9 * static_cast<double>(moment.time_ns),
-                  moment.tick, i + 1, frames(), speed_text(playback_.speed));
-  canvas.text(margin, margin + 34, line, theme::text_scale, theme::dim);
-  const auto whole = static_cast<size_t>(width() - 2 * margin);
-  canvas.fill({margin, margin + 64, static_cast<int>(whole * (i + 1) / frames()), bar_height}, theme::text);
-  for (const Band& band : bands_)
-    for (size_t c = 0; c < band.count; ++c)
-      draw_tile(canvas, *panels_.frames[band.first + c], tile(band, c), i);
+  const Rect& head = layout_.header;
+  const std::string line = fmt::format("{:.3f} s   tick {}   frame {} of {}   {}", time_s, moment.tick, i + 1,
+                                       frames(), speed_text(playback_.speed));
+  canvas.text(head.x, head.y + 34, fitted(line, head.width, theme::text_scale), theme::text_scale,
+              canvas.theme().dim);
+  const auto done = static_cast<int>(static_cast<size_t>(head.width) * (i + 1) / frames());
+  canvas.fill({head.x, head.y + bar_top, done, bar_height}, canvas.theme().text);
+  for (size_t p = 0; p < panels_.frames.size(); ++p)
+    draw_tile(canvas, *panels_.frames[p], layout_.tiles[p].pictures[0], layout_.tiles[p].legends[0], i);
+  for (size_t p = 0; p < panels_.series.size(); ++p)
+    panels_.series[p]->mark_time(canvas, layout_.plots[p].area, time_s);
   return canvas.image();
 }
 
-AnimationFile write_animation(const DatasetReader& reader, const std::filesystem::path& file, size_t frames,
-                              uint32_t sequence) {
-  if (file.extension() != ".webp")
-    throw_user_error("animation: expected a file name that ends in .webp, found '{}'", file.string());
-  const Animation animation(reader, frames, sequence);
-  if (animation.height() > webp_longest_side)
-    throw_user_error("{}: the panels of all sensors make {} x {} pixels, but a WebP has at most {} a side",
-                     file.string(), animation.width(), animation.height(), webp_longest_side);
+AnimationFile write_animation(const DatasetReader& reader, const std::filesystem::path& file,
+                              const AnimationOptions& options, uint32_t sequence) {
+  check_frame_file(file);
+  const Animation animation(reader, options, sequence);
   const Playback& playback = animation.playback();
-  WebpAnimator animator(animation.width(), animation.height());
-  for (size_t i = 0; i < animation.frames(); ++i) animator.add(animation.frame(i), playback.start_ms[i]);
-  const Bytes webp = animator.finish(playback.end_ms);
   create_folder_of(file);
-  write_file_atomically(file, webp);
-  return {animation.frames(), animation.width(), animation.height(), playback.end_ms, webp.size()};
+  const std::unique_ptr<FrameFile> written = open_frame_file(file, animation.width(), animation.height());
+  for (size_t i = 0; i < animation.frames(); ++i) {
+    written->add(animation.frame(i), playback.start_ms[i]);
+    if (options.on_frame) options.on_frame(i + 1, animation.frames());
+  }
+  written->finish(playback.end_ms);
+  return {animation.frames(), animation.width(), animation.height(), playback.end_ms, written->bytes()};
 }
 
 }  // namespace greatx::io

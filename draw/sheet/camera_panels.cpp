@@ -4,7 +4,9 @@
 // Draws the panels of cameras: RGB, depth and ids.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <tuple>
 
 #include "draw/sheet/picture_panel.h"
 
@@ -57,11 +59,10 @@ class DepthPanel : public PicturePanel {
     const int64_t width = depth.shape[1];
     canvas.raster(picture, static_cast<int>(width), static_cast<int>(depth.shape[0]), [&](int x, int y) {
       const float value = metres[static_cast<size_t>(y * width + x)];
-      return std::isfinite(value) ? turbo(1.0 - scale_.at(std::max<double>(value, 1e-6))) : color_of_sky;
+      return std::isfinite(value) ? canvas.theme().depths(scale_.at(std::max<double>(value, 1e-6)))
+                                  : canvas.theme().sky;
     });
-    draw_color_bar(
-        canvas, legend, scale_, [](double t) { return turbo(1.0 - t); },
-        scale_.logarithmic ? "m (log)" : "m");
+    draw_color_bar(canvas, legend, scale_, canvas.theme().depths, scale_.logarithmic ? "m (log)" : "m");
   }
 
  protected:
@@ -101,9 +102,10 @@ class LuminancePanel : public PicturePanel {
     const int64_t width = array.shape[1];
     canvas.raster(picture, static_cast<int>(width), static_cast<int>(array.shape[0]), [&](int x, int y) {
       const double value = luminance(array, static_cast<size_t>(y * width + x));
-      return viridis(scale_.at(std::max(value, 1e-30)));
+      return canvas.theme().power(scale_.at(std::max(value, 1e-30)));
     });
-    draw_color_bar(canvas, legend, scale_, viridis, scale_.logarithmic ? "cd/m2 (log)" : "cd/m2");
+    draw_color_bar(canvas, legend, scale_, canvas.theme().power,
+                   scale_.logarithmic ? "cd/m2 (log)" : "cd/m2");
   }
 
  protected:
@@ -122,6 +124,25 @@ class LuminancePanel : public PicturePanel {
   Scale scale_{0.1, 1000.0, true};
 };
 
+/// Calls `use(id, count)` for every run of pixels with the same id, which is most of a picture.
+template <typename Id, typename Use>
+void for_each_run(std::span<const Id> ids, const Use& use) {
+  for (size_t i = 0; i < ids.size();) {
+    size_t end = i + 1;
+    while (end < ids.size() && ids[end] == ids[i]) ++end;
+    use(static_cast<uint32_t>(ids[i]), end - i);
+    i = end;
+  }
+}
+template <typename Use>
+void for_each_run(const Array& ids, const Use& use) {
+  if (ids.dtype == DType::u8) return for_each_run(ids.as<uint8_t>(), use);
+  if (ids.dtype == DType::u16) return for_each_run(ids.as<uint16_t>(), use);
+  for_each_run(ids.as<uint32_t>(), use);
+}
+
+/// Shows ids in colours. The key names those that are seen: first what moves, each by its largest part, then
+/// what takes most pixels.
 class IdPanel : public PicturePanel {
  public:
   IdPanel(const PanelSource& source, const std::string& array)
@@ -135,16 +156,51 @@ class IdPanel : public PicturePanel {
     caption(canvas, legend, fmt::format("{} visible", seen));
   }
 
+  std::vector<KeyEntry> key(const Theme& theme) override {
+    std::map<uint32_t, size_t> pixels;
+    for (size_t row = 0; row < source_.chosen.size(); ++row)
+      for_each_run(load(row), [&](uint32_t id, size_t count) { pixels[id] += count; });
+    pixels.erase(0);
+    const SceneNames names = source_.scene ? source_.scene->names : SceneNames();
+    std::vector<std::pair<uint32_t, size_t>> order(pixels.begin(), pixels.end());
+    std::ranges::sort(order, [](const auto& a, const auto& b) {
+      return std::tuple(b.second, a.first) < std::tuple(a.second, b.first);
+    });
+    // The largest part of each thing that moves comes first; its rotors and wheels follow with the rest.
+    if (array_ == instance_name) {
+      std::set<std::string> nodes;
+      std::vector<std::pair<uint32_t, size_t>> leading, rest;
+      for (const auto& entry : order) {
+        const bool leads = names.moves(entry.first) && nodes.insert(names.short_instance(entry.first)).second;
+        (leads ? leading : rest).push_back(entry);
+      }
+      order = std::move(leading);
+      order.insert(order.end(), rest.begin(), rest.end());
+    }
+    const size_t shown = order.size() > most_key_entries ? most_key_entries - 1 : order.size();
+    std::vector<KeyEntry> entries;
+    for (size_t i = 0; i < shown; ++i)
+      entries.push_back(
+          {KeyEntry::Mark::square, color_of_id(theme, order[i].first), name_of(names, order[i].first)});
+    if (shown < order.size())
+      entries.push_back({KeyEntry::Mark::none, {}, fmt::format("and {} more", order.size() - shown)});
+    return entries;
+  }
+
  protected:
   std::string text_of(size_t, const Array& image, size_t i, const SceneNames& names) override {
-    const uint32_t id = image.dtype == DType::u8    ? image.as<uint8_t>()[i]
-                        : image.dtype == DType::u16 ? image.as<uint16_t>()[i]
-                                                    : image.as<uint32_t>()[i];
-    if (array_ == "instance") return names.instance(id);
-    return array_ == "semantic" ? names.semantic_class(id) : names.material(id);
+    return name_of(names, image.dtype == DType::u8    ? image.as<uint8_t>()[i]
+                          : image.dtype == DType::u16 ? image.as<uint16_t>()[i]
+                                                      : image.as<uint32_t>()[i]);
   }
 
  private:
+  static constexpr const char* instance_name = "instance";
+  std::string name_of(const SceneNames& names, uint32_t id) const {
+    if (array_ == instance_name) return names.instance(id);
+    return array_ == "semantic" ? names.semantic_class(id) : names.material(id);
+  }
+
   /// Returns the number of different ids, without 0. Neighbours are mostly equal, so the colour of the last
   /// one is kept.
   template <typename Id>
@@ -152,16 +208,14 @@ class IdPanel : public PicturePanel {
     const std::span<const Id> ids = image.as<Id>();
     const int64_t width = image.shape[1];
     uint32_t last = 0;
-    Color color = color_of_id(last);
+    Color color = color_of_id(canvas.theme(), last);
     canvas.raster(picture, static_cast<int>(width), static_cast<int>(image.shape[0]), [&](int x, int y) {
       const uint32_t id = ids[static_cast<size_t>(y * width + x)];
-      if (id != last) last = id, color = color_of_id(id);
+      if (id != last) last = id, color = color_of_id(canvas.theme(), id);
       return color;
     });
     std::set<uint32_t> distinct;
-    last = 0;
-    for (const uint32_t id : ids)
-      if (id != last) distinct.insert(id), last = id;
+    for_each_run(ids, [&](uint32_t id, size_t) { distinct.insert(id); });
     distinct.erase(0);
     return distinct.size();
   }

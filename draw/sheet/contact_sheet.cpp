@@ -15,152 +15,174 @@ namespace {
 
 using namespace sheet;
 
-constexpr int gutter = 132, header_height = 74, plot_height = 400;
-constexpr size_t most_columns = 4, rows_of_sheet = 4;
+constexpr int header_height = 74;
+constexpr size_t least_columns = 3;  ///< so that header and plots have room
+constexpr int title_scale = 3;
 
 /// Returns the panels of all sensors in one list.
-Panels make_panels(const DatasetReader& reader, uint32_t sequence, const std::vector<SheetMoment>& moments) {
+Panels make_panels(const DatasetReader& reader, uint32_t sequence, const std::vector<size_t>& sensors,
+                   const std::vector<SheetMoment>& moments, const PanelOptions& options) {
   Panels all;
-  for (Panels& panels : panels_by_sensor(reader, sequence, moments)) {
+  for (Panels& panels : panels_by_sensor(reader, sequence, sensors, moments, options)) {
     std::move(panels.frames.begin(), panels.frames.end(), std::back_inserter(all.frames));
     std::move(panels.series.begin(), panels.series.end(), std::back_inserter(all.series));
   }
   return all;
 }
 
-int row_height(const Band& band) { return band.picture_height + legend_height + row_gap; }
-
-void draw_header(Canvas& canvas, const DatasetReader& reader, uint32_t sequence) {
+void draw_header(Canvas& canvas, const Rect& area, const DatasetReader& reader, uint32_t sequence) {
   const Summary summary = summarize(reader);
-  canvas.text(margin, margin, summary.title, 3, theme::text);
+  canvas.text(area.x, area.y, fitted(summary.title, area.width, title_scale), title_scale,
+              canvas.theme().text);
   std::string line = fmt::format("sequence {} of {}   {} ticks   {:.4g} s   {} sensors   {} records",
                                  sequence + 1, reader.info().sequences, reader.info().ticks_per_sequence,
                                  summary.duration_s, reader.sensors().size(), summary.records);
   if (!reader.finished()) line += "   UNFINISHED";
-  canvas.text(margin, margin + 34, line, theme::text_scale, theme::dim);
-}
-
-/// Draws a band of panels with a row for each moment. Returns the y below it.
-int draw_band(Canvas& canvas, int y, const Band& band, const Panels& panels,
-              const std::vector<SheetMoment>& moments) {
-  const auto column_x = [](size_t column) {
-    return margin + gutter + static_cast<int>(column) * (tile_width + gap);
-  };
-  for (size_t c = 0; c < band.count; ++c)
-    draw_title(canvas, column_x(c), y, panels.frames[band.first + c]->title());
-  y += title_height;
-  for (size_t row = 0; row < moments.size(); ++row, y += row_height(band)) {
-    canvas.text(margin, y + 4, fmt::format("{:.3f} s", 1e-9 * static_cast<double>(moments[row].time_ns)),
-                theme::text_scale, theme::text);
-    canvas.text(margin, y + 4 + theme::line_height, fmt::format("tick {}", moments[row].tick),
-                theme::text_scale, theme::dim);
-    for (size_t c = 0; c < band.count; ++c) {
-      const Rect tile{column_x(c), y, tile_width, band.picture_height};
-      draw_tile(canvas, *panels.frames[band.first + c], tile, row);
-    }
-  }
-  return y;
+  canvas.text(area.x, area.y + 34, fitted(line, area.width, theme::text_scale), theme::text_scale,
+              canvas.theme().dim);
 }
 
 /// Throws UserError if the sheet would be too large, because a data set may declare any number of sensors.
-void check_size(const DatasetReader& reader, int64_t width, int64_t height) {
+void check_size(const DatasetReader& reader, int64_t width, int64_t height, int64_t factor) {
   constexpr int64_t most_pixels = int64_t{1} << 28;
-  if (width * height > most_pixels)
+  if (width * height * factor * factor > most_pixels)
     throw_user_error("{}: expected a contact sheet of at most {} pixels, found {} x {}, of {} sensors",
-                     reader.folder().string(), most_pixels, width, height, reader.sensors().size());
+                     reader.folder().string(), most_pixels, factor * width, factor * height,
+                     reader.sensors().size());
+}
+
+void draw_times(Canvas& canvas, const SheetLayout& layout, const std::vector<SheetMoment>& moments) {
+  for (const std::vector<Rect>& band : layout.times)
+    for (size_t m = 0; m < moments.size(); ++m) {
+      const Rect& at = band[m];
+      const auto line = [&](int y, const std::string& text, Color color) {
+        canvas.text(at.x, y, fitted(text, at.width, theme::text_scale), theme::text_scale, color);
+      };
+      line(at.y + 4, fmt::format("{:.3f} s", 1e-9 * static_cast<double>(moments[m].time_ns)),
+           canvas.theme().text);
+      line(at.y + 4 + theme::line_height, fmt::format("tick {}", moments[m].tick), canvas.theme().dim);
+    }
 }
 
 /// Holds a column of a comparison: the panels of one data set at one moment.
 struct Column {
   std::string title;
   Panels panels;
+  std::vector<std::vector<KeyEntry>> keys;
 };
 
 }  // namespace
 
-Array contact_sheet(const DatasetReader& reader, uint32_t sequence) {
-  check_has_records(reader, sequence);
-  const std::vector<SheetMoment> moments = choose_moments(reader, sequence, rows_of_sheet);
-  const Panels panels = make_panels(reader, sequence, moments);
-  const size_t total = panels.frames.size();
-  const std::vector<Band> bands =
-      make_bands(panels.frames, total <= most_columns + 1 ? most_columns + 1 : most_columns);
-
-  const size_t columns = bands.empty() ? 4 : std::max<size_t>(bands[0].count, 3);
-  const int width = 2 * margin + gutter + static_cast<int>(columns) * (tile_width + gap) - gap;
-  const int inner = width - 2 * margin;
-  const auto plots_per_row = static_cast<int>(std::clamp<size_t>(panels.series.size(), 1, 3));
-  const int plot_rows = (static_cast<int>(panels.series.size()) + plots_per_row - 1) / plots_per_row;
-  int height = margin + header_height + plot_rows * (title_height + plot_height) + margin;
-  for (const Band& band : bands)
-    height += title_height + static_cast<int>(moments.size()) * row_height(band) + gap;
-
-  check_size(reader, width, height);
-  Canvas canvas(width, height, theme::page);
-  draw_header(canvas, reader, sequence);
-  int y = margin + header_height;
-  for (const Band& band : bands) y = draw_band(canvas, y, band, panels, moments) + gap;
-  const int plot_width = (inner - (plots_per_row - 1) * gap) / plots_per_row;
-  for (int i = 0; i < static_cast<int>(panels.series.size()); ++i) {
-    const int x = margin + i % plots_per_row * (plot_width + gap);
-    const int top = y + i / plots_per_row * (title_height + plot_height);
-    SeriesPanel& panel = *panels.series[static_cast<size_t>(i)];
-    draw_title(canvas, x, top, panel.title());
-    panel.draw(canvas, {x, top + title_height, plot_width, plot_height});
-  }
-  return canvas.image();
+Array contact_sheet(const DatasetReader& reader, uint32_t sequence, const SheetOptions& options) {
+  return drawn_contact_sheet(reader, sequence, options).image();
 }
 
-Array comparison_sheet(std::span<const DatasetReader> readers, uint32_t sequence) {
+Canvas drawn_contact_sheet(const DatasetReader& reader, uint32_t sequence, const SheetOptions& options) {
+  check_has_records(reader, sequence);
+  const std::vector<size_t> sensors = shown_sensors(reader, options.sensors);
+  size_t expected = 0;
+  for (const size_t s : sensors) expected += count_frame_panels(reader.sensors()[s]);
+  const std::vector<SheetMoment> moments = choose_moments(reader, sequence, sensors, moments_for(expected));
+  if (moments.empty())
+    throw_user_error("{}: the chosen sensors have no records in sequence {}", reader.folder().string(),
+                     sequence);
+  const Panels panels = make_panels(reader, sequence, sensors, moments, options.panels);
+
+  LayoutWish wish;
+  std::vector<std::vector<KeyEntry>> keys;
+  for (const auto& panel : panels.frames) {
+    keys.push_back(panel->key(*options.theme));
+    wish.aspects.push_back(panel->aspect());
+    wish.key_lines.push_back(keys.back().size());
+  }
+  wish.moments = moments.size();
+  wish.plots = panels.series.size();
+  wish.header = header_height;
+  wish.least_columns = least_columns;
+  const SheetLayout layout = sheet_layout(wish);
+  check_size(reader, layout.width, layout.height, options.factor);
+  Canvas canvas(layout.width, layout.height, *options.theme, options.factor);
+  draw_header(canvas, layout.header, reader, sequence);
+  draw_times(canvas, layout, moments);
+  for (size_t i = 0; i < panels.frames.size(); ++i) {
+    const SheetLayout::Tile& tile = layout.tiles[i];
+    draw_title(canvas, tile.title, panels.frames[i]->title());
+    for (size_t m = 0; m < moments.size(); ++m)
+      draw_tile(canvas, *panels.frames[i], tile.pictures[m], tile.legends[m], m);
+    draw_key(canvas, tile.key, keys[i]);
+  }
+  for (size_t i = 0; i < panels.series.size(); ++i) {
+    draw_title(canvas, layout.plots[i].title, panels.series[i]->title());
+    panels.series[i]->draw(canvas, layout.plots[i].area);
+  }
+  return canvas;
+}
+
+Array comparison_sheet(std::span<const DatasetReader> readers, uint32_t sequence,
+                       const SheetOptions& options) {
   std::vector<Column> columns;
   size_t rows = 0;
   for (const DatasetReader& reader : readers) {
     check_has_records(reader, sequence);
-    std::vector<SheetMoment> moments = choose_moments(reader, sequence, rows_of_sheet);
+    const std::vector<size_t> sensors = shown_sensors(reader, options.sensors);
+    std::vector<SheetMoment> moments = choose_moments(reader, sequence, sensors, most_moments);
     if (!moments.empty()) moments = {moments[moments.size() / 2]};
-    columns.push_back({summarize(reader).title, make_panels(reader, sequence, moments)});
-    rows = std::max(rows, columns.back().panels.frames.size());
+    Column& column = columns.emplace_back(
+        Column{summarize(reader).title, make_panels(reader, sequence, sensors, moments, options.panels), {}});
+    for (const auto& panel : column.panels.frames) column.keys.push_back(panel->key(*options.theme));
+    rows = std::max(rows, column.panels.frames.size());
   }
   if (rows == 0) throw_user_error("none of the data sets has a camera or a LiDAR to show");
 
-  std::vector<int> heights;
+  std::vector<int> tiles, keys;  // heights, by row
+  int height = margin + header_height / 2 + margin;
   for (size_t row = 0; row < rows; ++row) {
     double aspect = 0.0;
+    size_t lines = 0;
     for (const Column& column : columns)
-      if (row < column.panels.frames.size()) aspect = std::max(aspect, column.panels.frames[row]->aspect());
-    heights.push_back(tile_height(aspect));
+      if (row < column.panels.frames.size()) {
+        aspect = std::max(aspect, column.panels.frames[row]->aspect());
+        lines = std::max(lines, column.keys[row].size());
+      }
+    tiles.push_back(tile_height(aspect));
+    keys.push_back(static_cast<int>(lines) * theme::line_height);
+    height += title_height + tiles.back() + legend_height + keys.back() + row_gap;
   }
-  int height = margin + header_height / 2 + margin;
-  for (const int tile : heights) height += title_height + tile + legend_height + row_gap;
-  Canvas canvas(2 * margin + static_cast<int>(columns.size()) * (tile_width + gap) - gap, height,
-                theme::page);
+  const int width = 2 * margin + static_cast<int>(columns.size()) * (tile_width + gap) - gap;
+  check_size(readers[0], width, height, options.factor);
+  Canvas canvas(width, height, *options.theme, options.factor);
   for (size_t c = 0; c < columns.size(); ++c) {
     const int x = margin + static_cast<int>(c) * (tile_width + gap);
-    canvas.text(x, margin, columns[c].title, 3, theme::text);
+    canvas.text(x, margin, fitted(columns[c].title, tile_width, title_scale), title_scale,
+                canvas.theme().text);
     int y = margin + header_height / 2;
     for (size_t row = 0; row < rows; ++row) {
       if (row < columns[c].panels.frames.size()) {
         FramePanel& panel = *columns[c].panels.frames[row];
-        draw_title(canvas, x, y, panel.title());
-        draw_tile(canvas, panel, {x, y + title_height, tile_width, heights[row]}, 0);
+        const int top = y + title_height, below = top + tiles[row];
+        draw_title(canvas, {x, y, tile_width, title_height}, panel.title());
+        draw_tile(canvas, panel, {x, top, tile_width, tiles[row]},
+                  {x, below + 2, tile_width, legend_height - 4}, 0);
+        draw_key(canvas, {x, below + legend_height, tile_width, keys[row]}, columns[c].keys[row]);
       }
-      y += title_height + heights[row] + legend_height + row_gap;
+      y += title_height + tiles[row] + legend_height + keys[row] + row_gap;
     }
   }
   return canvas.image();
 }
 
 void write_contact_sheet(std::span<const DatasetReader> readers, const std::filesystem::path& file,
-                         uint32_t sequence) {
-  const Array sheet =
-      readers.size() == 1 ? contact_sheet(readers[0], sequence) : comparison_sheet(readers, sequence);
+                         uint32_t sequence, const SheetOptions& options) {
+  const Array sheet = readers.size() == 1 ? contact_sheet(readers[0], sequence, options)
+                                          : comparison_sheet(readers, sequence, options);
   const Bytes png = encode_png(sheet);
   create_folder_of(file);
   write_file_atomically(file, png);
 }
 
-void write_contact_sheet(const DatasetReader& reader, const std::filesystem::path& file, uint32_t sequence) {
-  write_contact_sheet({&reader, 1}, file, sequence);
+void write_contact_sheet(const DatasetReader& reader, const std::filesystem::path& file, uint32_t sequence,
+                         const SheetOptions& options) {
+  write_contact_sheet({&reader, 1}, file, sequence, options);
 }
 
 }  // namespace greatx::io

@@ -7,6 +7,7 @@
 #include <complex>
 
 #include "core/units.h"
+#include "draw/sheet/channel_links.h"
 #include "draw/sheet/csi_response.h"
 #include "draw/sheet/panels.h"
 
@@ -17,16 +18,17 @@ namespace {
 using Complex = std::complex<double>;
 constexpr size_t most_time_columns = 600, most_cells = 1 << 22;
 
-/// Holds one link over the sequence: H(f) of receiver 0 and transmitter 0, of the first port of each, at the
-/// first time sample of each record.
+/// Holds one link over the sequence: H(f) of the link that the source names, of the first port of each end,
+/// at the first time sample of each record.
 struct Link {
-  std::string sensor;
+  std::string sensor, ends;  ///< the channel's name; "bs to uav"
   double spacing_hz = 1.0;
   double first_time_s = 0.0, last_time_s = 0.0;
   size_t subcarriers = 0;
   std::vector<std::vector<std::complex<float>>> columns;  ///< [time][subcarrier]
 
-  explicit Link(const PanelSource& source) : sensor(source.spec().name) {
+  explicit Link(const PanelSource& source)
+      : sensor(source.spec().name), ends(link_text(channel_ends(source), source.link)) {
     spacing_hz = number_of(metadata_of(source), "subcarrier_spacing_hz", 1.0, 1e-6, 1e15);
     const std::vector<IndexRow> rows = source.records.records_of(source.sequence, source.sensor);
     if (rows.empty()) return;
@@ -38,7 +40,14 @@ struct Link {
           source.load(rows[i * rows.size() / count], "cfr", {DType::complex64}, {0, 0, 0, 0, 0, 0});
       subcarriers = static_cast<size_t>(cfr.shape.back());
       if (i == 0) count = std::min(count, std::max<size_t>(2, most_cells / subcarriers));
-      const auto values = cfr.as<std::complex<float>>().first(subcarriers);
+      const auto [rx, tx] = source.link;
+      const auto extent = [&](size_t axis) { return static_cast<size_t>(cfr.shape[axis]); };
+      if (rx >= extent(0) || tx >= extent(2))
+        throw_user_error("{}: expected a cfr of receiver {} and transmitter {}, found {} x {}",
+                         source.place(), rx, tx, extent(0), extent(2));
+      // [rx, rx_ant, tx, tx_ant, time, subcarrier]
+      const size_t first = (rx * extent(1) * extent(2) + tx) * extent(3) * extent(4) * subcarriers;
+      const auto values = cfr.as<std::complex<float>>().subspan(first, subcarriers);
       columns.emplace_back(values.begin(), values.end());
     }
   }
@@ -48,20 +57,28 @@ struct Link {
 class DecibelPanel : public SeriesPanel {
  public:
   void draw(Canvas& canvas, const Rect& area) override {
-    const Rect plot{area.x + 92, area.y + 8 + theme::line_height, area.width - 92 - 92,
-                    area.height - 16 - 4 * theme::line_height};
+    const Rect plot = plot_in(area);
     if (values_.empty()) return;
     const auto columns = static_cast<int>(values_.size()), rows = static_cast<int>(values_[0].size());
     canvas.raster(plot, columns, rows, [&](int x, int y) {
-      return viridis(color_.at(values_[static_cast<size_t>(x)][static_cast<size_t>(rows - 1 - y)]));
+      return canvas.theme().power(
+          color_.at(values_[static_cast<size_t>(x)][static_cast<size_t>(rows - 1 - y)]));
     });
-    canvas.frame(plot, theme::border);
+    canvas.frame(plot, canvas.theme().border);
     draw_x_axis(canvas, plot, time_, "time s");
     draw_y_axis(canvas, plot, vertical_, vertical_label_);
-    draw_color_scale(canvas, {plot.right() + 14, plot.y, 14, plot.height}, color_, viridis, "dB");
+    draw_color_scale(canvas, {plot.right() + 14, plot.y, 14, plot.height}, color_, canvas.theme().power,
+                     "dB");
+  }
+  void mark_time(Canvas& canvas, const Rect& area, double time_s) override {
+    mark_time_in(canvas, plot_in(area), time_, time_s, canvas.theme().over);
   }
 
  protected:
+  static Rect plot_in(const Rect& area) {
+    return {area.x + 92, area.y + 8 + theme::line_height, area.width - 92 - 92,
+            area.height - 16 - 4 * theme::line_height};
+  }
   void set_time(const Link& link) { time_ = scale_for(link.first_time_s, link.last_time_s); }
   void set_color(double floor_db) {
     double high = -1e300, low = 1e300;
@@ -82,7 +99,8 @@ class DecibelPanel : public SeriesPanel {
 /// |h(tau)|, see impulse_response_db().
 class ImpulsePanel : public DecibelPanel {
  public:
-  explicit ImpulsePanel(const Link& link) : title_(link.sensor + " |h| over delay") {
+  explicit ImpulsePanel(const Link& link)
+      : title_(fmt::format("{} |h| over delay, {}", link.sensor, link.ends)) {
     if (link.columns.empty()) return;
     const size_t size = impulse_size(link.subcarriers);
     std::vector<double> peak(size, -1e300);
@@ -113,7 +131,8 @@ class ImpulsePanel : public DecibelPanel {
 /// Shows |H(f)|.
 class FrequencyPanel : public DecibelPanel {
  public:
-  explicit FrequencyPanel(const Link& link) : title_(link.sensor + " |H| over frequency") {
+  explicit FrequencyPanel(const Link& link)
+      : title_(fmt::format("{} |H| over frequency, {}", link.sensor, link.ends)) {
     for (const auto& column : link.columns) values_.push_back(magnitudes_db(column));
     // Subcarrier k lies at (k - floor(N/2)) * spacing from the carrier; each takes one spacing of the axis.
     const double low = -(static_cast<double>(link.subcarriers / 2) + 0.5) * link.spacing_hz;

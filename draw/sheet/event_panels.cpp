@@ -12,6 +12,8 @@ namespace greatx::io {
 
 namespace {
 
+constexpr Color event_on{235, 45, 35}, event_off{35, 75, 240};
+
 /// Shows the events since the previous record, summed by pixel.
 class EventPanel : public FramePanel {
  public:
@@ -33,9 +35,13 @@ class EventPanel : public FramePanel {
     const auto on = static_cast<size_t>(std::count(p.as<uint8_t>().begin(), p.as<uint8_t>().end(), 1));
     std::string text = fmt::format("ON {} OFF {}", on, count - on);
     if (const double ms = interval_ms(record); ms > 0.0) text += fmt::format(" in {:.4g} ms", ms);
-    canvas.text(legend.x, legend.y + 4, text, theme::text_scale, theme::dim);
+    canvas.text(legend.x, legend.y + 4, text, theme::text_scale, canvas.theme().dim);
   }
 
+  std::vector<KeyEntry> key(const Theme&) override {
+    return {{KeyEntry::Mark::square, event_on, "ON: brighter than before"},
+            {KeyEntry::Mark::square, event_off, "OFF: darker than before"}};
+  }
   std::string nothing_of(size_t row) override { return load(row).p.as<uint8_t>().empty() ? "no events" : ""; }
   std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames&) override {
     const std::optional<RasterCell> cell = cell_at(picture, width_, height_, x, y);
@@ -121,7 +127,9 @@ Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, st
     ++counts[static_cast<size_t>(y[i] * width + x[i])][p[i] == 0];
   }
   // One event has 60 % of the full colour, three or more events have all of it.
-  const double grey[3] = {128, 128, 128}, red[3] = {235, 45, 35}, blue[3] = {35, 75, 240};
+  const double grey[3] = {128, 128, 128},
+               red[3] = {double{event_on.r}, double{event_on.g}, double{event_on.b}},
+               blue[3] = {double{event_off.r}, double{event_off.g}, double{event_off.b}};
   Array rgb(DType::u8, {height, width, 3});
   const std::span<uint8_t> out = rgb.as<uint8_t>();
   std::ranges::fill(out, uint8_t{128});

@@ -39,25 +39,30 @@ class LidarPanel : public FramePanel {
 
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     canvas.clip(picture);
-    canvas.fill(picture, theme::panel);
+    canvas.fill(picture, canvas.theme().panel);
     const auto [cx, cy, pixels] = layout(picture);
     const double ring = round_down(radius_ / 1.9);
-    for (int i = 1; i * ring < 2.0 * radius_; ++i) canvas.circle(cx, cy, i * ring * pixels, 1.0, theme::grid);
+    for (int i = 1; i * ring < 2.0 * radius_; ++i)
+      canvas.circle(cx, cy, i * ring * pixels, 1.0, canvas.theme().grid);
     for (const dvec3& point : clouds_[row]) {
-      const Color color = turbo(0.08 + 0.84 * std::clamp(height_.at(point.z), 0.0, 1.0));
+      const Color color = canvas.theme().heights(height_.at(point.z));
       const int x = static_cast<int>(std::floor(cx + point.x * pixels)),
                 y = static_cast<int>(std::floor(cy - point.y * pixels));
       canvas.blend(x, y, color);
       canvas.blend(x + 1, y, color, 0.35);
       canvas.blend(x, y + 1, color, 0.35);
     }
-    canvas.disc(cx, cy, 4.0, theme::text);
+    canvas.disc(cx, cy, 4.0, canvas.theme().text);
     draw_north(canvas, picture);
     draw_length(canvas, picture, ring, ring * pixels);
     canvas.unclip();
-    draw_color_bar(
-        canvas, legend, height_, [](double t) { return turbo(0.08 + 0.84 * t); },
-        north_up_ ? "m height" : "m above");
+    draw_color_bar(canvas, legend, height_, canvas.theme().heights, "m");
+  }
+  std::vector<KeyEntry> key(const Theme& theme) override {
+    using Mark = KeyEntry::Mark;
+    return {
+        {Mark::none, {}, north_up_ ? "colour: height in the world" : "colour: height above the sensor"},
+        {Mark::disc, theme.text, north_up_ ? "the sensor; north is up" : "the sensor; forward (x) is up"}};
   }
   std::string nothing_of(size_t row) override { return clouds_[row].empty() ? "no points" : ""; }
 
@@ -113,17 +118,17 @@ class LidarPanel : public FramePanel {
   }
   void draw_north(Canvas& canvas, const Rect& picture) const {
     const int x = picture.right() - 22, y = picture.y + 32;
-    canvas.line(x, y + 24, x, y, 2.0, theme::text);
-    canvas.line(x, y, x - 6, y + 9, 2.0, theme::text);
-    canvas.line(x, y, x + 6, y + 9, 2.0, theme::text);
-    canvas.text(x + 1, y - 20, north_up_ ? "N" : "x", theme::text_scale, theme::text, Align::center);
+    canvas.line(x, y + 24, x, y, 2.0, canvas.theme().text);
+    canvas.line(x, y, x - 6, y + 9, 2.0, canvas.theme().text);
+    canvas.line(x, y, x + 6, y + 9, 2.0, canvas.theme().text);
+    canvas.text(x + 1, y - 20, north_up_ ? "N" : "x", theme::text_scale, canvas.theme().text, Align::center);
   }
   static void draw_length(Canvas& canvas, const Rect& picture, double metres, double length) {
     const int x = picture.x + 14, y = picture.bottom() - 14, end = x + static_cast<int>(std::lround(length));
-    canvas.fill({x, y, end - x, 2}, theme::text);
-    canvas.fill({x, y - 4, 2, 10}, theme::text);
-    canvas.fill({end - 2, y - 4, 2, 10}, theme::text);
-    canvas.text((x + end) / 2, y - 22, tick_text(metres) + " m", theme::text_scale, theme::text,
+    canvas.fill({x, y, end - x, 2}, canvas.theme().text);
+    canvas.fill({x, y - 4, 2, 10}, canvas.theme().text);
+    canvas.fill({end - 2, y - 4, 2, 10}, canvas.theme().text);
+    canvas.text((x + end) / 2, y - 22, tick_text(metres) + " m", theme::text_scale, canvas.theme().text,
                 Align::center);
   }
 

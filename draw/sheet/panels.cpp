@@ -8,6 +8,8 @@
 
 #include <fmt/ranges.h>
 
+#include "draw/sheet/channel_links.h"
+
 namespace greatx::io {
 
 namespace {
@@ -34,6 +36,7 @@ const Maker* maker_of(std::string_view kind) {
 
 constexpr double farthest_m = 1e12;
 constexpr size_t most_nodes = 1'000'000;
+constexpr std::string_view ids_group = "ids";  ///< of FrameKind: pictures of ids
 
 }  // namespace
 
@@ -117,19 +120,51 @@ std::optional<RasterCell> cell_at(const Rect& picture, int64_t columns, int64_t 
                     static_cast<int>((y - picture.y) * rows / picture.height)};
 }
 
-void add_panels(const PanelSource& source, Panels& panels) {
-  const Maker* const maker = maker_of(source.spec().kind);
-  if (maker == nullptr) return;
-  if (maker->add) maker->add(source, panels);
+namespace {
+
+/// Adds the first picture of each group that the sensor has.
+void add_frames(const PanelSource& source, Panels& panels, const PanelOptions& options) {
   std::set<std::string_view> groups;
-  for (const FrameKind& kind : frame_kinds(source.spec().kind)) {
-    if (kind.group == nullptr || groups.contains(kind.group) || !has_arrays(source.spec(), kind.arrays))
-      continue;
+  const std::span<const FrameKind> kinds = frame_kinds(source.spec().kind);
+  const auto usable = [&](const FrameKind& kind) {
+    return kind.group != nullptr && has_arrays(source.spec(), kind.arrays);
+  };
+  const bool wished =
+      std::ranges::any_of(kinds, [&](const FrameKind& k) { return usable(k) && options.ids == k.name; });
+  for (const FrameKind& kind : kinds) {
+    if (!usable(kind) || groups.contains(kind.group)) continue;
+    if (wished && kind.group == ids_group && options.ids != kind.name) continue;
     std::unique_ptr<FramePanel> panel = kind.make(source);
     if (panel == nullptr) continue;
     panels.frames.push_back(std::move(panel));
     groups.insert(kind.group);
   }
+}
+
+}  // namespace
+
+void add_panels(const PanelSource& source, Panels& panels, const PanelOptions& options) {
+  const Maker* const maker = maker_of(source.spec().kind);
+  if (maker == nullptr) return;
+  std::vector<PanelSource> links{source};
+  if (source.spec().kind == "csi") {
+    links.clear();
+    for (const ChannelLink& link : links_to_show(source, options.links)) {
+      links.push_back(source);
+      links.back().link = link;
+    }
+  }
+  for (const PanelSource& link : links) {
+    if (maker->add) maker->add(link, panels);
+    add_frames(link, panels, options);
+  }
+}
+
+size_t count_frame_panels(const SensorSpec& sensor) {
+  std::set<std::string_view> groups;
+  for (const FrameKind& kind : frame_kinds(sensor.kind))
+    if (kind.group != nullptr && has_arrays(sensor, kind.arrays)) groups.insert(kind.group);
+  return groups.size();
 }
 
 bool has_panels(std::string_view kind) { return maker_of(kind) != nullptr; }
@@ -153,26 +188,34 @@ std::vector<std::string> node_names(const PanelSource& pose) {
   return names;
 }
 
-Pose mount_of(const PanelSource& source) {
-  const JsonDocument metadata = metadata_of(source);
-  Pose mount;
-  if (!metadata.root().has("body_from_sensor")) return mount;
-  const JsonValue json = metadata.root().at("body_from_sensor");
+Pose pose_of(const JsonValue& json) {
+  Pose pose;
   if (json.has("position_m")) {
     const std::vector<JsonValue> p = json.at("position_m").tuple(3);
-    for (int i = 0; i < 3; ++i) mount.position[i] = p[static_cast<size_t>(i)].number(-farthest_m, farthest_m);
+    for (int i = 0; i < 3; ++i) pose.position[i] = p[static_cast<size_t>(i)].number(-farthest_m, farthest_m);
   }
   if (json.has("orientation_wxyz")) {
     const std::vector<JsonValue> q = json.at("orientation_wxyz").tuple(4);
     const auto part = [&](size_t i) { return q[i].number(-1.01, 1.01); };
-    mount.orientation = dquat(part(0), part(1), part(2), part(3));
+    pose.orientation = dquat(part(0), part(1), part(2), part(3));
   }
-  return mount;
+  return pose;
+}
+
+Pose mount_of(const PanelSource& source) {
+  const JsonDocument metadata = metadata_of(source);
+  return metadata.root().has("body_from_sensor") ? pose_of(metadata.root().at("body_from_sensor")) : Pose();
 }
 
 std::string node_of(const SensorSpec& sensor) { return sensor.name.substr(0, sensor.name.find('/')); }
 
 std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow& row) {
+  const std::optional<Pose> node = world_from_node(source, row, node_of(source.spec()));
+  if (!node) return std::nullopt;
+  return *node * mount_of(source);
+}
+
+std::optional<Pose> world_from_node(const PanelSource& source, const IndexRow& row, const std::string& node) {
   const std::vector<SensorSpec>& sensors = source.records.sensors();
   const auto has = [](const SensorSpec& sensor, const char* name) {
     return std::any_of(sensor.arrays.begin(), sensor.arrays.end(),
@@ -184,7 +227,7 @@ std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow&
   if (pose == sensors.end()) return std::nullopt;
   const PanelSource poses{source.records, source.sequence, static_cast<size_t>(pose - sensors.begin()), {}};
   const std::vector<std::string> names = node_names(poses);
-  const auto found = std::find(names.begin(), names.end(), node_of(source.spec()));
+  const auto found = std::find(names.begin(), names.end(), node);
   if (found == names.end()) return std::nullopt;
   const std::vector<IndexRow> rows =
       source.records.records_of(source.sequence, static_cast<size_t>(pose - sensors.begin()));
@@ -200,7 +243,7 @@ std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow&
                      positions.shape[0]);
   const std::span<const double> p = positions.as<double>().subspan(3 * number, 3);
   const std::span<const double> q = orientations.as<double>().subspan(4 * number, 4);
-  return Pose{{p[0], p[1], p[2]}, dquat(q[0], q[1], q[2], q[3])} * mount_of(source);
+  return Pose{{p[0], p[1], p[2]}, dquat(q[0], q[1], q[2], q[3])};
 }
 
 }  // namespace greatx::io

@@ -5,6 +5,9 @@
 // SeriesPanel one plot over the whole sequence. A kind of sensor gets onto the sheet by one row in
 // panels.cpp. The viewer draws the FramePanels too, one record at a time, and asks them for the value under
 // the cursor.
+//
+// A panel takes the colours of the canvas that it draws on. Its key explains marks and colours of all of its
+// pictures at once, so that it stands below the last one.
 #pragma once
 
 #include <initializer_list>
@@ -16,12 +19,19 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "draw/canvas/labels.h"
 #include "draw/canvas/plot.h"
 #include "draw/sheet/scene_names.h"
 #include "io/dataset/record_source.h"
 #include "io/files/untrusted_json.h"
 
 namespace greatx::io {
+
+/// Names a link by the places of its ends in the lists of a channel.
+struct ChannelLink {
+  size_t rx = 0, tx = 0;
+  friend bool operator==(const ChannelLink&, const ChannelLink&) = default;
+};
 
 /// What panels are made from: a sensor in a sequence, and the records chosen for the rows (one a row, nearest
 /// in time). The records stay where they are: whoever keeps a source keeps them, too.
@@ -30,6 +40,9 @@ struct PanelSource {
   uint32_t sequence;
   size_t sensor;
   std::vector<IndexRow> chosen;
+  ChannelLink link{};  ///< of a channel: what is shown
+  /// What names and outlines say of the scene; null: pictures have none of them.
+  std::shared_ptr<const SceneFacts> scene{};
   const SensorSpec& spec() const { return records.sensors()[sensor]; }
   bool has(std::string_view array) const;
   /// Returns "DIR/sequence_0000/SENSOR", the beginning of messages.
@@ -40,6 +53,8 @@ struct PanelSource {
   Array load(const IndexRow& row, const std::string& array, const std::vector<DType>& types,
              const std::vector<int64_t>& shape) const;
 };
+
+inline constexpr size_t most_key_entries = 9;
 
 /// Draws one picture for each chosen moment.
 class FramePanel {
@@ -53,6 +68,8 @@ class FramePanel {
   /// What pixel (x, y) of the canvas shows of record `row` drawn into `picture`: where it is and the value
   /// there with its unit, in lines. Empty outside of the picture.
   virtual std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames& names) = 0;
+  /// Explains the colours and marks of all pictures, at most most_key_entries lines. May read all records.
+  virtual std::vector<KeyEntry> key(const Theme& /*theme*/) { return {}; }
   /// Says what record `row` has none of ("no points"), if it holds nothing to draw; else empty.
   virtual std::string nothing_of(size_t /*row*/) { return {}; }
 };
@@ -64,6 +81,8 @@ class SeriesPanel {
   virtual std::string title() const = 0;
   /// Draws the plot, its axes and its legend inside `area`.
   virtual void draw(Canvas& canvas, const Rect& area) = 0;
+  /// Marks an instant, seconds, in the plot that draw() has drawn into `area`.
+  virtual void mark_time(Canvas& /*canvas*/, const Rect& /*area*/, double /*time_s*/) {}
 };
 
 /// A way to draw the records of a kind of sensor as pictures.
@@ -89,8 +108,18 @@ struct Panels {
   std::vector<std::unique_ptr<SeriesPanel>> series;
 };
 
+/// What of a sensor is shown.
+struct PanelOptions {
+  /// Of the pictures of ids "instance", "semantic" and "material" the one to show, if the sensor has it;
+  /// empty: the first that it has.
+  std::string ids;
+  /// Of channels, "TX:RX" or "CHANNEL:TX:RX" (channel_links.h); empty: of each the strongest.
+  std::vector<std::string> links;
+};
 /// Adds the panels of one sensor. Unknown kinds of sensors have none.
-void add_panels(const PanelSource& source, Panels& panels);
+void add_panels(const PanelSource& source, Panels& panels, const PanelOptions& options = {});
+/// The most frame panels that add_panels() adds for one link.
+size_t count_frame_panels(const SensorSpec& sensor);
 /// Returns true if sensors of the kind have panels.
 bool has_panels(std::string_view kind);
 /// Returns true if the sensor has arrays that a frame panel draws.
@@ -109,7 +138,7 @@ std::vector<FrameKind> radar_frames();
 std::vector<FrameKind> radar_overlay_frames();
 /// Of a channel that senses (sensing_panel.cpp).
 std::vector<FrameKind> sensing_frames();
-void add_csi_panels(const PanelSource& source, Panels& panels);
+void add_csi_panels(const PanelSource& source, Panels& panels);  ///< of source.link
 void add_pose_panels(const PanelSource& source, Panels& panels);
 /// Of a camera: normals, optical flow, boxes (truth_panels.cpp).
 std::vector<FrameKind> truth_frames();
@@ -132,6 +161,11 @@ Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, st
 
 /// Returns the node of a sensor: "uav" of "uav/front".
 std::string node_of(const SensorSpec& sensor);
+/// Returns the pose of a node in the world at a record, from the "pose" sensor. Returns nothing if the data
+/// set does not contain it at this tick. Throws UserError if the poses are invalid.
+std::optional<Pose> world_from_node(const PanelSource& source, const IndexRow& row, const std::string& node);
+/// Returns the pose {"position_m": [3], "orientation_wxyz": [4]}. What is absent is that of the identity.
+Pose pose_of(const JsonValue& json);
 /// Returns the pose of a sensor in the world at a record: the pose of its node from the "pose" sensor, times
 /// the mount of the sensor ("body_from_sensor" of its metadata). Returns nothing if the data set does not
 /// contain the node's pose at this tick. Throws UserError if the poses or the metadata are invalid.

@@ -12,9 +12,6 @@
 
 namespace greatx::io {
 
-/// The colour of pixels that see nothing.
-inline constexpr Color color_of_sky{48, 52, 62};
-
 /// Loads the array and draws the caption for its derived classes.
 class PicturePanel : public FramePanel {
  public:
@@ -57,7 +54,7 @@ class PicturePanel : public FramePanel {
   /// The value of pixel `i` as text, with its unit.
   virtual std::string text_of(size_t row, const Array& array, size_t i, const SceneNames& names) = 0;
   static void caption(Canvas& canvas, const Rect& legend, std::string_view text) {
-    canvas.text(legend.x, legend.y + 4, text, theme::text_scale, theme::dim);
+    canvas.text(legend.x, legend.y + 4, text, theme::text_scale, canvas.theme().dim);
   }
 
   PanelSource source_;

@@ -28,26 +28,28 @@ std::optional<PolarMap::Cell> PolarMap::cell_of(double ahead, double left) const
 void PolarMap::draw_cells(Canvas& canvas, const Rect& picture,
                           const std::function<Color(int64_t range, int64_t azimuth)>& color) const {
   const auto [foot_x, foot_y, pixels] = layout(picture);
-  canvas.fill(picture, theme::panel);
-  for (int y = picture.y; y < picture.bottom(); ++y)
-    for (int x = picture.x; x < picture.right(); ++x)
-      if (const std::optional<Cell> cell = cell_of((foot_y - y) / pixels, (foot_x - x) / pixels))
-        canvas.blend(x, y, color(cell->range, cell->azimuth));
+  canvas.fill(picture, canvas.theme().panel);
+  canvas.paint(picture, [&, x0 = foot_x, y0 = foot_y, scale = pixels](double x, double y, Color& pixel) {
+    const std::optional<Cell> cell = cell_of((y0 - y) / scale, (x0 - x) / scale);
+    if (cell) pixel = color(cell->range, cell->azimuth);
+    return cell.has_value();
+  });
 }
 
 void PolarMap::draw_rings(Canvas& canvas, const Rect& picture) const {
   const auto [foot_x, foot_y, pixels] = layout(picture);
   const double ring = round_down(far_m_ / 1.9);
-  for (int i = 1; i * ring <= far_m_; ++i) {
-    canvas.circle(foot_x, foot_y, i * ring * pixels, 1.0, theme::dim);
-    canvas.text(static_cast<int>(foot_x) + 4, static_cast<int>(foot_y - i * ring * pixels) + 3,
-                tick_text(i * ring) + " m", theme::text_scale, theme::text);
-  }
+  for (int i = 1; i * ring <= far_m_; ++i)
+    canvas.circle(foot_x, foot_y, i * ring * pixels, 1.0, canvas.theme().false_alarm);
 }
 
-void PolarMap::draw_sensor(Canvas& canvas, const Rect& picture) const {
+void PolarMap::draw_ring_ranges(Canvas& canvas, const Rect& picture) const {
   const auto [foot_x, foot_y, pixels] = layout(picture);
-  canvas.disc(foot_x, foot_y, 4.0, theme::text);
+  const double ring = round_down(far_m_ / 1.9);
+  for (int i = 1; i * ring <= far_m_; ++i)
+    canvas.rimmed_text(static_cast<int>(foot_x) + 4, static_cast<int>(foot_y - i * ring * pixels) + 3,
+                       tick_text(i * ring) + " m", theme::text_scale, canvas.theme().over,
+                       canvas.theme().halo);
 }
 
 dvec2 PolarMap::pixel_of(const Rect& picture, double ahead, double left) const {

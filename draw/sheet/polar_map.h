@@ -27,9 +27,9 @@ class PolarMap {
   /// Fills the picture with the colors of the cells (range, azimuth).
   void draw_cells(Canvas& canvas, const Rect& picture,
                   const std::function<Color(int64_t range, int64_t azimuth)>& color) const;
-  /// Draws circles of equal range with their labels.
+  /// Draws circles of equal range, and writes their ranges.
   void draw_rings(Canvas& canvas, const Rect& picture) const;
-  void draw_sensor(Canvas& canvas, const Rect& picture) const;
+  void draw_ring_ranges(Canvas& canvas, const Rect& picture) const;
   /// Returns the pixel of a place `ahead` and `left` of the sensor, metres.
   dvec2 pixel_of(const Rect& picture, double ahead, double left) const;
   dvec2 place(const Rect& picture, double range_m, double azimuth) const;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws the panel of poses.
+// Draws the panels of poses: trajectories from above, height over time, speed over time.
 #include <algorithm>
 #include <cmath>
 
@@ -11,102 +11,235 @@ namespace greatx::io {
 
 namespace {
 
-constexpr size_t most_points = 2000;  ///< approximate limit for the line of one node
+constexpr size_t most_points = 2000;     ///< approximate limit for the line of one node
+constexpr double largest_short_m = 2e4;  ///< larger coordinates (UTM) are shown relative to a round offset
 
-/// Shows the trajectories of the nodes from above, with north up and the same scale on both axes.
-class TrajectoryPanel : public SeriesPanel {
- public:
-  explicit TrajectoryPanel(const PanelSource& source) : source_(source), names_(node_names(source)) {
+/// Holds the motion of all nodes of a sequence, at most most_points instants.
+struct NodeCourses {
+  std::vector<std::string> names;
+  std::vector<double> times_s;
+  std::vector<std::vector<dvec3>> positions;  ///< [nodes][instants], m
+  std::vector<std::vector<double>> speeds;    ///< [nodes][instants], m/s; empty: the data set has none
+
+  explicit NodeCourses(const PanelSource& source) : names(node_names(source)) {
     const std::vector<IndexRow> rows = source.records.records_of(source.sequence, source.sensor);
     const size_t step = std::max<size_t>(1, rows.size() / most_points);
+    const bool moving = source.has("velocity");
     for (size_t i = 0; i < rows.size();
          i += (i + step < rows.size() || i + 1 == rows.size() ? step : rows.size() - 1 - i)) {
-      const Array array = source.load(rows[i], "position", {DType::f64}, {-1, 3});
-      const std::span<const double> p = array.as<double>();
-      lines_.resize(p.size() / 3);
-      for (size_t n = 0; n < lines_.size(); ++n) lines_[n].push_back({p[3 * n], p[3 * n + 1]});
+      times_s.push_back(1e-9 * static_cast<double>(rows[i].time_ns));
+      const Array places = source.load(rows[i], "position", {DType::f64}, {-1, 3});
+      const std::span<const double> p = places.as<double>();
+      if (positions.empty()) positions.resize(p.size() / 3);
+      if (positions.size() != p.size() / 3)
+        throw_user_error("{}, tick {}: expected the positions of {} nodes as before, found {}",
+                         source.place(), rows[i].tick, positions.size(), p.size() / 3);
+      for (size_t n = 0; n < positions.size(); ++n)
+        positions[n].push_back({p[3 * n], p[3 * n + 1], p[3 * n + 2]});
+      if (!moving) continue;
+      const Array rates = source.load(rows[i], "velocity", {DType::f64}, {-1, 3});
+      expect_same_rows(source, {&places, &rates});
+      const std::span<const double> v = rates.as<double>();
+      speeds.resize(positions.size());
+      for (size_t n = 0; n < speeds.size(); ++n)
+        speeds[n].push_back(glm::length(dvec3(v[3 * n], v[3 * n + 1], v[3 * n + 2])));
     }
   }
+  std::string name(size_t n) const { return n < names.size() ? names[n] : fmt::format("node {}", n); }
+};
+using SharedCourses = std::shared_ptr<const NodeCourses>;
+
+/// Returns the plot in an area: below a line of names, beside the numbers of the axes.
+Rect plot_of_courses(const Rect& area) {
+  return {area.x + 92, area.y + 8 + theme::line_height, area.width - 104,
+          area.height - 16 - 4 * theme::line_height};
+}
+
+/// Draws the names of the first nodes in their colours, side by side in the line above the plot.
+void draw_node_names(Canvas& canvas, const Rect& area, const NodeCourses& courses) {
+  constexpr int mark = 18, space = 14, widest = 200;
+  const size_t count = courses.positions.size();
+  const auto more = [&](size_t shown) { return fmt::format("and {} more", count - shown); };
+  const auto width_of = [](const std::string& text) { return Canvas::text_width(text, theme::text_scale); };
+  const int y = area.y + 4;
+  int x = area.x;
+  for (size_t n = 0; n < count; ++n) {
+    const std::string name = fitted(courses.name(n), widest, theme::text_scale);
+    const int rest = n + 1 < count ? space + width_of(more(n + 1)) : 0;
+    if (x + mark + width_of(name) + rest > area.right()) {
+      canvas.text(x, y, fitted(more(n), area.right() - x, theme::text_scale), theme::text_scale,
+                  canvas.theme().dim);
+      return;
+    }
+    canvas.disc(x + 6.0, y + 7.0, 5.0, color_of_series(canvas.theme(), n));
+    canvas.text(x + mark, y, name, theme::text_scale, canvas.theme().text);
+    x += mark + width_of(name) + space;
+  }
+}
+
+/// Shows the trajectories of the nodes from above, with north up and the same scale on both axes, over the
+/// outlines of buildings.
+class TrajectoryPanel : public SeriesPanel {
+ public:
+  TrajectoryPanel(const PanelSource& source, SharedCourses courses)
+      : scene_(source.scene), courses_(std::move(courses)) {}
   std::string title() const override { return "trajectories from above"; }
 
   void draw(Canvas& canvas, const Rect& area) override {
-    const Rect plot{area.x + 92, area.y + 8, area.width - 104, area.height - 16 - 3 * theme::line_height};
-    if (lines_.empty()) return;
-    dvec2 low(1e300), high(-1e300);
-    for (const auto& line : lines_) {
-      for (const dvec2& point : line) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
+    if (courses_->positions.empty()) return;
+    const Map map = map_of(area);
+    canvas.fill(map.plot, canvas.theme().panel);
+    canvas.clip(map.plot);
+    for (const double value : map.x.ticks(std::max(2, map.plot.width / 110)))
+      canvas.fill(
+          {map.plot.x + static_cast<int>(map.x.at(value) * map.plot.width), map.plot.y, 1, map.plot.height},
+          canvas.theme().grid);
+    for (const double value : map.y.ticks(std::max(2, map.plot.height / 60)))
+      canvas.fill({map.plot.x, map.plot.bottom() - static_cast<int>(map.y.at(value) * map.plot.height),
+                   map.plot.width, 1},
+                  canvas.theme().grid);
+    if (scene_)
+      for (const OutlineLine& line : scene_->outlines) {
+        const dvec2 from = map.place(line.from), to = map.place(line.to);
+        canvas.line(from.x, from.y, to.x, to.y, 1.3, canvas.theme().outline);
       }
-    }
-    // Large coordinates (UTM) are shown relative to a round offset, to keep the labels short.
-    dvec2 offset(0.0);
-    for (int c = 0; c < 2; ++c)
-      if (std::max(std::abs(low[c]), std::abs(high[c])) > 2e4)
-        offset[c] = 1000.0 * std::floor(low[c] / 1000.0);
-    const dvec2 middle = 0.5 * (low + high), span = glm::max(1.15 * (high - low), dvec2(4.0));
-    const double metres_per_pixel = std::max(span.x / plot.width, span.y / plot.height);
-    const dvec2 half = 0.5 * metres_per_pixel * dvec2(plot.width, plot.height);
-    const Scale x{middle.x - half.x - offset.x, middle.x + half.x - offset.x},
-        y{middle.y - half.y - offset.y, middle.y + half.y - offset.y};
-    canvas.fill(plot, theme::panel);
-    canvas.clip(plot);
-    for (const double value : x.ticks(std::max(2, plot.width / 110)))
-      canvas.fill({plot.x + static_cast<int>(x.at(value) * plot.width), plot.y, 1, plot.height}, theme::grid);
-    for (const double value : y.ticks(std::max(2, plot.height / 60)))
-      canvas.fill({plot.x, plot.bottom() - static_cast<int>(y.at(value) * plot.height), plot.width, 1},
-                  theme::grid);
-    const auto place = [&](const dvec2& point) {
-      return dvec2(plot.x + x.at(point.x - offset.x) * plot.width,
-                   plot.bottom() - y.at(point.y - offset.y) * plot.height);
-    };
-    for (size_t n = 0; n < lines_.size(); ++n) draw_line(canvas, lines_[n], color_of_series(n), place);
+    for (size_t n = 0; n < courses_->positions.size(); ++n)
+      draw_course(canvas, courses_->positions[n], color_of_series(canvas.theme(), n), map);
     canvas.unclip();
-    draw_legend(canvas, plot);
-    canvas.frame(plot, theme::border);
+    draw_node_names(canvas, area, *courses_);
+    canvas.frame(map.plot, canvas.theme().border);
     const auto label = [](const char* text, double from) {
       return from == 0.0 ? fmt::format("{} m", text) : fmt::format("{} - {:.0f} m", text, from);
     };
-    draw_x_axis(canvas, plot, x, label("east", offset.x));
-    draw_y_axis(canvas, plot, y, label("north", offset.y));
+    draw_x_axis(canvas, map.plot, map.x, label("east", map.offset.x));
+    draw_y_axis(canvas, map.plot, map.y, label("north", map.offset.y));
+  }
+  /// Marks where the nodes are.
+  void mark_time(Canvas& canvas, const Rect& area, double time_s) override {
+    if (courses_->positions.empty()) return;
+    const Map map = map_of(area);
+    const auto next = std::ranges::lower_bound(courses_->times_s, time_s - 1e-9);
+    const auto i =
+        std::min(static_cast<size_t>(next - courses_->times_s.begin()), courses_->times_s.size() - 1);
+    canvas.clip(map.plot);
+    for (size_t n = 0; n < courses_->positions.size(); ++n) {
+      const dvec2 at = map.place(courses_->positions[n][i]);
+      canvas.disc(at.x, at.y, 8.0, canvas.theme().text);
+      canvas.disc(at.x, at.y, 5.5, color_of_series(canvas.theme(), n));
+    }
+    canvas.unclip();
   }
 
  private:
-  template <typename Place>
-  static void draw_line(Canvas& canvas, const std::vector<dvec2>& line, Color color, const Place& place) {
-    dvec2 last = place(line[0]);
-    for (const dvec2& point : line) {
-      const dvec2 next = place(point);
+  struct Map {
+    Rect plot;
+    Scale x, y;
+    dvec2 offset{0.0};
+    dvec2 place(const dvec3& at) const {
+      return {plot.x + x.at(at.x - offset.x) * plot.width,
+              plot.bottom() - y.at(at.y - offset.y) * plot.height};
+    }
+  };
+  Map map_of(const Rect& area) const {
+    Map map;
+    map.plot = plot_of_courses(area);
+    dvec2 low(1e300), high(-1e300);
+    for (const auto& line : courses_->positions)
+      for (const dvec3& point : line) low = glm::min(low, dvec2(point)), high = glm::max(high, dvec2(point));
+    for (int c = 0; c < 2; ++c)
+      if (std::max(std::abs(low[c]), std::abs(high[c])) > largest_short_m)
+        map.offset[c] = 1000.0 * std::floor(low[c] / 1000.0);
+    const dvec2 middle = 0.5 * (low + high), span = glm::max(1.15 * (high - low), dvec2(4.0));
+    const double metres_per_pixel = std::max(span.x / map.plot.width, span.y / map.plot.height);
+    const dvec2 half = 0.5 * metres_per_pixel * dvec2(map.plot.width, map.plot.height);
+    map.x = {middle.x - half.x - map.offset.x, middle.x + half.x - map.offset.x};
+    map.y = {middle.y - half.y - map.offset.y, middle.y + half.y - map.offset.y};
+    return map;
+  }
+  static void draw_course(Canvas& canvas, const std::vector<dvec3>& line, Color color, const Map& map) {
+    dvec2 last = map.place(line[0]);
+    for (const dvec3& point : line) {
+      const dvec2 next = map.place(point);
       if (glm::length(next - last) < 1.5) continue;
       canvas.line(last.x, last.y, next.x, next.y, 2.5, color);
       last = next;
     }
-    const dvec2 start = place(line.front()), end = place(line.back());
+    const dvec2 start = map.place(line.front()), end = map.place(line.back());
     if (glm::length(end - start) > 3.0) canvas.circle(start.x, start.y, 5.0, 2.0, color);
     canvas.disc(end.x, end.y, 5.5, color);
   }
-  void draw_legend(Canvas& canvas, const Rect& plot) const {
-    const int shown = std::min(static_cast<int>(lines_.size()), 8);
-    for (int n = 0; n < shown; ++n) {
-      const auto index = static_cast<size_t>(n);
-      const std::string name = index < names_.size() ? names_[index] : fmt::format("node {}", n);
-      const int y = plot.y + 10 + n * theme::line_height;
-      canvas.fill({plot.x + 6, y - 4, Canvas::text_width(name, theme::text_scale) + 28, theme::line_height},
-                  theme::panel, 0.8);
-      canvas.disc(plot.x + 16, y + 7, 5.0, color_of_series(index));
-      canvas.text(plot.x + 28, y, name, theme::text_scale, theme::text);
+
+  std::shared_ptr<const SceneFacts> scene_;
+  SharedCourses courses_;
+};
+
+/// Shows a value of each node over time.
+class CoursePanel : public SeriesPanel {
+ public:
+  enum class Value : uint8_t { height, speed };
+  CoursePanel(SharedCourses courses, Value value) : courses_(std::move(courses)), value_(value) {}
+  std::string title() const override {
+    return value_ == Value::height ? "height of the nodes over time" : "speed of the nodes over time";
+  }
+  void draw(Canvas& canvas, const Rect& area) override {
+    if (courses_->positions.empty() || courses_->times_s.empty()) return;
+    const Rect plot = plot_of_courses(area);
+    const Scale time = times(), scale = values();
+    canvas.fill(plot, canvas.theme().panel);
+    for (const double tick : scale.ticks(std::max(2, plot.height / 60)))
+      canvas.fill(
+          {plot.x, plot.bottom() - 1 - static_cast<int>(scale.at(tick) * (plot.height - 1)), plot.width, 1},
+          canvas.theme().grid);
+    canvas.clip(plot);
+    for (size_t n = 0; n < courses_->positions.size(); ++n) {
+      const auto place = [&](size_t i) {
+        return dvec2(plot.x + time.at(courses_->times_s[i]) * plot.width,
+                     plot.bottom() - scale.at(value(n, i)) * plot.height);
+      };
+      const Color color = color_of_series(canvas.theme(), n);
+      for (size_t i = 1; i < courses_->times_s.size(); ++i) {
+        const dvec2 from = place(i - 1), to = place(i);
+        canvas.line(from.x, from.y, to.x, to.y, 2.5, color);
+      }
+      if (courses_->times_s.size() == 1) canvas.disc(place(0).x, place(0).y, 5.0, color);
     }
+    canvas.unclip();
+    draw_node_names(canvas, area, *courses_);
+    canvas.frame(plot, canvas.theme().border);
+    draw_x_axis(canvas, plot, time, "time s");
+    draw_y_axis(canvas, plot, scale, value_ == Value::height ? "height z m" : "speed m/s");
+  }
+  void mark_time(Canvas& canvas, const Rect& area, double time_s) override {
+    mark_time_in(canvas, plot_of_courses(area), times(), time_s, canvas.theme().over);
   }
 
-  PanelSource source_;
-  std::vector<std::string> names_;
-  std::vector<std::vector<dvec2>> lines_;  ///< [nodes][points] world x, y
+ private:
+  double value(size_t node, size_t i) const {
+    return value_ == Value::height ? courses_->positions[node][i].z : courses_->speeds[node][i];
+  }
+  Scale times() const { return scale_for(courses_->times_s.front(), courses_->times_s.back()); }
+  Scale values() const {
+    double low = value_ == Value::speed ? 0.0 : 1e300, high = -1e300;
+    for (size_t n = 0; n < courses_->positions.size(); ++n)
+      for (size_t i = 0; i < courses_->times_s.size(); ++i)
+        low = std::min(low, value(n, i)), high = std::max(high, value(n, i));
+    const double pad = std::max(0.08 * (high - low), 0.5);
+    return {value_ == Value::speed ? 0.0 : low - pad, high + pad, false};
+  }
+
+  SharedCourses courses_;
+  Value value_;
 };
 
 }  // namespace
 
 void add_pose_panels(const PanelSource& source, Panels& panels) {
-  if (source.has("position")) panels.series.push_back(std::make_unique<TrajectoryPanel>(source));
+  if (!source.has("position")) return;
+  const auto courses = std::make_shared<const NodeCourses>(source);
+  panels.series.push_back(std::make_unique<TrajectoryPanel>(source, courses));
+  panels.series.push_back(std::make_unique<CoursePanel>(courses, CoursePanel::Value::height));
+  if (!courses->speeds.empty())
+    panels.series.push_back(std::make_unique<CoursePanel>(courses, CoursePanel::Value::speed));
 }
 
 }  // namespace greatx::io

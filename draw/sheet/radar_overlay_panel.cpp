@@ -41,18 +41,17 @@ class RadarOverlayPanel : public FramePanel {
   double aspect() const override { return lens_.height / lens_.width; }
 
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
-    canvas.fill(picture, theme::panel);
+    canvas.fill(picture, canvas.theme().panel);
     if (camera_.rows[row])
       canvas.picture(picture, camera_.source.load(*camera_.rows[row], "rgb", {DType::u8}, {0, 0, 3}));
     canvas.clip(picture);
     for (const Detection& d : detections_[row])
       if (const std::optional<dvec2> at = place(picture, d)) {
-        canvas.disc(at->x, at->y, 6.0, {16, 16, 20});
-        canvas.disc(at->x, at->y, 4.5, color(d));
+        canvas.disc(at->x, at->y, 6.0, canvas.theme().halo);
+        canvas.disc(at->x, at->y, 4.5, color(canvas.theme(), d));
       }
     canvas.unclip();
-    draw_color_bar(
-        canvas, legend, scale_, [](double t) { return turbo(0.08 + 0.84 * t); }, "m/s");
+    draw_color_bar(canvas, legend, scale_, canvas.theme().velocities, "m/s");
   }
   std::string nothing_of(size_t row) override { return detections_[row].empty() ? "no detections" : ""; }
 
@@ -88,8 +87,8 @@ class RadarOverlayPanel : public FramePanel {
       list.push_back({dvec3(p[4 * i], p[4 * i + 1], p[4 * i + 2]), velocities.as<float>()[i],
                       instances.as<uint32_t>()[i]});
   }
-  Color color(const Detection& d) const {
-    return turbo(0.08 + 0.84 * std::clamp(scale_.at(d.velocity), 0.0, 1.0));
+  Color color(const Theme& theme, const Detection& d) const {
+    return theme.velocities(scale_.at(d.velocity));
   }
   /// Returns where the camera sees a detection, or nothing if it is behind the camera or beside the picture.
   std::optional<dvec2> place(const Rect& picture, const Detection& d) const {

@@ -5,9 +5,12 @@
 // Both show the detections.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <set>
 
 #include "core/units.h"
 #include "draw/sheet/companion.h"
+#include "draw/sheet/map_marks.h"
 #include "draw/sheet/panels.h"
 #include "draw/sheet/polar_map.h"
 #include "draw/sheet/power_maps.h"
@@ -67,6 +70,7 @@ class RadarPanel : public FramePanel {
   struct Detection {
     float range, velocity, azimuth;
     uint32_t instance;
+    float strength;  ///< dB or dBm
     bool real() const { return instance != 0; }
   };
   /// Returns the largest range to show: 1.2 times the range of the farthest detection, but at least a quarter
@@ -78,8 +82,38 @@ class RadarPanel : public FramePanel {
     const double all = static_cast<double>(rows_) * axes_.range_bin_m;
     return farthest > 0.0 ? std::min(std::max(farthest, 0.25 * all), all) : all;
   }
-  static void mark(Canvas& canvas, double x, double y, const Detection& d) {
-    canvas.circle(x, y, 6.0, 1.6, d.real() ? Color{255, 92, 92} : theme::dim);
+  /// Returns the detections of a row as marks where `place` says. Labels are for what moves first, then for
+  /// the strongest; one for each thing.
+  template <typename Place>
+  std::vector<MapMark> marks_of(size_t row, const Place& place) const {
+    constexpr size_t most_labels = 4;
+    const std::vector<Detection>& detections = detections_[row];
+    std::vector<size_t> order(detections.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    const auto moves = [&](const Detection& d) {
+      return source_.scene && source_.scene->names.moves(d.instance);
+    };
+    std::ranges::stable_sort(order, [&](size_t a, size_t b) {
+      return std::pair(moves(detections[a]), detections[a].strength) >
+             std::pair(moves(detections[b]), detections[b].strength);
+    });
+    std::vector<MapMark> marks;
+    std::set<std::string> named;
+    for (const size_t i : order) {
+      const Detection& d = detections[i];
+      MapMark& mark = marks.emplace_back(MapMark{MapMark::Kind::detection, place(d), d.real(), {}});
+      if (!d.real() || !source_.scene || named.size() >= most_labels) continue;
+      const std::string name = source_.scene->names.short_instance(d.instance);
+      if (named.insert(name).second) mark.label = mark_label(name, d.range, d.velocity);
+    }
+    return marks;
+  }
+  std::vector<KeyEntry> detection_key(const Theme& theme) const {
+    if (!source_.has("detections")) return {};
+    using Mark = KeyEntry::Mark;
+    return {{Mark::ring, theme.detection, "detection of a thing"},
+            {Mark::ring, theme.false_alarm, "false alarm"},
+            {Mark::none, {}, "labels: name, range, range rate"}};
   }
 
   PanelSource source_;
@@ -94,11 +128,12 @@ class RadarPanel : public FramePanel {
     if (!source_.has("detections")) return;
     const auto column = [&](const char* name) { return source_.load(row, name, {DType::f32}, {-1}); };
     const Array range = column("range"), velocity = column("velocity"), azimuth = column("azimuth"),
-                instance = source_.load(row, "instance", {DType::u32}, {-1});
-    expect_same_rows(source_, {&range, &velocity, &azimuth, &instance});
+                instance = source_.load(row, "instance", {DType::u32}, {-1}),
+                strength = source_.has("snr") ? column("snr") : range;
+    expect_same_rows(source_, {&range, &velocity, &azimuth, &instance, &strength});
     for (size_t i = 0; i < range.as<float>().size(); ++i)
       list.push_back({range.as<float>()[i], velocity.as<float>()[i], azimuth.as<float>()[i],
-                      instance.as<uint32_t>()[i]});
+                      instance.as<uint32_t>()[i], strength.as<float>()[i]});
   }
 };
 
@@ -123,6 +158,11 @@ class RangeDopplerPanel : public RadarPanel {
  public:
   explicit RangeDopplerPanel(const PanelSource& source) : RadarPanel(source, "range_doppler") {}
   std::string title() const override { return source_.spec().name + " range-Doppler"; }
+  std::vector<KeyEntry> key(const Theme& theme) override {
+    std::vector<KeyEntry> entries = detection_key(theme);
+    entries.push_back({KeyEntry::Mark::none, {}, "up: range; right: receding"});
+    return entries;
+  }
 
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const double far_m = farthest_m();
@@ -130,21 +170,20 @@ class RangeDopplerPanel : public RadarPanel {
     canvas.clip(picture);
     canvas.raster(picture, static_cast<int>(maps_.columns()), ranges,
                   [&](int x, int y) { return maps_.color(row, ranges - 1 - y, x); });
+    const std::vector<MapMark> marks = marks_of(row, [&](const Detection& d) { return place(picture, d); });
+    draw_map_marks(canvas, marks);
     const double pixels = picture.height / far_m;
-    for (const Detection& d : detections_[row]) {
-      const dvec2 at = place(picture, d);
-      mark(canvas, at.x, at.y, d);
-    }
     const double step = round_down(far_m / 2.5);
     for (int i = 1; i * step * pixels < picture.height - 16; ++i)  // only labels that fit
-      canvas.text(picture.x + 6, picture.bottom() - static_cast<int>(std::lround(i * step * pixels)) - 8,
-                  tick_text(i * step) + " m", theme::text_scale, theme::text);
+      axis_text(canvas, picture.x + 6,
+                picture.bottom() - static_cast<int>(std::lround(i * step * pixels)) - 8,
+                tick_text(i * step) + " m", Align::left);
     const std::string velocity = tick_text(std::round(-10.0 * axes_.velocity_min) / 10.0);
     const int y = picture.bottom() - 20;
-    canvas.text(picture.x + 6, y, "-" + velocity, theme::text_scale, theme::text);
-    canvas.text(picture.x + picture.width / 2, y, "0", theme::text_scale, theme::text, Align::center);
-    canvas.text(picture.right() - 6, y, "+" + velocity + " m/s", theme::text_scale, theme::text,
-                Align::right);
+    axis_text(canvas, picture.x + 6, y, "-" + velocity, Align::left);
+    axis_text(canvas, picture.x + picture.width / 2, y, "0", Align::center);
+    axis_text(canvas, picture.right() - 6, y, "+" + velocity + " m/s", Align::right);
+    label_map_marks(canvas, picture, marks);
     canvas.unclip();
     maps_.draw_scale(canvas, legend);
   }
@@ -161,6 +200,9 @@ class RangeDopplerPanel : public RadarPanel {
   }
 
  private:
+  static void axis_text(Canvas& canvas, int x, int y, const std::string& text, Align align) {
+    canvas.rimmed_text(x, y, text, theme::text_scale, canvas.theme().over, canvas.theme().halo, align);
+  }
   int shown_ranges() const {
     return std::max(1, static_cast<int>(std::lround(farthest_m() / axes_.range_bin_m)));
   }
@@ -171,16 +213,18 @@ class RangeDopplerPanel : public RadarPanel {
   }
 };
 
-/// Shows the range-azimuth map over the ground from above, forward up. If a LiDAR of the same node has points
-/// at the same tick, they are the outline of the street, in the range and azimuth of the radar.
+/// Shows the range-azimuth map over the ground from above, forward up. Under the marks are the outlines of
+/// the scene's buildings, in the range and azimuth of the radar; in a data set that has none, the points that
+/// a LiDAR of the same node has at the same tick.
 class RangeAzimuthPanel : public RadarPanel {
  public:
   explicit RangeAzimuthPanel(const PanelSource& source) : RadarPanel(source, "range_azimuth") {
-    outlines_.resize(source_.chosen.size());
+    points_.resize(source_.chosen.size());
+    if (has_outlines()) return;
     const std::optional<Companion> lidar = companion(source_, "lidar", {"points"});
     if (!lidar) return;
     const Pose radar_from_lidar = lidar->from_first.inverse();
-    for (size_t row = 0; row < outlines_.size(); ++row) {
+    for (size_t row = 0; row < points_.size(); ++row) {
       if (!lidar->rows[row]) continue;
       const Array points = lidar->source.load(*lidar->rows[row], "points", {DType::f32}, {-1, 4});
       const std::span<const float> p = points.as<float>();
@@ -188,11 +232,21 @@ class RangeAzimuthPanel : public RadarPanel {
         const dvec3 at = radar_from_lidar.apply(dvec3(p[i], p[i + 1], p[i + 2]));
         const double azimuth = std::atan2(at.y, at.x), range = glm::length(at);
         if (azimuth >= axes_.azimuth_min && azimuth <= axes_.azimuth_max)
-          outlines_[row].push_back(range * dvec2(std::cos(azimuth), std::sin(azimuth)));
+          points_[row].push_back(range * dvec2(std::cos(azimuth), std::sin(azimuth)));
       }
     }
   }
   std::string title() const override { return source_.spec().name + " from above"; }
+  std::vector<KeyEntry> key(const Theme& theme) override {
+    std::vector<KeyEntry> entries = detection_key(theme);
+    const bool points = std::ranges::any_of(points_, [](const auto& row) { return !row.empty(); });
+    if (has_outlines())
+      entries.push_back({KeyEntry::Mark::line, theme.outline, "outlines of buildings"});
+    else if (points)
+      entries.push_back({KeyEntry::Mark::disc, theme.dim, "points of the LiDAR"});
+    entries.push_back({KeyEntry::Mark::disc, theme.text, "the radar; forward is up"});
+    return entries;
+  }
 
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const PolarMap map = polar();
@@ -200,17 +254,23 @@ class RangeAzimuthPanel : public RadarPanel {
     map.draw_cells(canvas, picture,
                    [&](int64_t range, int64_t azimuth) { return maps_.color(row, range, azimuth); });
     const double far_m = farthest_m();
-    for (const dvec2& point : outlines_[row]) {
+    for (const dvec2& point : points_[row]) {
       if (glm::length(point) > far_m) continue;
       const dvec2 at = map.pixel_of(picture, point.x, point.y);
-      canvas.blend(static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), theme::text, 0.2);
+      canvas.blend(static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)),
+                   canvas.theme().over, 0.2);
     }
+    if (has_outlines())
+      if (const std::optional<Pose> pose = world_from_sensor(source_, source_.chosen[row]))
+        draw_outlines(canvas, source_.scene->outlines, *pose, far_m, axes_.azimuth_min, axes_.azimuth_max,
+                      [&](double range, double azimuth) { return map.place(picture, range, azimuth); });
+    std::vector<MapMark> marks =
+        marks_of(row, [&](const Detection& d) { return map.place(picture, d.range, d.azimuth); });
+    marks.push_back({MapMark::Kind::sensor, map.place(picture, 0.0, 0.0), true, {}});
     map.draw_rings(canvas, picture);
-    for (const Detection& d : detections_[row]) {
-      const dvec2 at = map.place(picture, d.range, d.azimuth);
-      mark(canvas, at.x, at.y, d);
-    }
-    map.draw_sensor(canvas, picture);
+    draw_map_marks(canvas, marks);
+    map.draw_ring_ranges(canvas, picture);
+    label_map_marks(canvas, picture, marks);
     canvas.unclip();
     maps_.draw_scale(canvas, legend);
   }
@@ -226,11 +286,12 @@ class RangeAzimuthPanel : public RadarPanel {
   }
 
  private:
+  bool has_outlines() const { return source_.scene && !source_.scene->outlines.empty(); }
   PolarMap polar() const {
     return {{axes_.range_bin_m, axes_.azimuth_min, axes_.azimuth_max, rows_, maps_.columns()}, farthest_m()};
   }
 
-  std::vector<std::vector<dvec2>> outlines_;  ///< metres ahead and to the left, for each row
+  std::vector<std::vector<dvec2>> points_;  ///< metres ahead and to the left, for each row
 };
 
 }  // namespace

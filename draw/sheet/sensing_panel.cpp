@@ -5,8 +5,11 @@
 // its detections and where its targets truly are.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/units.h"
+#include "draw/sheet/channel_links.h"
+#include "draw/sheet/map_marks.h"
 #include "draw/sheet/panels.h"
 #include "draw/sheet/polar_map.h"
 #include "draw/sheet/power_maps.h"
@@ -17,7 +20,7 @@ namespace {
 
 constexpr size_t most_targets = 10'000;
 
-/// Holds the maps of receiver 0 and transmitter 0. Detections are circles, red if they belong to a target.
+/// Holds the maps of the link that the source names. Detections are circles, red if they belong to a target.
 /// Crosses with names are the truth, wrapped into the spans of the waveform; a target without an echo is
 /// grey.
 class SensingMaps : public FramePanel {
@@ -28,8 +31,9 @@ class SensingMaps : public FramePanel {
     for (const IndexRow& row : source_.chosen) {
       const Array map = source_.load(row, array, {DType::f32}, {0, 0, 0, 0});
       ranges_ = map.shape[2];
+      const auto cells = static_cast<size_t>(ranges_ * map.shape[3]);
       std::vector<double> sorted =
-          maps_.add(map.as<float>().first(static_cast<size_t>(ranges_ * map.shape[3])), map.shape[3]);
+          maps_.add(map.as<float>().subspan(place_of_link(map) * cells, cells), map.shape[3]);
       std::sort(sorted.begin(), sorted.end());
       floor = std::min(floor, sorted[sorted.size() / 2]);
       top = std::max(top, sorted[sorted.size() - 1 - sorted.size() / 1000]);
@@ -47,21 +51,34 @@ class SensingMaps : public FramePanel {
   };
 
   template <typename Place>
-  void draw_marks(Canvas& canvas, size_t row, const Place& place) const {
+  std::vector<MapMark> marks_of(size_t row, const Place& place) const {
+    std::vector<MapMark> marks;
     for (const Mark& mark : marks_[row]) {
-      const dvec2 at = place(mark);
-      if (!mark.truth) {
-        canvas.circle(at.x, at.y, 7.0, 1.6, mark.strong ? Color{255, 92, 92} : theme::dim);
-        continue;
-      }
-      const Color cross = mark.strong ? Color{255, 255, 255} : theme::dim;
-      canvas.line(at.x - 12, at.y, at.x - 4, at.y, 1.6, cross);
-      canvas.line(at.x + 4, at.y, at.x + 12, at.y, 1.6, cross);
-      canvas.line(at.x, at.y - 12, at.x, at.y - 4, 1.6, cross);
-      canvas.line(at.x, at.y + 4, at.x, at.y + 12, 1.6, cross);
-      canvas.text(static_cast<int>(at.x) + 12, static_cast<int>(at.y) - 18, mark.name, theme::text_scale,
-                  cross);
+      MapMark& drawn = marks.emplace_back(MapMark{
+          mark.truth ? MapMark::Kind::truth : MapMark::Kind::detection, place(mark), mark.strong, {}});
+      if (mark.truth) drawn.label = mark_label(mark.name, mark.range_m, mark.velocity);
     }
+    return marks;
+  }
+  std::vector<KeyEntry> marks_key(const Theme& theme) const {
+    using Kind = KeyEntry::Mark;
+    std::vector<KeyEntry> entries;
+    if (source_.has("detection_range")) {
+      entries.push_back({Kind::ring, theme.detection, "detection of a target"});
+      entries.push_back({Kind::ring, theme.false_alarm, "detection of no target"});
+    }
+    if (!names_.empty()) {
+      entries.push_back({Kind::cross, theme.truth, "true place (grey: no echo)"});
+      entries.push_back({Kind::none, {}, "labels: true range, range rate"});
+    }
+    return entries;
+  }
+  /// Begins a title: the channel, and the link if there are several.
+  std::string title_with(const char* what) const {
+    const ChannelEnds ends = channel_ends(source_);
+    const bool several = ends.receivers.size() * ends.transmitters.size() > 1;
+    return fmt::format("{} {}{}{}", source_.spec().name, what, several ? ", " : "",
+                       several ? link_text(ends, source_.link) : "");
   }
   /// Returns the marks around pixel (x, y) as text, a line each.
   template <typename Place>
@@ -77,6 +94,9 @@ class SensingMaps : public FramePanel {
                                         : ", of no target");
     }
     return text;
+  }
+  static void axis_text(Canvas& canvas, int x, int y, const std::string& text, Align align) {
+    canvas.rimmed_text(x, y, text, theme::text_scale, canvas.theme().over, canvas.theme().halo, align);
   }
   /// Shows 1.3 times the range of the farthest target or detection of one; the whole map if there is none.
   int shown_ranges() const {
@@ -116,6 +136,15 @@ class SensingMaps : public FramePanel {
         names_.push_back(target.at("node").text());
   }
 
+  /// Returns the place of the link among those of an array [rx, tx, ...].
+  size_t place_of_link(const Array& array) const {
+    const auto [rx, tx] = source_.link;
+    if (rx >= static_cast<size_t>(array.shape[0]) || tx >= static_cast<size_t>(array.shape[1]))
+      throw_user_error("{}: expected a map for receiver {} and transmitter {}, found {} x {}",
+                       source_.place(), rx, tx, array.shape[0], array.shape[1]);
+    return rx * static_cast<size_t>(array.shape[1]) + tx;
+  }
+
   double wrapped(double value, double low, double span) const {
     return value - span * std::floor((value - low) / span);
   }
@@ -129,10 +158,13 @@ class SensingMaps : public FramePanel {
       };
       const Array range = truth("target_range"), velocity = truth("target_velocity"),
                   azimuth = truth("target_azimuth"), power = truth("target_power");
+      const size_t first = place_of_link(range) * names_.size();
       for (size_t i = 0; i < names_.size(); ++i)
-        marks.push_back({wrapped(range.as<double>()[i], 0.0, static_cast<double>(ranges_) * range_bin_m_),
-                         wrapped(velocity.as<double>()[i], velocity_min_, velocity_span_),
-                         azimuth.as<double>()[i], true, std::isfinite(power.as<double>()[i]), 0, names_[i]});
+        marks.push_back(
+            {wrapped(range.as<double>()[first + i], 0.0, static_cast<double>(ranges_) * range_bin_m_),
+             wrapped(velocity.as<double>()[first + i], velocity_min_, velocity_span_),
+             azimuth.as<double>()[first + i], true, std::isfinite(power.as<double>()[first + i]), 0,
+             names_[i]});
     }
     if (source_.has("detection_range")) {
       const auto column = [&](const char* name, DType type) { return source_.load(row, name, {type}, {-1}); };
@@ -143,7 +175,8 @@ class SensingMaps : public FramePanel {
                   instance = column("detection_instance", DType::u32);
       expect_same_rows(source_, {&range, &velocity, &azimuth, &rx, &tx, &instance});
       for (size_t i = 0; i < range.as<float>().size(); ++i)
-        if (rx.as<int32_t>()[i] == 0 && tx.as<int32_t>()[i] == 0)
+        if (std::cmp_equal(rx.as<int32_t>()[i], source_.link.rx) &&
+            std::cmp_equal(tx.as<int32_t>()[i], source_.link.tx))
           marks.push_back({range.as<float>()[i], velocity.as<float>()[i], azimuth.as<float>()[i], false,
                            instance.as<uint32_t>()[i] != 0, instance.as<uint32_t>()[i], ""});
     }
@@ -156,22 +189,30 @@ class SensingMaps : public FramePanel {
 class SensingPanel : public SensingMaps {
  public:
   explicit SensingPanel(const PanelSource& source) : SensingMaps(source, "range_doppler") {}
-  std::string title() const override { return source_.spec().name + " senses"; }
+  std::string title() const override { return title_with("range-Doppler"); }
+  std::vector<KeyEntry> key(const Theme& theme) override {
+    std::vector<KeyEntry> entries = marks_key(theme);
+    entries.push_back({KeyEntry::Mark::none, {}, "up: range; right: receding"});
+    return entries;
+  }
 
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const int shown = shown_ranges();
     canvas.clip(picture);
     canvas.raster(picture, static_cast<int>(maps_.columns()), shown,
                   [&](int x, int y) { return maps_.color(row, shown - 1 - y, x); });
+    const std::vector<MapMark> marks =
+        marks_of(row, [&](const Mark& mark) { return place(picture, mark.range_m, mark.velocity); });
+    draw_map_marks(canvas, marks);
     const double step = 100.0 * std::max(1.0, std::round(shown * range_bin_m_ / 400.0));
     for (int i = 1; i * step < (shown - 1) * range_bin_m_; ++i)
-      canvas.text(picture.x + 6, static_cast<int>(place(picture, i * step, velocity_min_).y) - 8,
-                  fmt::format("{:g} m", i * step), theme::text_scale, theme::text);
-    canvas.text(picture.x + 6, picture.bottom() - 20, fmt::format("{:.1f}", velocity_min_), theme::text_scale,
-                theme::text);
-    canvas.text(picture.right() - 6, picture.bottom() - 20, fmt::format("+{:.1f} m/s", -velocity_min_),
-                theme::text_scale, theme::text, Align::right);
-    draw_marks(canvas, row, [&](const Mark& mark) { return place(picture, mark.range_m, mark.velocity); });
+      axis_text(canvas, picture.x + 6, static_cast<int>(place(picture, i * step, velocity_min_).y) - 8,
+                fmt::format("{:g} m", i * step), Align::left);
+    axis_text(canvas, picture.x + 6, picture.bottom() - 20, fmt::format("{:.1f}", velocity_min_),
+              Align::left);
+    axis_text(canvas, picture.right() - 6, picture.bottom() - 20, fmt::format("+{:.1f} m/s", -velocity_min_),
+              Align::right);
+    label_map_marks(canvas, picture, marks);
     canvas.unclip();
     maps_.draw_scale(canvas, legend);
   }
@@ -201,17 +242,33 @@ class SensingPanel : public SensingMaps {
 /// of the way.
 class SensingAzimuthPanel : public SensingMaps {
  public:
-  explicit SensingAzimuthPanel(const PanelSource& source) : SensingMaps(source, "range_azimuth") {}
-  std::string title() const override { return source_.spec().name + " from above"; }
+  explicit SensingAzimuthPanel(const PanelSource& source) : SensingMaps(source, "range_azimuth") {
+    for (size_t row = 0; row < source_.chosen.size(); ++row) outlined_ |= antenna_pose(row).has_value();
+  }
+  std::string title() const override { return title_with("from above"); }
+  std::vector<KeyEntry> key(const Theme& theme) override {
+    std::vector<KeyEntry> entries = marks_key(theme);
+    if (outlined_) entries.push_back({KeyEntry::Mark::line, theme.outline, "outlines of buildings"});
+    entries.push_back({KeyEntry::Mark::disc, theme.text, "the antenna; forward is up"});
+    return entries;
+  }
 
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const PolarMap map = polar();
     canvas.clip(picture);
     map.draw_cells(canvas, picture,
                    [&](int64_t range, int64_t azimuth) { return maps_.color(row, range, azimuth); });
+    if (const std::optional<Pose> pose = antenna_pose(row))
+      draw_outlines(canvas, source_.scene->outlines, *pose, shown_ranges() * range_bin_m_, azimuth_min_,
+                    azimuth_max_,
+                    [&](double range, double azimuth) { return map.place(picture, range, azimuth); });
+    std::vector<MapMark> marks =
+        marks_of(row, [&](const Mark& mark) { return map.place(picture, mark.range_m, mark.azimuth); });
+    marks.push_back({MapMark::Kind::sensor, map.place(picture, 0.0, 0.0), true, {}});
     map.draw_rings(canvas, picture);
-    draw_marks(canvas, row, [&](const Mark& mark) { return map.place(picture, mark.range_m, mark.azimuth); });
-    map.draw_sensor(canvas, picture);
+    draw_map_marks(canvas, marks);
+    map.draw_ring_ranges(canvas, picture);
+    label_map_marks(canvas, picture, marks);
     canvas.unclip();
     maps_.draw_scale(canvas, legend);
   }
@@ -228,10 +285,29 @@ class SensingAzimuthPanel : public SensingMaps {
   }
 
  private:
+  /// Returns the pose of the receiving antenna in the world, if the outlines can be drawn: the transmitter is
+  /// on the same node, so that half of the way is a distance.
+  std::optional<Pose> antenna_pose(size_t row) const {
+    if (!source_.scene || source_.scene->outlines.empty()) return std::nullopt;
+    const ChannelEnds ends = channel_ends(source_);
+    const JsonDocument metadata = metadata_of(source_);
+    if (!metadata.root().has("receivers") || source_.link.rx >= ends.receivers.size() ||
+        source_.link.tx >= ends.transmitters.size())
+      return std::nullopt;
+    const std::string& name = ends.receivers[source_.link.rx];
+    const std::string node = name.substr(0, name.find('/'));
+    const std::string& other = ends.transmitters[source_.link.tx];
+    if (other.substr(0, other.find('/')) != node) return std::nullopt;
+    const std::optional<Pose> body = world_from_node(source_, source_.chosen[row], node);
+    const JsonValue antenna = metadata.root().at("receivers").list(ends.receivers.size())[source_.link.rx];
+    if (!body) return std::nullopt;
+    return antenna.has("body_from_antenna") ? *body * pose_of(antenna.at("body_from_antenna")) : *body;
+  }
   PolarMap polar() const {
     return {{range_bin_m_, azimuth_min_, azimuth_max_, ranges_, maps_.columns()},
             shown_ranges() * range_bin_m_};
   }
+  bool outlined_ = false;
 };
 
 }  // namespace

@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <memory>
+
+#include <fmt/ranges.h>
+
+#include "core/text.h"
+#include "draw/sheet/channel_links.h"
 
 namespace greatx::io {
 
@@ -23,12 +28,34 @@ std::vector<IndexRow> nearest(const std::vector<IndexRow>& rows, const std::vect
 
 }  // namespace
 
-std::vector<SheetMoment> choose_moments(const DatasetReader& reader, uint32_t sequence, size_t count) {
+std::vector<size_t> shown_sensors(const DatasetReader& reader, const std::vector<std::string>& names) {
+  const std::vector<SensorSpec>& sensors = reader.sensors();
+  const auto fits = [](const SensorSpec& sensor, const std::string& name) {
+    return sensor.name == name || node_of(sensor) == name;
+  };
+  std::vector<std::string> there;
+  for (const SensorSpec& sensor : sensors) there.push_back(sensor.name);
+  for (const std::string& name : names)
+    if (std::ranges::none_of(sensors, [&](const SensorSpec& sensor) { return fits(sensor, name); }))
+      throw_user_error(
+          "{}: expected the name of a sensor, a channel or a node, found '{}'{}; the sensors are {}",
+          reader.folder().string(), printable(name), suggestion(name, there),
+          printable(fmt::format("{}", fmt::join(there, ", "))));
+  std::vector<size_t> shown;
+  for (size_t s = 0; s < sensors.size(); ++s)
+    if (names.empty() ||
+        std::ranges::any_of(names, [&](const std::string& name) { return fits(sensors[s], name); }))
+      shown.push_back(s);
+  return shown;
+}
+
+std::vector<SheetMoment> choose_moments(const DatasetReader& reader, uint32_t sequence,
+                                        const std::vector<size_t>& sensors, size_t count) {
   GREATX_CHECK(count > 0, "{} moments", count);
   const bool intervals = std::ranges::any_of(
-      reader.sensors(), [](const SensorSpec& sensor) { return is_about_intervals(sensor.kind); });
+      sensors, [&](size_t sensor) { return is_about_intervals(reader.sensors()[sensor].kind); });
   for (const bool frames_only : {true, false}) {
-    for (size_t s = 0; s < reader.sensors().size(); ++s) {
+    for (const size_t s : sensors) {
       const std::vector<IndexRow> rows = reader.records_of(sequence, s);
       if (rows.empty() || (frames_only && !has_frame_panels(reader.sensors()[s]))) continue;
       std::vector<SheetMoment> moments;
@@ -45,14 +72,15 @@ std::vector<SheetMoment> choose_moments(const DatasetReader& reader, uint32_t se
 }
 
 std::vector<Panels> panels_by_sensor(const DatasetReader& reader, uint32_t sequence,
-                                     const std::vector<SheetMoment>& moments) {
-  std::vector<Panels> panels(reader.sensors().size());
-  std::set<std::string> drawn;
-  for (size_t s = 0; s < reader.sensors().size(); ++s) {
-    const SensorSpec& sensor = reader.sensors()[s];
-    const std::vector<IndexRow> rows = reader.records_of(sequence, s);
-    if (rows.empty() || (!has_frame_panels(sensor) && !drawn.insert(sensor.kind).second)) continue;
-    add_panels({reader, sequence, s, nearest(rows, moments)}, panels[s]);
+                                     const std::vector<size_t>& sensors,
+                                     const std::vector<SheetMoment>& moments, const PanelOptions& options) {
+  check_links(reader, options.links);
+  const auto scene = std::make_shared<const SceneFacts>(scene_facts(reader));
+  std::vector<Panels> panels(sensors.size());
+  for (size_t i = 0; i < sensors.size(); ++i) {
+    const std::vector<IndexRow> rows = reader.records_of(sequence, sensors[i]);
+    if (!rows.empty())
+      add_panels({reader, sequence, sensors[i], nearest(rows, moments), {}, scene}, panels[i], options);
   }
   return panels;
 }
@@ -62,36 +90,15 @@ void check_has_records(const DatasetReader& reader, uint32_t sequence) {
     throw_user_error("{}: sequence {} has no records to show", reader.folder().string(), sequence);
 }
 
-std::vector<Band> make_bands(const std::vector<std::unique_ptr<FramePanel>>& panels, size_t per_band) {
-  std::vector<Band> bands;
-  for (size_t first = 0; first < panels.size(); first += per_band) {
-    const size_t count = std::min(per_band, panels.size() - first);
-    double aspect = 0.0;
-    for (size_t i = first; i < first + count; ++i) aspect = std::max(aspect, panels[i]->aspect());
-    bands.push_back({first, count, tile_height(aspect)});
-  }
-  return bands;
+void draw_tile(Canvas& canvas, FramePanel& panel, const Rect& tile, const Rect& legend, size_t row) {
+  canvas.fill(tile, canvas.theme().panel);
+  panel.draw(canvas, fit(tile, panel.aspect()), legend, row);
+  canvas.frame(tile, canvas.theme().border);
 }
 
-Rect fit(const Rect& tile, double aspect) {
-  const int width = std::min(tile.width, static_cast<int>(std::lround(tile.height / aspect)));
-  const int height = std::min(tile.height, static_cast<int>(std::lround(width * aspect)));
-  return {tile.x + (tile.width - width) / 2, tile.y + (tile.height - height) / 2, width, height};
-}
-
-int tile_height(double tallest_aspect) {
-  return static_cast<int>(std::lround(sheet::tile_width * std::clamp(tallest_aspect, 0.5, 1.0)));
-}
-
-void draw_tile(Canvas& canvas, FramePanel& panel, const Rect& tile, size_t row) {
-  canvas.fill(tile, theme::panel);
-  panel.draw(canvas, fit(tile, panel.aspect()),
-             {tile.x, tile.bottom() + 2, tile.width, sheet::legend_height - 4}, row);
-  canvas.frame(tile, theme::border);
-}
-
-void draw_title(Canvas& canvas, int x, int y, const std::string& title) {
-  canvas.text(x, y + 6, title, theme::text_scale, theme::text);
+void draw_title(Canvas& canvas, const Rect& area, const std::string& title) {
+  canvas.text(area.x, area.y + 6, fitted(title, area.width, theme::text_scale), theme::text_scale,
+              canvas.theme().text);
 }
 
 }  // namespace greatx::io

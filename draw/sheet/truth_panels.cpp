@@ -24,13 +24,13 @@ class NormalsPanel : public PicturePanel {
     const int64_t width = array.shape[1];
     canvas.raster(picture, static_cast<int>(width), static_cast<int>(array.shape[0]), [&](int x, int y) {
       const float* const n = normals.data() + 3 * static_cast<size_t>(y * width + x);
-      if (n[0] == 0.0f && n[1] == 0.0f && n[2] == 0.0f) return color_of_sky;
+      if (n[0] == 0.0f && n[1] == 0.0f && n[2] == 0.0f) return canvas.theme().sky;
       const auto byte = [](float c) {
         return static_cast<uint8_t>(std::lround(127.5f * (1.0f + std::clamp(c, -1.0f, 1.0f))));
       };
       return Color{byte(n[0]), byte(n[1]), byte(n[2])};
     });
-    caption(canvas, legend, "east north up: red green blue");
+    caption(canvas, legend, "red east, green north, blue up");
   }
 
  protected:
@@ -84,11 +84,13 @@ class FlowPanel : public PicturePanel {
   void draw_wheel(Canvas& canvas, const Rect& picture) const {
     const int radius = std::min(picture.width, picture.height) / 10;
     const int cx = picture.right() - radius - 8, cy = picture.bottom() - radius - 8;
-    canvas.disc(cx, cy, radius + 2.0, theme::page);
-    for (int y = -radius; y <= radius; ++y)
-      for (int x = -radius; x <= radius; ++x)
-        if (x * x + y * y <= radius * radius)
-          canvas.blend(cx + x, cy + y, flow_color(double(x) / radius, double(y) / radius));
+    canvas.disc(cx, cy, radius + 2.0, canvas.theme().page);
+    canvas.paint({cx - radius, cy - radius, 2 * radius + 1, 2 * radius + 1},
+                 [&](double px, double py, Color& color) {
+                   const double x = px - cx, y = py - cy;
+                   color = flow_color(x / radius, y / radius);
+                   return x * x + y * y <= double(radius) * radius;
+                 });
   }
   double full_px_ = 1.0;
 };
@@ -107,7 +109,7 @@ class BoxesPanel : public PicturePanel {
     expect_same_rows(source_, {&rectangles, &ids, &visibility});
     canvas.clip(picture);
     canvas.picture(picture, rgb);
-    canvas.fill(picture, theme::page, 0.35);
+    canvas.fill(picture, canvas.theme().halo, 0.35);
     const double sx = picture.width / static_cast<double>(rgb.shape[1]),
                  sy = picture.height / static_cast<double>(rgb.shape[0]);
     size_t seen = 0;
@@ -117,7 +119,8 @@ class BoxesPanel : public PicturePanel {
                    y1 = picture.y + r[3] * sy;
       const bool visible = visibility.as<float>()[i] > 0.0f;
       seen += visible;
-      const Color color = visible ? color_of_id(ids.as<uint32_t>()[i]) : theme::dim;
+      const Color color =
+          visible ? color_of_id(canvas.theme(), ids.as<uint32_t>()[i]) : canvas.theme().false_alarm;
       const double thickness = visible ? 1.6 : 0.6;
       canvas.line(x0, y0, x1, y0, thickness, color);
       canvas.line(x1, y0, x1, y1, thickness, color);
@@ -125,9 +128,9 @@ class BoxesPanel : public PicturePanel {
       canvas.line(x0, y1, x0, y0, thickness, color);
     }
     canvas.unclip();
-    caption(
-        canvas, legend,
-        fmt::format("{} objects, {} hidden", ids.as<uint32_t>().size(), ids.as<uint32_t>().size() - seen));
+    caption(canvas, legend,
+            fmt::format("{} objects, {} hidden (grey)", ids.as<uint32_t>().size(),
+                        ids.as<uint32_t>().size() - seen));
   }
   std::string nothing_of(size_t row) override {
     const Array ids = source_.load(source_.chosen[row], "box_instance", {DType::u32}, {-1});

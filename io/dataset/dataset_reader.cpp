@@ -71,6 +71,16 @@ Array widened(const Array& grey16) {
   return ids;
 }
 
+/// Returns u32 of i32, as PLY stores it. Throws UserError for a negative number.
+Array unsigned_of(Array ids, const std::string& file, const std::string& property) {
+  const std::span<const int32_t> values = ids.as<int32_t>();
+  const auto least = std::min_element(values.begin(), values.end());
+  if (least != values.end() && *least < 0)
+    throw_user_error("{}: {}: expected numbers from 0 on, found {}", file, property, *least);
+  ids.dtype = DType::u32;
+  return ids;
+}
+
 }  // namespace
 
 DatasetReader::DatasetReader(const fs::path& folder) : folder_(folder) {
@@ -177,6 +187,8 @@ Array DatasetReader::load_output(uint32_t sequence, const IndexRow& row, const O
   }
   if (output.format == FileFormat::png && spec.dtype == DType::u32 && result.dtype == DType::u16)
     result = widened(result);
+  if (output.format == FileFormat::ply && spec.dtype == DType::u32 && result.dtype == DType::i32)
+    result = unsigned_of(std::move(result), path.string(), spec.name);
   std::vector<int64_t> expected = spec.shape;
   if (!expected.empty() && expected[0] < 0 && !result.shape.empty()) expected[0] = result.shape[0];
   if (result.dtype != spec.dtype || result.shape != expected) {

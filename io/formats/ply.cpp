@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/formats/ply.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <sstream>
 
 #include "io/formats/vertex_rows.h"
@@ -15,14 +17,28 @@ struct TypeName {
   DType dtype;
   std::string_view name;
 };
-constexpr TypeName type_names[] = {{DType::u8, "uchar"}, {DType::u16, "ushort"}, {DType::u32, "uint"},
-                                   {DType::i32, "int"},  {DType::f32, "float"},  {DType::f64, "double"}};
+/// Lists the types that are read. The first name of a type is written, except that u32 is written as i32.
+/// Open3D's tensor reader drops properties of any other name, among them "ushort" and "uint".
+constexpr TypeName type_names[] = {{DType::u8, "uchar"},    {DType::u16, "uint16"},  {DType::i32, "int"},
+                                   {DType::f32, "float"},   {DType::f64, "double"},  {DType::u32, "uint"},
+                                   {DType::u8, "uint8"},    {DType::u16, "ushort"},  {DType::i32, "int32"},
+                                   {DType::f32, "float32"}, {DType::f64, "float64"}, {DType::u32, "uint32"}};
 
 std::string_view ply_type(DType dtype) {
+  const DType written = dtype == DType::u32 ? DType::i32 : dtype;
   for (const TypeName& type : type_names)
-    if (type.dtype == dtype) return type.name;
+    if (type.dtype == written) return type.name;
   GREATX_CHECK(false, "PLY has no type for {}", numpy_name(dtype));
   return {};
+}
+
+/// Throws UserError if an array of u32 holds a number that i32 cannot hold.
+void check_fits(const std::string& name, const Array& array) {
+  if (array.dtype != DType::u32) return;
+  const std::span<const uint32_t> values = array.as<uint32_t>();
+  const auto most = std::max_element(values.begin(), values.end());
+  if (most != values.end() && *most > uint32_t{INT32_MAX})
+    throw_user_error("PLY: {}: expected numbers up to {}, found {}", name, INT32_MAX, *most);
 }
 
 struct PlyHeader {
@@ -69,6 +85,7 @@ PlyHeader parse_header(std::string_view text, const std::string& file) {
 
 Bytes encode_ply(const std::vector<std::string>& names, const std::vector<const Array*>& arrays) {
   const std::vector<VertexProperty> properties = vertex_properties(names, arrays);
+  for (size_t i = 1; i < arrays.size(); ++i) check_fits(names[i], *arrays[i]);
   std::string header =
       fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", arrays[0]->shape[0]);
   for (const VertexProperty& property : properties)

@@ -14,10 +14,12 @@
 namespace greatx::io {
 
 /// Encodes arrays[0], f32 [n, 4], as the properties x, y, z, intensity, and every other array [n] as the
-/// property of its name. Throws ContractError for 64-bit integers and complex numbers, which have no PLY
-/// type, and for i8.
+/// property of its name. Types get the names that Open3D's tensor reader knows: u32 becomes "int", u16
+/// "uint16". Throws UserError for a number of u32 beyond 2^31 - 1, and ContractError for 64-bit integers and
+/// complex numbers, which have no PLY type, and for i8.
 Bytes encode_ply(const std::vector<std::string>& names, const std::vector<const Array*>& arrays);
-/// Returns every property as an array [n], by name. Throws UserError if the file is not such a PLY file.
+/// Returns every property as an array [n], by name, with the type that the file has; u32 comes back as i32.
+/// Throws UserError if the file is not such a PLY file.
 /// `name` is the file's name in messages.
 std::map<std::string, Array> decode_ply(std::span<const std::byte> file, const std::string& name);
 

@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The Python package of greatx (docs/python.md).
 
-`greatx.load(DIR)` opens a generated data set and needs only NumPy. `greatx.convert` writes a data set in the
-conventions of other tools. `greatx.Simulation` computes scenes, paths and channels. It needs the compiled
-module greatx._native, which is imported when `Simulation` is first used.
+`greatx.load(DIR)` opens a generated data set, or a campaign of them, and needs only NumPy. `greatx.convert`
+writes a data set in the conventions of other tools. `greatx.Simulation` computes scenes, paths and channels.
+It needs the compiled module greatx._native, which is imported when `Simulation` is first used.
 """
+
 from __future__ import annotations
 
 from typing import Any
@@ -14,9 +15,11 @@ from . import geodesy
 from .antenna import Array
 from .arrays import Frames, Ragged
 from .campaign import Campaign, campaign
-from .dataset import Dataset, Record, Sensor, Sequence, Tick, load
+from .campaign_samples import CampaignSamples, ShuffledSamples
+from .dataset import Dataset, Record, Sensor, Sequence, Tick
 from .errors import DatasetError, Error, print_errors_plainly
 from .events import Events
+from .loading import load
 from .packed import PackedRagged, PackedStack, PackedTable
 from .paths import Paths
 from .radio_map import RadioMap
@@ -29,6 +32,7 @@ __all__ = [
     "Array",
     "Arrays",
     "Campaign",
+    "CampaignSamples",
     "Dataset",
     "DatasetError",
     "Error",
@@ -45,6 +49,7 @@ __all__ = [
     "Samples",
     "Sensor",
     "Sequence",
+    "ShuffledSamples",
     "Tick",
     "campaign",
     "geodesy",

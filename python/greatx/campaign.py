@@ -1,21 +1,32 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Opens a campaign: many data sets with one index (docs/campaigns.md)."""
+"""Opens a campaign: many data sets with one index (docs/campaigns.md).
+
+Data flow: splits.csv names the cells and their sequences. A cell's data set is opened when it is used, and at
+most `most_open` of them stay open. All of them share one OpenArrays, which bounds their files.
+"""
+
 from __future__ import annotations
 
+import collections
 import csv
 import os
 import pathlib
 import sqlite3
-from typing import Any, Dict, Iterable, Iterator, List, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Optional, Tuple, Union
 
-import numpy as np
-
-from .dataset import Dataset, load
+from .dataset import Dataset
 from .errors import DatasetError
-from .samples import Samples, as_torch
+from .opened import OpenArrays
+from .samples import as_torch
+
+if TYPE_CHECKING:
+    from .campaign_samples import CampaignSamples, ShuffledSamples
 
 SPLITS = ("train", "validation", "test")
+SPLITS_FILE, CELLS = "splits.csv", "cells.json"
+#: Data sets that stay open.
+MOST_OPEN_DATASETS = 16
 
 
 def campaign(folder: Union[str, "os.PathLike[str]"]) -> "Campaign":
@@ -24,12 +35,29 @@ def campaign(folder: Union[str, "os.PathLike[str]"]) -> "Campaign":
 
 
 class Campaign:
-    """Provides the data sets of a campaign by the names of their cells, and its index."""
+    """Provides the data sets of a campaign by the names of their cells, and its index. Pickling stores only
+    the folder.
 
-    def __init__(self, folder: Union[str, "os.PathLike[str]"]):
+    most_open   data sets that stay open; those that were used longest ago are closed
+    most_files  arrays that stay open, of all data sets together (greatx.opened.OpenArrays)
+    incomplete  whether to open data sets that are not finished
+    """
+
+    def __init__(
+        self,
+        folder: Union[str, "os.PathLike[str]"],
+        most_open: int = MOST_OPEN_DATASETS,
+        most_files: Optional[int] = None,
+        incomplete: bool = False,
+    ):
+        if most_open < 1:
+            raise ValueError(f"expected 1 or more open data sets, found {most_open}")
         self.path = pathlib.Path(os.path.abspath(folder))
-        self._splits = self._read_splits(self.path / "splits.csv")
-        self._open: Dict[str, Dataset] = {}
+        self.most_open = most_open
+        self.files = OpenArrays() if most_files is None else OpenArrays(most_files)
+        self._incomplete = incomplete
+        self._splits = self._read_splits(self.path / SPLITS_FILE)
+        self._open: "collections.OrderedDict[str, Dataset]" = collections.OrderedDict()
 
     @staticmethod
     def _read_splits(file: pathlib.Path) -> Dict[str, Dict[int, str]]:
@@ -56,17 +84,28 @@ class Campaign:
 
     def __getitem__(self, cell: str) -> Dataset:
         """Returns the data set of a cell."""
+        self._check(cell)
+        if cell not in self._open:
+            self._open[cell] = Dataset(self.path / "data" / cell, self._incomplete, self.files)
+            while len(self._open) > self.most_open:
+                self._open.popitem(last=False)
+        self._open.move_to_end(cell)
+        return self._open[cell]
+
+    def _check(self, cell: str) -> None:
         if cell not in self._splits:
             raise KeyError(f"{self.path}: has no cell {cell!r}; it has {', '.join(self._splits)}")
-        if cell not in self._open:
-            self._open[cell] = load(self.path / "data" / cell)
-        return self._open[cell]
+
+    @property
+    def opened(self) -> List[str]:
+        """The cells whose data sets are open now."""
+        return list(self._open)
 
     def sequences(self, cell: str, split: Optional[str] = None) -> List[int]:
         """Returns the numbers of a cell's sequences in a split; all of them if it is None."""
         if split is not None and split not in SPLITS:
             raise ValueError(f"expected one of {', '.join(SPLITS)}, found {split!r}")
-        self[cell]
+        self._check(cell)
         return [s for s, of in self._splits[cell].items() if split is None or of == split]
 
     def query(self, sql: str, values: Iterable[Any] = ()) -> List[Tuple[Any, ...]]:
@@ -85,11 +124,39 @@ class Campaign:
         arrays: Union[str, Iterable[str]],
         split: Optional[str] = None,
         cells: Optional[Iterable[str]] = None,
+        pad: bool = False,
+        missing: str = "error",
     ) -> "CampaignSamples":
         """Returns one dict of NumPy arrays per tick (greatx.samples.Samples), of all cells one after the
-        other, with "cell" in each. `split`: of these sequences alone; `cells`: of these alone.
+        other, with "cell" in each. `split`: of these sequences alone; `cells`: of these alone; `pad` as for
+        Samples, over all cells. Data sets are opened when the first item or the number of items is asked for.
+
+        `missing` decides about cells that lack one of the arrays: "error" raises a DatasetError that names
+        them, "skip" leaves them out (`left_out` has their names), and "none" gives zeros. With "none", every
+        item has "SENSOR/ARRAY_present" (bool) for each array.
         """
-        return CampaignSamples(self, arrays, split, cells)
+        from .campaign_samples import CampaignSamples
+
+        return CampaignSamples(self, arrays, split, cells, pad, missing)
+
+    def shuffled(
+        self,
+        arrays: Union[str, Iterable[str]],
+        split: Optional[str] = None,
+        cells: Optional[Iterable[str]] = None,
+        pad: bool = False,
+        missing: str = "error",
+        seed: int = 0,
+        buffer: int = 1024,
+        part: Tuple[int, int] = (0, 1),
+    ) -> "ShuffledSamples":
+        """Returns an iterable over the same items in an order that follows from `seed` and the epoch alone:
+        sequences in random order, and items mixed by a buffer of `buffer` places. Each item comes once an
+        epoch. `part` is (i, n): the i-th of n disjoint parts, for processes that train together.
+        """
+        from .campaign_samples import ShuffledSamples
+
+        return ShuffledSamples(self.samples(arrays, split, cells, pad, missing), seed, buffer, part)
 
     def torch(
         self,
@@ -97,54 +164,22 @@ class Campaign:
         split: Optional[str] = None,
         cells: Optional[Iterable[str]] = None,
         transform: Any = None,
+        pad: bool = False,
+        missing: str = "error",
     ) -> Any:
-        """Returns a torch.utils.data.Dataset of the same. Raises ImportError without torch."""
-        return as_torch(self.samples(arrays, split, cells), transform, "Campaign")
+        """Returns a torch.utils.data.Dataset of samples(). Raises ImportError without torch."""
+        return as_torch(self.samples(arrays, split, cells, pad, missing), transform, "Campaign")
 
-    def __reduce__(self) -> Tuple[Any, Tuple[pathlib.Path]]:
-        return Campaign, (self.path,)
+    def torch_shuffled(self, arrays: Union[str, Iterable[str]], transform: Any = None, **options: Any) -> Any:
+        """Returns a torch.utils.data.IterableDataset of shuffled(arrays, **options). The workers of a
+        DataLoader share its sequences, so that each item comes once an epoch over all workers. Call
+        set_epoch(n) before each epoch, also with persistent workers. Raises ImportError without torch.
+        """
+        return as_torch(self.shuffled(arrays, **options), transform, "Campaign")
+
+    def __reduce__(self) -> Tuple[Any, Tuple[Any, ...]]:
+        return Campaign, (self.path, self.most_open, self.files.most, self._incomplete)
 
     def __repr__(self) -> str:
         count = sum(len(sequences) for sequences in self._splits.values())
         return f"<greatx.Campaign {str(self.path)!r}: {len(self._splits)} cells, {count} sequences>"
-
-
-class CampaignSamples:
-    """A sequence of dicts like those of greatx.samples.Samples, over the cells of a campaign."""
-
-    def __init__(
-        self,
-        opened: Campaign,
-        arrays: Union[str, Iterable[str]],
-        split: Optional[str],
-        cells: Optional[Iterable[str]],
-    ):
-        names = [arrays] if isinstance(arrays, str) else list(arrays)
-        self.cells: List[str] = []
-        self._parts: List[Samples] = []
-        for cell in opened.cells if cells is None else cells:
-            sequences = opened.sequences(cell, split)
-            if sequences:
-                self.cells.append(cell)
-                self._parts.append(Samples(opened[cell], names, sequences))
-        if not self._parts:
-            raise DatasetError(f"{opened.path}: no cell has a sequence in {split!r}")
-        self._ends = np.cumsum([len(part) for part in self._parts])
-
-    def __len__(self) -> int:
-        return int(self._ends[-1])
-
-    def __getitem__(self, i: int) -> Dict[str, Any]:
-        if not -len(self) <= i < len(self):
-            raise IndexError(f"item {i} of {len(self)}")
-        at = i % len(self)
-        part = int(np.searchsorted(self._ends, at, side="right"))
-        item = self._parts[part][at - (int(self._ends[part - 1]) if part > 0 else 0)]
-        item["cell"] = self.cells[part]
-        return item
-
-    def __iter__(self) -> Iterator[Dict[str, Any]]:
-        return (self[i] for i in range(len(self)))
-
-    def __repr__(self) -> str:
-        return f"<greatx.CampaignSamples: {len(self)} ticks of {len(self.cells)} cells>"

@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import pathlib
 import warnings
@@ -29,8 +30,10 @@ from .errors import DatasetError, nearest
 from .files import MOST_SEQUENCES, MOST_TICKS, Field, inside
 from .frames import load_npy
 from .layout import EXPORT_SUFFIX, PACKED, ArrayInfo, OutputInfo, SensorInfo, parse_sensors, read_info
+from .opened import OpenArrays
 from .packed import PackedFile, PackedRagged, PackedStack, PackedTable
 from .ticks import TickRecords
+from .unfinished import JOURNAL, OpenSequence, map_rows, open_packed, open_ragged, open_sequence, read_journal
 
 if TYPE_CHECKING:
     from .events import Events
@@ -50,25 +53,24 @@ OUTPUT_OF = {
 INDEX_COLUMNS = ("tick", "time_ns", "sensor", "sample", "row")
 
 
-def load(folder: Union[str, "os.PathLike[str]"], incomplete: bool = False) -> "Dataset":
-    """Opens the data set in `folder` without reading its arrays.
-
-    A data set without manifest.json is unfinished (`greatx generate --resume` finishes it). Raises
-    DatasetError for such a data set unless `incomplete` is set; then gives a warning and opens the complete
-    sequences. Raises DatasetError, whose message names the file, for everything that does not follow
-    docs/dataset.md.
-    """
-    return Dataset(folder, incomplete)
-
-
 class Dataset:
     """Provides a data set; returned by `load`. Pickling stores only the folder, so that the workers of a
     DataLoader open the files themselves.
     """
 
-    def __init__(self, folder: Union[str, "os.PathLike[str]"], incomplete: bool = False):
+    def __init__(
+        self,
+        folder: Union[str, "os.PathLike[str]"],
+        incomplete: bool = False,
+        files: Optional[OpenArrays] = None,
+    ):
+        """Reads dataset.json and the indices. With `files`, which several data sets may share, reads an index
+        when it is first used. See `load` for the rest.
+        """
         self.path = pathlib.Path(os.path.abspath(folder))
         self._incomplete = incomplete
+        #: the arrays that are open
+        self.files = OpenArrays() if files is None else files
         fields = read_info(self.path)
         #: contents of dataset.json
         self.info: Dict[str, Any] = fields.value
@@ -83,31 +85,53 @@ class Dataset:
             else MOST_TICKS
         )
         count = fields["sequences"].integer(1, MOST_SEQUENCES)
-        there = {entry.name for entry in os.scandir(self.path) if entry.name.startswith("sequence_")}
-        whole = [
-            i
-            for i in range(count)
-            if f"sequence_{i:04d}" in there and inside(self.path, f"sequence_{i:04d}/index.npy").is_file()
-        ]
-        if not self.complete:
-            state = (
-                f"{self.path}: is incomplete (no manifest.json): {len(whole)} of {count} sequences are whole"
+        # The journal is read before the indices are looked for: a sequence that ends in between then has an
+        # index.
+        packets = None if self.complete else read_journal(self.path)
+        whole = self._whole(count)
+        opened = None if packets is None else open_sequence(self, packets, whole)
+        if opened is not None and opened.number >= count:
+            raise DatasetError(
+                f"{self.path / JOURNAL}: expected sequences below {count}, found {opened.number}"
             )
-            if not incomplete or not whole:
-                raise DatasetError(
-                    state
-                    + "; finish it with `greatx generate --resume`"
-                    + (", or load what is whole with incomplete=True" if whole else "")
-                )
-            warnings.warn(state, stacklevel=3)
+        if not self.complete:
+            self._warn(count, len(whole), opened)
         elif len(whole) < count:
             missing = next(n for n, i in enumerate([*whole, -1]) if n != i)
             raise DatasetError(f"{self.path / f'sequence_{missing:04d}' / 'index.npy'}: is missing")
         #: the opened sequences, one per run of the scenario
         self.sequences: List[Sequence] = [Sequence(self, i) for i in whole]
+        if opened is not None:
+            self.sequences.append(Sequence(self, opened.number, opened.index))
+        if files is None:
+            for sequence in self.sequences:
+                sequence.sensors
+
+    def _whole(self, count: int) -> List[int]:
+        """Returns the numbers of the sequences that have ended."""
+        there = {entry.name for entry in os.scandir(self.path) if entry.name.startswith("sequence_")}
+        return [
+            i
+            for i in range(count)
+            if f"sequence_{i:04d}" in there and inside(self.path, f"sequence_{i:04d}/index.npy").is_file()
+        ]
+
+    def _warn(self, count: int, whole: int, opened: Optional[OpenSequence]) -> None:
+        """Warns that the data set is incomplete, or raises DatasetError if it was not asked for."""
+        state = f"{self.path}: is incomplete (no manifest.json): {whole} of {count} sequences are whole"
+        if opened is not None:
+            ticks = len(np.unique(opened.index[:, 0]))
+            state += f", and {ticks} ticks of sequence {opened.number} are written"
+        if not self._incomplete or (not whole and opened is None):
+            raise DatasetError(
+                state
+                + "; finish it with `greatx generate --resume`"
+                + (", or load what is there with incomplete=True" if whole or opened is not None else "")
+            )
+        warnings.warn(state, stacklevel=5)
 
     def __reduce__(self):
-        return load, (str(self.path), self._incomplete)
+        return _reopen, (str(self.path), self._incomplete)
 
     @property
     def run(self) -> Dict[str, Any]:
@@ -206,24 +230,44 @@ class Dataset:
         )
 
 
+def _reopen(folder: str, incomplete: bool) -> Dataset:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the first one has warned
+        return Dataset(folder, incomplete)
+
+
 class Sequence:
     """Holds one run of the scenario."""
 
-    def __init__(self, dataset: Dataset, number: int):
+    def __init__(self, dataset: Dataset, number: int, index: Optional[np.ndarray] = None):
+        """`index` is that of a sequence that is still being written."""
         self.dataset = dataset
         self.number = number
         self.path = dataset.path / f"sequence_{number:04d}"
-        #: int64 [records, 5]: tick, time_ns, sensor, sample, row (docs/dataset.md), sorted by tick, then by
-        #: sensor
-        self.index: np.ndarray = self._read_index(inside(dataset.path, f"sequence_{number:04d}/index.npy"))
-        #: int64 [ticks]: the ticks that have records, ascending
-        self.ticks: np.ndarray = np.unique(self.index[:, 0])
-        self.sensors: Dict[str, Sensor] = {
-            name: Sensor(self, i, info) for i, (name, info) in enumerate(dataset.sensors.items())
-        }
+        #: whether all of its records are there; otherwise it holds those of the time when it was opened
+        self.whole = index is None
+        if index is not None:
+            self._check_index(dataset.path / JOURNAL, index)
+            self.__dict__["index"] = index
 
-    def _read_index(self, path: pathlib.Path) -> np.ndarray:
-        index = load_npy(path)
+    @functools.cached_property
+    def index(self) -> np.ndarray:
+        """int64 [records, 5]: tick, time_ns, sensor, sample, row (docs/dataset.md), sorted by tick, then by
+        sensor."""
+        path = inside(self.dataset.path, f"{self.path.name}/index.npy")
+        return self._check_index(path, load_npy(path))
+
+    @functools.cached_property
+    def ticks(self) -> np.ndarray:
+        """int64 [ticks]: the ticks that have records, ascending."""
+        return np.unique(self.index[:, 0])
+
+    @functools.cached_property
+    def sensors(self) -> Dict[str, "Sensor"]:
+        """The sensors by name, in the order of their numbers in the index."""
+        return {name: Sensor(self, i, info) for i, (name, info) in enumerate(self.dataset.sensors.items())}
+
+    def _check_index(self, path: pathlib.Path, index: np.ndarray) -> np.ndarray:
         if index.ndim != 2 or index.shape[1] != len(INDEX_COLUMNS) or index.dtype != np.int64:
             raise DatasetError(
                 f"{path}: expected int64 [records, {len(INDEX_COLUMNS)}], found {index.dtype.name} "
@@ -358,7 +402,7 @@ class Sensor:
         self.index: np.ndarray = sequence.index[sequence.index[:, 2] == number]
         if not np.array_equal(self.index[:, 4], np.arange(len(self.index))):
             raise DatasetError(f"{sequence.path / 'index.npy'}: the rows of {info.name} are not 0, 1, 2, ...")
-        self._opened: Dict[Any, Any] = {}
+        self._token = object()  # tells this sensor's arrays from those of others
 
     @property
     def arrays(self) -> Dict[str, ArrayInfo]:
@@ -412,31 +456,38 @@ class Sensor:
                 f"{', '.join(self.arrays)}"
             )
         output, array = located
-        key = (output.name, array.name if array else None)
-        if key not in self._opened:
-            base = inside(self.sequence.dataset.path, f"{self.sequence.path.name}/{self.name}/{output.name}")
-            if output.format == "npy_stack":
-                opened: Any = open_stack(base.with_name(base.name + ".npy"), array, len(self))
-            elif output.format == "npy_ragged":
-                opened = Ragged.open(base, array, len(self))
-            elif output.format == PACKED:
-                opened = self._packed(base, output, array)
-            elif output.format in EXPORT_SUFFIX:
-                opened = base.with_name(base.name + EXPORT_SUFFIX[output.format])
-            else:
-                opened = Frames(base, output, array, self.index[:, 3])
-            self._opened[key] = opened
-        return self._opened[key]
+        key = (self._token, output.name, array.name if array else None)
+        return self.sequence.dataset.files.get(key, lambda: self._open(output, array))
+
+    def _open(self, output: OutputInfo, array: Optional[ArrayInfo]) -> Any:
+        base = inside(self.sequence.dataset.path, f"{self.sequence.path.name}/{self.name}/{output.name}")
+        whole = self.sequence.whole
+        if output.format == "npy_stack":
+            path = base.with_name(base.name + ".npy")
+            if not whole:
+                return map_rows(path, array.dtype, (len(self), *array.shape))
+            return open_stack(path, array, len(self))
+        if output.format == "npy_ragged":
+            return (Ragged.open if whole else open_ragged)(base, array, len(self))
+        if output.format == PACKED:
+            return self._packed(base, output, array)
+        if output.format in EXPORT_SUFFIX:
+            path = base.with_name(base.name + EXPORT_SUFFIX[output.format])
+            if not whole:
+                raise DatasetError(f"{path}: is made when the sequence ends, which it has not")
+            return path
+        return Frames(base, output, array, self.index[:, 3])
 
     def _packed(self, base: pathlib.Path, output: OutputInfo, array: Optional[ArrayInfo]) -> Any:
         """Returns a packed array, or all arrays of the output if `array` is None."""
         if array is None:
             return PackedTable({a.name: self._packed(base, output, a) for a in output.arrays}, len(self))
-        key = (output.name, "")
-        if key not in self._opened:
-            self._opened[key] = PackedFile(base, output, len(self))
+        open_file = PackedFile if self.sequence.whole else open_packed
+        file = self.sequence.dataset.files.get(
+            (self._token, output.name, ""), lambda: open_file(base, output, len(self))
+        )
         kind = PackedRagged if array.shape[:1] == (-1,) else PackedStack
-        return kind(self._opened[key], array)
+        return kind(file, array)
 
     def __getattr__(self, name: str) -> Any:
         if not name.startswith("_") and "info" in self.__dict__:  # `info` is missing during unpickling
@@ -452,10 +503,10 @@ class Sensor:
         return sorted({*super().__dir__(), *self.arrays, *self.metadata})
 
     def __getstate__(self) -> Dict[str, Any]:
-        return {**self.__dict__, "_opened": {}}  # without memory maps, which would be pickled by value
+        return {name: value for name, value in self.__dict__.items() if name != "_token"}
 
     def __setstate__(self, state: Dict[str, Any]) -> None:
-        self.__dict__.update(state)
+        self.__dict__.update(state, _token=object())
 
     def __repr__(self) -> str:
         return f"<greatx.Sensor {self.name} ({self.kind}): {len(self)} records of {', '.join(self.arrays)}>"

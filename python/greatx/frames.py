@@ -5,6 +5,7 @@
 The readers support the variants that data sets hold (docs/dataset.md). They raise DatasetError for all other
 files of these formats.
 """
+
 from __future__ import annotations
 
 import pathlib
@@ -33,6 +34,14 @@ _PLY_TYPES = {
     "uint": "<u4",
     "float": "<f4",
     "double": "<f8",
+    "int8": "i1",
+    "uint8": "u1",
+    "int16": "<i2",
+    "uint16": "<u2",
+    "int32": "<i4",
+    "uint32": "<u4",
+    "float32": "<f4",
+    "float64": "<f8",
 }
 _PCD_TYPES = {
     code + size: "<" + code.lower() + size
@@ -263,7 +272,12 @@ def read_frame(path: pathlib.Path, output: OutputInfo) -> Dict[str, np.ndarray]:
         first = output.arrays[0].name
         with reading(path):
             out = {first: np.stack([points[p] for p in ("x", "y", "z", "intensity")], axis=-1)}
-            out.update({a.name: points[a.name].astype(a.dtype) for a in output.arrays[1:]})
+            for a in output.arrays[1:]:
+                values = points[a.name]
+                # PLY stores uint32 as int32 (io/formats/ply.cpp).
+                if a.dtype.kind == "u" and values.dtype.kind == "i" and len(values) and values.min() < 0:
+                    raise ValueError(f"expected {a.name} from 0 on, found {values.min()}")
+                out[a.name] = values.astype(a.dtype)
         return out
     shape = output.arrays[0].shape
     if output.format == "npy_frame":

@@ -5,6 +5,7 @@
 The table tells where the packed bytes of each array of each record lie, so that neither h5py nor the HDF5
 library is needed. Both are made for files of known origin.
 """
+
 from __future__ import annotations
 
 import dataclasses
@@ -50,17 +51,40 @@ def _columns(output: OutputInfo) -> List[_Column]:
     return columns
 
 
+def count_columns(output: OutputInfo) -> int:
+    """Returns the number of columns of a record in the table."""
+    return len(_columns(output))
+
+
 class PackedFile:
     """Opens the packed arrays of a sensor in one sequence. Unpickled, it opens its files anew."""
 
-    def __init__(self, base: pathlib.Path, output: OutputInfo, records: int):
-        """Opens BASE.h5 and BASE.npy. Raises DatasetError if they do not fit `output` and `records`."""
+    def __init__(
+        self,
+        base: pathlib.Path,
+        output: OutputInfo,
+        records: int,
+        first_records: bool = False,
+        stream: Optional[Tuple[pathlib.Path, int, np.ndarray]] = None,
+    ):
+        """Opens BASE.h5 and BASE.npy, which may hold further records if `first_records` is set. `stream` is
+        the path, the descriptor, which is closed with this object, and the table of an open sequence instead.
+        Raises DatasetError if the files do not fit `output` and `records`.
+        """
         self.path = base.with_name(base.name + ".h5")
         self.records = records
         self._columns = _columns(output)
+        self._file: Optional[int] = None
+        if stream is not None:
+            self.path, self._file, self._places = stream
+            self._table = self.path
+            self._size = os.fstat(self._file).st_size
+            return
         table = base.with_name(base.name + ".npy")
         wanted = (records, len(self._columns), PLACE_NUMBERS)
         self._places = load_npy(table, mmap_mode="r")
+        if first_records:
+            self._places = self._places[:records]
         if self._places.dtype != np.int64 or self._places.shape != wanted:
             raise DatasetError(
                 f"{table}: expected int64 {list(wanted)} (dataset.json and index.npy), "
@@ -70,7 +94,6 @@ class PackedFile:
         check_plain(self.path, 1 << 62)
         with reading(self.path):
             self._size = os.path.getsize(self.path)
-        self._file: Optional[int] = None
 
     def __del__(self) -> None:
         if self.__dict__.get("_file") is not None:

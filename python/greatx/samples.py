@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Combines the measurements of several sensors at one tick to one dict, for machine learning."""
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Optional, Tuple, Union
@@ -20,13 +21,34 @@ def as_torch(samples: Any, transform: Any, name: str) -> Any:
     Raises ImportError without torch.
     """
     try:
-        from .torch_dataset import TorchDataset
+        if hasattr(samples, "__getitem__"):
+            from .torch_dataset import TorchDataset as Made
+        else:
+            from .torch_shuffled import TorchShuffled as Made
     except ImportError as error:
         raise ImportError(
             f"{name}.torch needs PyTorch (`pip install torch`): {error}. "
             f"{name}.samples gives the same as NumPy arrays"
         ) from error
-    return TorchDataset(samples, transform)
+    return Made(samples, transform)
+
+
+def fields_of(dataset: "Dataset", name: str) -> List[Tuple[str, str, str]]:
+    """Returns (key of an item, sensor, array) of each array that `name` stands for. Raises KeyError if the
+    data set has none.
+    """
+    sensors = dataset.sensors
+    if name in sensors:
+        return [
+            (f"{name}/{a.name}", name, a.name) for a in sensors[name].arrays.values() if -1 not in a.shape
+        ]
+    for sensor in sorted((s for s in sensors if name.startswith(s + "/")), key=len, reverse=True):
+        array = name[len(sensor) + 1 :]
+        located = sensors[sensor].locate(array)
+        if located is not None and located[1] is not None:
+            return [(name, sensor, array)]
+    known = [f"{s.name}/{a}" for s in sensors.values() for a in s.arrays]
+    raise KeyError(f"{dataset.path}: has neither a sensor nor an array {name!r}; it has {', '.join(known)}")
 
 
 class Samples:
@@ -50,38 +72,32 @@ class Samples:
         arrays: Union[str, Iterable[str]],
         sequences: Optional[Iterable[int]] = None,
         pad: bool = False,
+        items: Optional[np.ndarray] = None,
+        longest: Optional[Dict[str, Optional[int]]] = None,
     ):
+        """`items` and `longest` are those of an equal object, so that they are not computed again."""
         self.dataset = dataset
         self.pad = pad
         names = [arrays] if isinstance(arrays, str) else list(arrays)
         #: (key of the item, sensor, array)
-        self.fields: List[Tuple[str, str, str]] = [field for name in names for field in self._resolve(name)]
+        self.fields: List[Tuple[str, str, str]] = [f for name in names for f in fields_of(dataset, name)]
         if not self.fields:
             raise ValueError("no arrays are asked for")
         self.sequences = list(range(len(dataset.sequences)) if sequences is None else sequences)
-        self._items = np.concatenate([self._rows(i) for i in self.sequences] or [np.empty((0, 2), np.int64)])
-        if len(self._items) == 0:
+        if items is None:
+            rows = [self._rows(i) for i in self.sequences]
+            items = np.concatenate(rows or [np.empty((0, 2), np.int64)])
+        #: int64 [items, 2]: index into Dataset.sequences, tick
+        self.items = items
+        if len(self.items) == 0:
             raise DatasetError(
                 f"{dataset.path}: there is no tick at which "
                 f"{', '.join(sorted({s for _, s, _ in self.fields}))} all have a record"
             )
-        self._longest = {key: self._longest_of(key, s, a) for key, s, a in self.fields} if pad else {}
-
-    def _resolve(self, name: str) -> List[Tuple[str, str, str]]:
-        sensors = self.dataset.sensors
-        if name in sensors:
-            return [
-                (f"{name}/{a.name}", name, a.name) for a in sensors[name].arrays.values() if -1 not in a.shape
-            ]
-        for sensor in sorted((s for s in sensors if name.startswith(s + "/")), key=len, reverse=True):
-            array = name[len(sensor) + 1 :]
-            located = sensors[sensor].locate(array)
-            if located is not None and located[1] is not None:
-                return [(name, sensor, array)]
-        known = [f"{s.name}/{a}" for s in sensors.values() for a in s.arrays]
-        raise KeyError(
-            f"{self.dataset.path}: has neither a sensor nor an array {name!r}; it has {', '.join(known)}"
-        )
+        #: rows to which each array is padded; None: of fixed shape
+        self.longest: Dict[str, Optional[int]] = {}
+        if pad:
+            self.longest = longest or {key: self._longest_of(key, s, a) for key, s, a in self.fields}
 
     def _rows(self, number: int) -> np.ndarray:
         """Returns int64 [items, 2]: sequence, tick."""
@@ -108,12 +124,12 @@ class Samples:
         return longest
 
     def __len__(self) -> int:
-        return len(self._items)
+        return len(self.items)
 
     def __getitem__(self, i: int) -> Dict[str, Any]:
         if not -len(self) <= i < len(self):
             raise IndexError(f"item {i} of {len(self)}")
-        number, tick = (int(v) for v in self._items[i])
+        number, tick = (int(v) for v in self.items[i])
         at = self.dataset.sequences[number].at(tick)
         item: Dict[str, Any] = {
             "sequence": self.dataset.sequences[number].number,
@@ -122,7 +138,7 @@ class Samples:
         }
         for key, sensor, array in self.fields:
             value = at[sensor][array]
-            longest = self._longest.get(key)
+            longest = self.longest.get(key)
             if longest is not None:
                 item[key + "_count"] = len(value)
                 padded = np.zeros((longest, *value.shape[1:]), value.dtype)

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Implements Dataset.torch. Only that function imports this module, because the module needs torch."""
+
 from __future__ import annotations
 
 from typing import Any, Callable, Dict, Optional
@@ -25,6 +26,11 @@ def to_tensor(value: np.ndarray) -> "torch.Tensor":
     return torch.from_numpy(np.array(value, dtype=_SIGNED.get(value.dtype.name, value.dtype)))
 
 
+def tensors(item: Dict[str, Any]) -> Dict[str, Any]:
+    """Returns an item with tensors for its arrays."""
+    return {key: to_tensor(value) if isinstance(value, np.ndarray) else value for key, value in item.items()}
+
+
 class TorchDataset(torch.utils.data.Dataset):
     """Provides Samples as a map-style dataset of tensors, one dict per tick. "sequence", "tick", "time_s" and
     counts stay numbers, which torch's collate function converts to tensors. The object is picklable, so a
@@ -39,8 +45,5 @@ class TorchDataset(torch.utils.data.Dataset):
         return len(self.samples)
 
     def __getitem__(self, i: int) -> Any:
-        item = {
-            key: to_tensor(value) if isinstance(value, np.ndarray) else value
-            for key, value in self.samples[i].items()
-        }
+        item = tensors(self.samples[i])
         return item if self.transform is None else self.transform(item)

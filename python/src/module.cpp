@@ -12,15 +12,16 @@
 
 #include "assets/assets.h"
 #include "core/watch.h"
+#include "engine/session/path_set.h"
+#include "engine/session/session.h"
+#include "engine/session/stream.h"
 #include "python/src/log.h"
-#include "python/src/path_set.h"
-#include "python/src/session.h"
-#include "python/src/stream.h"
 #include "sim/scenario/parse/load_scenario.h"
 
 namespace greatx::python {
 
 namespace py = pybind11;
+using namespace engine;
 
 namespace {
 

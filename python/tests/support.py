@@ -91,6 +91,59 @@ nodes:
 difference: {on: 0.02, off: 0.02}}
 """
 
+# All kinds of sensors on a car that turns, asymmetric in every axis, at times that are no whole microseconds.
+# Its event cameras have the pixels of a camera with distortion and look beside each other.
+RIG = """
+greatx: 1
+name: rig
+ticks: 4
+tick_rate_hz: 30
+scene:
+  generate: {kind: canyon, seed: 9, size_m: 80}
+  georeference: {latitude_deg: 52.0116, longitude_deg: 4.3571, height_m: 45, undulation_m: 43.4, \
+vertical_datum: NAP}
+nodes:
+  - name: bs
+    trajectory: {type: static, position_m: [6.3, -21.7, 9.4], rotation_deg: [90, 0, 0]}
+    sensors: [{name: panel, type: antenna, polarization: slant}]
+  - name: car
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2.4, -30, 0], rotation_deg: [90, 2, 1]}, \
+{t_s: 1, position_m: [3.4, -18, 0.5], rotation_deg: [110, -2, 4]}]}
+    model: {generate: {kind: car}}
+    class: vehicle
+    sensors:
+      - {name: front, type: camera, rate_hz: 15, width: 62, height: 48, fov_deg: 80,
+         mount: {position_m: [1.5, 0.2, 1.6], rotation_deg: [3, 5, 1]}, \
+distortion: {k1: -0.2, k2: 0.05, p1: 0.003, p2: -0.002}, outputs: [rgb, depth, ids, flow, boxes]}
+      - {name: right, type: camera, rate_hz: 15, width: 62, height: 48, fov_deg: 80, \
+mount: {position_m: [1.55, -0.2, 1.65], rotation_deg: [1, 4, 0]}, outputs: [rgb]}
+      - {name: dvs, type: event_camera, camera: front, rate_hz: 15, steps: 2, outputs: [events, hdf5]}
+      - {name: dvs2, type: event_camera, camera: right, rate_hz: 15, steps: 1, outputs: [events]}
+      - {name: lidar, type: lidar, rate_hz: 15, channels: 8, elevation_min_deg: -45, elevation_max_deg: 15,
+         azimuth_steps: 64, max_range_m: 150, mount: {position_m: [0, 0, 2], rotation_deg: [10, 0, 2]}, \
+outputs: [ply]}
+      - name: radar
+        type: radar
+        rate_hz: 15
+        mount: {position_m: [2, 0.1, 0.6], rotation_deg: [-4, 0, 0]}
+        waveform: {bandwidth_hz: 300e6, samples: 64, sample_rate_hz: 6.25e6, adc_start_s: 1.5e-6, \
+chirp_s: 12e-6, interval_s: 13e-6, chirps: 32}
+        transmit: {pattern: tr38901, columns: 2, column_spacing_wl: 2}
+        receive: {pattern: tr38901, columns: 4}
+        echoes: {tubes: 1500}
+        outputs: [range_doppler, range_azimuth, detections, cube]
+        receiver: {noise_figure_db: 12}
+      - {name: antenna, type: antenna, mount: {position_m: [0, 0, 1.6]}}
+  - name: van
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2, -20, 0]}, \
+{t_s: 1, position_m: [2, -9, 0]}]}
+    model: {generate: {kind: car, variant: van}}
+    class: vehicle
+channels:
+  - {name: csi, tx: bs/panel, rx: [car/antenna], rate_hz: 30, carrier_hz: 3.5e9, bandwidth_hz: 100e6, \
+subcarriers: 32, max_depth: 1}
+"""
+
 # Two antennas in free space, for which closed forms exist. The second one moves away. The data set has two
 # sequences.
 SPACE = """
@@ -149,6 +202,11 @@ def truth() -> pathlib.Path:
 def events() -> pathlib.Path:
     """Returns the folder of a data set of EVENTS, which tests must not change."""
     return made("events", EVENTS)
+
+
+def rig() -> pathlib.Path:
+    """Returns the folder of a data set of RIG with two sequences, which tests must not change."""
+    return made("rig", RIG, "--sequences", "2")
 
 
 def space() -> pathlib.Path:

@@ -3,6 +3,7 @@
 """Tests greatx.campaign on a campaign that the program makes."""
 
 import functools
+import multiprocessing
 import os
 import pathlib
 import pickle
@@ -13,6 +14,7 @@ import unittest
 import numpy as np
 
 import greatx
+import support
 
 BASE = """
 greatx: 1
@@ -129,6 +131,140 @@ class Campaigns(unittest.TestCase):
         (copy / "splits.csv").write_text("cell,sequence,split\nday,0,exam\n")
         with self.assertRaisesRegex(greatx.DatasetError, "splits.csv:2"):
             greatx.campaign(copy)
+
+
+def unlike() -> pathlib.Path:
+    """Returns the folder of a campaign of unlike cells: two of `made`, one with other sensors, and one with a
+    channel alone."""
+    folder = pathlib.Path(tempfile.mkdtemp(dir=TEMPORARY.name))
+    (folder / "data").mkdir()
+    data = made() / "data"
+    cells = {
+        "day": data / "day",
+        "dusk": data / "dusk",
+        "street": support.street(),
+        "space": support.space(),
+    }
+    rows = ["cell,sequence,split"]
+    for cell, place in cells.items():
+        (folder / "data" / cell).symlink_to(place)
+        count = len(greatx.load(place).sequences)
+        rows += [f"{cell},{i},{'train' if i < 2 else 'test'}" for i in range(count)]
+    (folder / "splits.csv").write_text("\n".join(rows) + "\n")
+    return folder
+
+
+def keys_read(samples, reader, readers, queue):
+    """Runs in another process: sends what a reader of ShuffledSamples gets."""
+    order = samples.order(reader, readers)
+    items = [samples.samples[i] for i in order]
+    queue.put([(item["cell"], item["sequence"], item["tick"]) for item in items])
+
+
+class Loading(unittest.TestCase):
+    def test_load_finds_out_what_a_folder_holds(self):
+        opened = greatx.load(made())
+        self.assertIsInstance(opened, greatx.Campaign)
+        self.assertEqual(opened.opened, [])
+        with self.assertRaisesRegex(greatx.DatasetError, "no dataset.json"):
+            greatx.load(made() / "runs")
+        raw = pathlib.Path(tempfile.mkdtemp(dir=TEMPORARY.name))
+        (raw / "cells.json").write_text("{}")
+        with self.assertRaisesRegex(greatx.DatasetError, "greatx campaign merge"):
+            greatx.load(raw)
+
+    def test_nothing_is_opened_before_its_use_and_few_stay_open(self):
+        opened = greatx.Campaign(unlike(), most_open=1, most_files=2)
+        samples = opened.samples("csi/cfr")
+        shuffled = opened.shuffled("csi/cfr", split="train")
+        self.assertEqual((opened.opened, len(opened.files)), ([], 0))
+        for _ in range(2):
+            self.assertEqual(len([item["csi/cfr"] for item in samples]), 12 + 12 + 4 + 6)
+            self.assertEqual(opened.opened, ["space"])
+            self.assertLessEqual(len(opened.files), 2)
+        self.assertEqual(len(list(shuffled)), len(shuffled))
+        # An index is read when its sequence is used.
+        self.assertNotIn("index", vars(opened["day"].sequences[3]))
+        self.assertEqual(len(opened["day"].sequences[3]), 3)
+
+    def test_cells_that_lack_a_sensor(self):
+        opened = greatx.load(unlike())
+        names = ["csi/cfr", "uav/cam/rgb"]
+        with self.assertRaisesRegex(
+            greatx.DatasetError, "2 of 4 cells .* 'street' without uav/cam/rgb.*skip"
+        ):
+            len(opened.samples(names))
+        with self.assertRaisesRegex(ValueError, "error, skip, none"):
+            opened.samples(names, missing="zeros")
+        skipped = opened.samples(names, missing="skip")
+        self.assertEqual((skipped.cells, skipped.left_out), (["day", "dusk"], ["street", "space"]))
+        self.assertNotIn("csi/cfr_present", skipped[0])
+        filled = opened.samples([*names, "csi/paths/delay"], missing="none", pad=True)
+        self.assertEqual((len(filled), filled.left_out), (12 + 12 + 4 + 6, []))
+        for item in filled:
+            has = item["cell"] in ("day", "dusk")
+            self.assertEqual((item["csi/cfr_present"], item["uav/cam/rgb_present"]), (True, has))
+            self.assertEqual(item["uav/cam/rgb"].shape, (16, 24, 3))
+            self.assertEqual(bool(item["uav/cam/rgb"].any()), has)
+            # Paths are padded to the longest record of all cells.
+            self.assertEqual(len(item["csi/paths/delay"]), len(filled[0]["csi/paths/delay"]))
+            record = opened[item["cell"]].sequences[item["sequence"]]["csi"].at(item["tick"])
+            self.assertEqual(item["csi/paths/delay_count"], len(record["delay"]))
+        without = opened.samples(["uav/cam/rgb", "car/lidar/points"], missing="none")
+        self.assertEqual(len(without), 12 + 12 + 2)
+        self.assertEqual(without[0]["car/lidar/points"].shape, (0, 4))
+        with self.assertRaisesRegex(KeyError, "csi/nothing"):
+            len(opened.samples("csi/nothing", missing="none"))
+
+    def test_each_item_comes_once_an_epoch(self):
+        opened = greatx.load(unlike())
+
+        def keys(items):
+            return [(item["cell"], item["sequence"], item["tick"]) for item in items]
+
+        wanted = sorted(keys(opened.samples("csi/cfr", split="train")))
+        orders = []
+        for epoch in range(2):
+            for buffer in (1, 3, 1000):
+                shuffled = opened.shuffled("csi/cfr", split="train", seed=5, buffer=buffer)
+                shuffled.set_epoch(epoch)
+                first = keys(shuffled)
+                self.assertEqual(sorted(first), wanted)
+                self.assertEqual(first, keys(shuffled))  # the same order again
+                orders.append(first)
+        self.assertEqual(len({tuple(order) for order in orders}), 6)
+        self.assertNotIn(wanted, orders)
+        # With one place in the buffer, a sequence stays together, in the order of its ticks.
+        for a, b in zip(orders[0], orders[0][1:]):
+            self.assertTrue(a[:2] != b[:2] or a[2] < b[2])
+        parts = [opened.shuffled("csi/cfr", split="train", seed=5, part=(i, 3)) for i in range(3)]
+        self.assertEqual(sorted(sum((keys(part) for part in parts), [])), wanted)
+        self.assertEqual(sum(len(part) for part in parts), len(wanted))
+        for bad in ({"buffer": 0}, {"seed": -1}, {"part": (2, 2)}):
+            with self.assertRaises(ValueError):
+                opened.shuffled("csi/cfr", **bad)
+
+    def test_workers_by_fork_and_by_spawn(self):
+        opened = greatx.load(unlike())
+        wanted = sorted(
+            (item["cell"], item["sequence"], item["tick"])
+            for item in opened.samples("csi/cfr", split="train")
+        )
+        shuffled = opened.shuffled("csi/cfr", split="train", seed=2)
+        next(iter(shuffled))  # files are open when the workers begin
+        for method in ("fork", "spawn"):
+            context = multiprocessing.get_context(method)
+            queue = context.Queue()
+            workers = [
+                context.Process(target=keys_read, args=(shuffled, reader, 3, queue)) for reader in range(3)
+            ]
+            for worker in workers:
+                worker.start()
+            found = [queue.get(timeout=60) for _ in workers]
+            for worker in workers:
+                worker.join()
+            self.assertEqual(sorted(sum(found, [])), wanted)
+            self.assertTrue(all(found))
 
 
 if __name__ == "__main__":

@@ -3,8 +3,13 @@
 """Tests the readers of PNG, OpenEXR, PLY, PCD and KITTI with files made here, and one format against
 another.
 """
+
+import hashlib
+import json
+import os
 import pathlib
 import struct
+import subprocess
 import tempfile
 import unittest
 import zlib
@@ -199,8 +204,35 @@ class OfADataSet(unittest.TestCase):
         np.testing.assert_array_equal(record.velodyne, record.points)
         for name, values in record.pcd.items():
             np.testing.assert_array_equal(values, cloud[name])
+        header = self.ds["car/lidar"]["cloud"].path(0).read_bytes().split(b"end_header")[0]
+        # The names that Open3D's tensor reader knows.
+        self.assertIn(b"property uint16 ring\n", header)
+        self.assertIn(b"property int instance\n", header)
+        self.assertEqual((record.instance.dtype, cloud["instance"].dtype), (np.uint32, np.uint32))
         self.assertTrue(np.all(record.return_number == 1) and np.all(record.return_count >= 1))
         np.testing.assert_allclose(np.linalg.norm(record.points[:, :3], axis=1), record["range"], rtol=1e-5)
+
+    def test_clouds_of_older_data_sets(self):
+        """Types were called ushort and uint before; the program and the package read both."""
+        folder = support.copy_of(support.street())
+        wanted = {name: np.array(values) for name, values in self.ds["car/lidar"].record(1).cloud.items()}
+        manifest = json.loads((folder / "manifest.json").read_text())
+        for path in sorted((folder / "sequence_0000/car/lidar/cloud").iterdir()):
+            data = path.read_bytes().replace(b"y uint16 ", b"y ushort ").replace(b"y int ", b"y uint ")
+            path.write_bytes(data)
+            (entry,) = [f for f in manifest["files"] if f["path"] == str(path.relative_to(folder))]
+            manifest["totals"]["bytes"] += len(data) - entry["size"]
+            entry.update(size=len(data), sha256=hashlib.sha256(data).hexdigest())
+        (folder / "manifest.json").write_text(json.dumps(manifest))
+        for name, values in greatx.load(folder)["car/lidar"].record(1).cloud.items():
+            np.testing.assert_array_equal(values, wanted[name])
+        subprocess.run([os.environ["GREATX_PROGRAM"], "verify", folder], check=True, capture_output=True)
+        data = path.read_bytes().replace(b"y uint ", b"y int ")
+        path.write_bytes(data[:-1] + b"\xff")
+        with self.assertRaisesRegex(
+            greatx.DatasetError, "000001.ply: is damaged: .*expected material from 0"
+        ):
+            greatx.load(folder)["car/lidar"].record(1).cloud
 
 
 if __name__ == "__main__":

@@ -45,7 +45,7 @@ double way_in(const dvec3& from_start, const dvec3& along, const dvec3& inward, 
 
 /// Tells whether a surface ends, or bends away from where the normal of its facet points.
 bool has_outer_edge(const scene::Scene& scene) {
-  return std::ranges::any_of(scene::find_wedges(scene, edge_options()), [&](const scene::Wedge& wedge) {
+  return scene::any_wedge(scene, edge_options(), [&](const scene::Wedge& wedge) {
     return wedge.facet_n == scene::no_facet ||
            glm::dot(scene.facets[wedge.facet_0].normal, wedge.normal_0) > 0.0;
   });

@@ -347,35 +347,61 @@ class Joiner {
   uint64_t too_short_ = 0;
 };
 
-}  // namespace
-
-std::vector<Wedge> find_wedges(const Scene& scene, const WedgeOptions& options, uint64_t* too_short) {
-  GREATX_CHECK(options.weld_distance_m > 0.0 && options.flat_angle_rad >= 0.0 && options.min_length_m >= 0.0,
-               "weld {} m, flat {} rad, shortest {} m", options.weld_distance_m, options.flat_angle_rad,
-               options.min_length_m);
+std::vector<std::vector<uint32_t>> facets_of_bodies(const Scene& scene) {
   std::vector<std::vector<uint32_t>> of_body(scene.bodies.size());
   for (uint32_t facet = 0; facet < scene.facets.size(); ++facet)
     of_body.at(scene.facets[facet].body).push_back(facet);
+  return of_body;
+}
+
+void check(const WedgeOptions& options) {
+  GREATX_CHECK(options.weld_distance_m > 0.0 && options.flat_angle_rad >= 0.0 && options.min_length_m >= 0.0,
+               "weld {} m, flat {} rad, shortest {} m", options.weld_distance_m, options.flat_angle_rad,
+               options.min_length_m);
+}
+
+/// Appends the wedges between facets of one body.
+void find_in_body(const Scene& scene, const WedgeOptions& options, const std::vector<uint32_t>& facets,
+                  Joiner& joiner, std::vector<Wedge>& wedges) {
+  std::vector<Piece> pieces = EdgeFinder(scene, options, facets).pieces();
+  const auto pair = [](const Piece& piece) { return std::tuple(piece.facet_0, piece.facet_n); };
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [&](const Piece& x, const Piece& y) { return pair(x) < pair(y); });
+  for (size_t begin = 0, end = 0; begin < pieces.size(); begin = end) {
+    while (end < pieces.size() && pair(pieces[end]) == pair(pieces[begin])) ++end;
+    joiner.join(
+        {pieces.begin() + static_cast<ptrdiff_t>(begin), pieces.begin() + static_cast<ptrdiff_t>(end)},
+        wedges);
+  }
+}
+
+}  // namespace
+
+std::vector<Wedge> find_wedges(const Scene& scene, const WedgeOptions& options, uint64_t* too_short) {
+  check(options);
   std::vector<Wedge> wedges;
   Joiner joiner(scene, options);
-  for (const std::vector<uint32_t>& facets : of_body) {
-    std::vector<Piece> pieces = EdgeFinder(scene, options, facets).pieces();
-    const auto pair = [](const Piece& piece) { return std::tuple(piece.facet_0, piece.facet_n); };
-    std::stable_sort(pieces.begin(), pieces.end(),
-                     [&](const Piece& x, const Piece& y) { return pair(x) < pair(y); });
-    for (size_t begin = 0, end = 0; begin < pieces.size(); begin = end) {
-      while (end < pieces.size() && pair(pieces[end]) == pair(pieces[begin])) ++end;
-      joiner.join(
-          {pieces.begin() + static_cast<ptrdiff_t>(begin), pieces.begin() + static_cast<ptrdiff_t>(end)},
-          wedges);
-    }
-  }
+  for (const std::vector<uint32_t>& facets : facets_of_bodies(scene))
+    find_in_body(scene, options, facets, joiner, wedges);
   std::sort(wedges.begin(), wedges.end(), [](const Wedge& x, const Wedge& y) {
     return std::tuple(x.body, x.facet_0, x.facet_n, key(x.a), key(x.b)) <
            std::tuple(y.body, y.facet_0, y.facet_n, key(y.a), key(y.b));
   });
   if (too_short) *too_short = joiner.too_short();
   return wedges;
+}
+
+bool any_wedge(const Scene& scene, const WedgeOptions& options,
+               const std::function<bool(const Wedge&)>& wanted) {
+  check(options);
+  std::vector<std::vector<uint32_t>> bodies = facets_of_bodies(scene);
+  std::ranges::stable_sort(bodies, {}, &std::vector<uint32_t>::size);
+  Joiner joiner(scene, options);
+  return std::ranges::any_of(bodies, [&](const std::vector<uint32_t>& facets) {
+    std::vector<Wedge> wedges;
+    find_in_body(scene, options, facets, joiner, wedges);
+    return std::ranges::any_of(wedges, wanted);
+  });
 }
 
 }  // namespace greatx::scene

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/vec.h"
@@ -57,5 +58,10 @@ struct WedgeOptions {
 /// no wedge. `too_short` receives the number of wedges that are left out because they are too short.
 std::vector<Wedge> find_wedges(const Scene& scene, const WedgeOptions& options = {},
                                uint64_t* too_short = nullptr);
+
+/// Tells whether find_wedges() finds one that `wanted` accepts. It looks at small bodies first and ends with
+/// the first such wedge, so that a scene with a car costs a car's time.
+bool any_wedge(const Scene& scene, const WedgeOptions& options,
+               const std::function<bool(const Wedge&)>& wanted);
 
 }  // namespace greatx::scene

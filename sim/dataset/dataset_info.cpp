@@ -10,6 +10,7 @@
 #include "scene/georeference/georeference.h"
 #include "sim/dataset/packed_outputs.h"
 #include "sim/world/instance_boxes.h"
+#include "sim/world/instance_outlines.h"
 
 namespace greatx::sim {
 
@@ -34,6 +35,7 @@ io::DatasetInfo dataset_info(const Experiment& experiment, const gpu::Device& de
   run["semantic_classes"] = scene::semantic_class_names();
   run["instances"] = nlohmann::json::array();
   const std::vector<InstanceBox> boxes = instance_boxes(*experiment.world);
+  const std::vector<std::optional<InstanceOutline>> outlines = instance_outlines(*experiment.world);
   for (size_t i = 0; i < boxes.size(); ++i) {
     const scene::Instance& instance = scene.instances[i];
     run["instances"].push_back({{"name", instance.name}, {"class", scene::name_of(instance.semantic_class)}});
@@ -42,6 +44,10 @@ io::DatasetInfo dataset_info(const Experiment& experiment, const gpu::Device& de
     if (!boxes[i].box.empty())
       entry["box_m"] = {{boxes[i].box.min.x, boxes[i].box.min.y, boxes[i].box.min.z},
                         {boxes[i].box.max.x, boxes[i].box.max.y, boxes[i].box.max.z}};
+    if (!outlines[i]) continue;
+    entry["outline_height_m"] = outlines[i]->height_m;
+    for (const InstanceOutline::Line& line : outlines[i]->lines)
+      entry["outline_m"].push_back({line.from.x, line.from.y, line.to.x, line.to.y});
   }
   run["materials"] = nlohmann::json::array();
   for (const scene::Material& material : scene.materials) run["materials"].push_back(material.name);

@@ -19,12 +19,17 @@ import re
 import sys
 import textwrap
 
-TOPS = ["core", "gpu", "scene", "renderer", "rf", "io", "sim", "draw", "view", "assets", "apps", "python"]
+TOPS = "core gpu scene renderer rf io sim draw view assets engine apps python".split()
 #: Leaves that every room may include. C++ and GLSL both read shaders/shared. shaders/spirv.h finds compiled
 #: shaders.
 FREE = {"shaders", "shaders/shared"}
 #: Folder of the files of each program or module, by target.
-PROGRAMS = {"greatx": "apps", "greatx_places": "apps/place/program", "greatx_python": "python/src"}
+PROGRAMS = {
+    "greatx": "apps",
+    "greatx_places": "apps/place/program",
+    "greatx_engine_library": "engine/library",
+    "greatx_python": "python/src",
+}
 INCLUDE = re.compile(r'^\s*#include\s+"([^"]+)"', re.MULTILINE)
 ROOM = re.compile(r"((?:^#.*\n)*)^greatx_room\(([^\s)]+)([^)]*)\)", re.MULTILINE)
 LINKS = re.compile(r"^greatx_links\((\S+)([^)]*)\)", re.MULTILINE)
@@ -60,7 +65,7 @@ def rooms_of(root):
             rooms[name] = Room(name, words, set(lists["ROOMS"]), lists["SOURCES"])
         for target, body in LINKS.findall(text):
             folder = PROGRAMS[target]
-            rooms[folder] = Room(folder, f"The program or module {target}.", set(body.split()), None)
+            rooms[folder] = Room(folder, f"The program, library or module {target}.", set(body.split()), None)
     return rooms
 
 
@@ -68,7 +73,8 @@ def include_faults(root, rooms):
     seen = 0
     for top in TOPS:
         for file in sorted((root / top).rglob("*")):
-            if file.suffix not in {".h", ".cpp"}:
+            # An example for users is no part of the program.
+            if file.suffix not in {".h", ".cpp"} or "examples" in file.parts:
                 continue
             name = str(file.parent.relative_to(root))
             where = file.relative_to(root)

@@ -25,6 +25,7 @@ as 0.
 """
 from __future__ import annotations
 
+import argparse
 import functools
 import os
 import pathlib
@@ -45,12 +46,27 @@ OTHERS = {  # options of other programs, and options of greatx's scripts
     "--no-build-isolation",
     "--no-deps",
     "--layout",
+    "--prefix",
     "--table",
 }
 
 
 class Failure(Exception):
     pass
+
+
+@functools.cache
+def converter_options(source: pathlib.Path) -> set[str]:
+    """Returns all options of python3 -m greatx.convert."""
+    sys.path.insert(0, str(source / "python"))
+    from greatx.convert.catalogue import COMMANDS
+
+    found: set[str] = set()
+    for command in COMMANDS:
+        parser = argparse.ArgumentParser()
+        command.arguments(parser)
+        found.update(re.findall(r"(?<![\w-])--[a-z][\w-]*", parser.format_help()))
+    return found
 
 
 class Program:
@@ -243,7 +259,7 @@ class Page:
                     self.program.check(code)
                     self.checked += 1
                 for option in re.findall(r"^--[a-z][\w-]*", code):
-                    if option not in every | OTHERS:
+                    if option not in every | OTHERS | converter_options(self.source):
                         raise Failure(
                             f"greatx {about[1]} has no option {option}"
                             if about

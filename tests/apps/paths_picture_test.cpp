@@ -202,7 +202,7 @@ TEST(Stretches, ALensBendsThem) {
 }
 
 TEST(ShapeCoverage, OverlapsAreNotDenser) {
-  io::Canvas canvas(40, 20, {0, 0, 0});
+  io::Canvas canvas(40, 20, io::Color{0, 0, 0});
   ShapeCoverage coverage(40, 20);
   coverage.line({5, 10}, {20, 10}, 4.0);
   coverage.line({20, 10}, {35, 10}, 4.0);
@@ -217,7 +217,7 @@ TEST(ShapeCoverage, OverlapsAreNotDenser) {
 }
 
 TEST(ShapeCoverage, ALineIsAsWideAsItSays) {
-  io::Canvas canvas(60, 60, {0, 0, 0});
+  io::Canvas canvas(60, 60, io::Color{0, 0, 0});
   ShapeCoverage coverage(60, 60);
   coverage.line({10, 10}, {50, 40}, 3.0);  // the line is 50 pixels long
   coverage.paint(canvas, {0, 0}, {250, 250, 250}, 1.0);

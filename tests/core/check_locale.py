@@ -8,7 +8,7 @@ import re
 import sys
 
 root = pathlib.Path(sys.argv[1])
-folders = ["core", "gpu", "scene", "renderer", "rf", "io", "sim", "assets", "apps", "python/src"]
+folders = ["core", "gpu", "scene", "renderer", "rf", "io", "sim", "assets", "engine", "apps", "python/src"]
 banned = re.compile(
     r"\b(?:std::)?(strtod|strtof|strtold|atof|stod|stof|stold|sscanf|fscanf"
     r"|as_double|as_float|setlocale)\s*\("

@@ -82,7 +82,8 @@ void draw_edges(io::Canvas& canvas, const Pose& sensor_from_box, const float* si
 template <typename Get>
 Array boxes_picture(const Get& get) {
   const Array& rgb = get("rgb");  // for the size
-  io::Canvas canvas(static_cast<int>(2 * rgb.shape[1]), static_cast<int>(2 * rgb.shape[0]), {0, 0, 0});
+  io::Canvas canvas(static_cast<int>(2 * rgb.shape[1]), static_cast<int>(2 * rgb.shape[0]),
+                    io::Color{0, 0, 0});
   const auto id = get("box_instance").template as<uint32_t>();
   const auto size = get("box_size").template as<float>(),
              visibility = get("box_visibility").template as<float>(),

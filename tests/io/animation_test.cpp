@@ -96,6 +96,16 @@ TEST(Animation, PlaysAtItsOwnSpeedOrTenASecond) {
   EXPECT_EQ(every(1, 1).end_ms, 100);
 }
 
+TEST(Animation, PlaysAtTheWishedRate) {
+  std::vector<SheetMoment> moments;
+  for (int64_t i = 0; i < 4; ++i) moments.push_back({i, i * 100'000'000});
+  const Playback playback = playback_of(moments, 30.0);
+  EXPECT_THAT(playback.start_ms, ElementsAre(0, 33, 67, 100));
+  EXPECT_EQ(playback.end_ms, 133);
+  EXPECT_DOUBLE_EQ(playback.speed, 3.0);
+  EXPECT_THAT(playback_of(moments, 0.5).start_ms, ElementsAre(0, 2000, 4000, 6000));
+}
+
 class AnimationOfSample : public testing::Test {
  protected:
   void SetUp() override {
@@ -106,13 +116,13 @@ class AnimationOfSample : public testing::Test {
   const std::filesystem::path set_ = folder_.path() / "set";
 };
 
-/// The camera at 30 Hz has three frames in 70 ms, and the animation shows all of them. Four panels form a
-/// square of two by two.
+/// The camera at 30 Hz has three frames in 70 ms, and the animation shows all of them: four pictures, the
+/// trajectories and the channel, three by two.
 TEST_F(AnimationOfSample, ShowsWhatThePanelsShow) {
   const DatasetReader reader(set_);
-  const AnimationFile written = write_animation(reader, folder_.path() / "first.webp", 40, 1);
+  const AnimationFile written = write_animation(reader, folder_.path() / "first.webp", {}, 1);
   EXPECT_EQ(written.frames, 3u);
-  EXPECT_EQ(written.width, 2 * 28 + 2 * 400 + 14);
+  EXPECT_EQ(written.width, 2 * 28 + 3 * 400 + 2 * 14);
   EXPECT_EQ(written.bytes, std::filesystem::file_size(folder_.path() / "first.webp"));
 
   const Decoded decoded = decode(read_file(folder_.path() / "first.webp"));
@@ -120,32 +130,50 @@ TEST_F(AnimationOfSample, ShowsWhatThePanelsShow) {
   EXPECT_THAT(decoded.end_ms, ElementsAre(33, 67, written.duration_ms)) << "ticks of 1 kHz: 0, 33, 67";
   EXPECT_EQ(decoded.info.canvas_width, static_cast<uint32_t>(written.width));
   EXPECT_EQ(decoded.info.canvas_height, static_cast<uint32_t>(written.height));
-  const Animation animation(reader, 40, 1);
+  const Animation animation(reader, {}, 1);
   for (size_t i = 0; i < 3; ++i) {
     EXPECT_LT(mean_difference(decoded.rgb[i], animation.frame(i)), 6.0) << i;
     EXPECT_GT(mean_difference(decoded.rgb[i], animation.frame((i + 1) % 3)), 12.0) << i;
   }
-  write_animation(reader, folder_.path() / "again" / "x.webp", 40, 1);
+  write_animation(reader, folder_.path() / "again" / "x.webp", {}, 1);
   EXPECT_EQ(read_file(folder_.path() / "again" / "x.webp"), read_file(folder_.path() / "first.webp"));
+}
+
+TEST_F(AnimationOfSample, ShowsChosenSensorsAlone) {
+  const DatasetReader reader(set_);
+  AnimationOptions options;
+  options.sheet.sensors = {"uav/lidar"};
+  EXPECT_EQ(Animation(reader, options).width(), 2 * 28 + 400);
+  options.sheet.sensors = {"uav/lidar", "poses"};
+  options.sheet.factor = 2;
+  EXPECT_EQ(Animation(reader, options).width(), 2 * (2 * 28 + 2 * 400 + 14)) << "a picture and a plot";
+  options.sheet.sensors = {"uav"};
+  options.sheet.factor = 1;
+  EXPECT_EQ(Animation(reader, options).width(), 2 * 28 + 2 * 400 + 14);
+  options.sheet.sensors = {"uav/lidra"};
+  EXPECT_THAT(error_of([&] { Animation(reader, options); }),
+              HasSubstr("expected the name of a sensor, a channel or a node, found 'uav/lidra'"));
 }
 
 TEST_F(AnimationOfSample, TakesSoManyFramesFromFirstToLast) {
   const DatasetReader reader(set_);
-  EXPECT_EQ(Animation(reader, 2).frames(), 2u);
-  EXPECT_EQ(Animation(reader, 2).frame(1).bytes.size(), Animation(reader, 3).frame(2).bytes.size());
-  EXPECT_EQ(choose_moments(reader, 0, 2).back().tick, choose_moments(reader, 0, 3).back().tick);
-  EXPECT_EQ(choose_moments(reader, 0, 1).size(), 1u);
-  write_animation(reader, folder_.path() / "one.webp", 1);
+  const std::vector<size_t> all = shown_sensors(reader, {});
+  EXPECT_EQ(Animation(reader, {.frames = 2}).frames(), 2u);
+  EXPECT_EQ(Animation(reader, {.frames = 2}).frame(1).bytes.size(),
+            Animation(reader, {.frames = 3}).frame(2).bytes.size());
+  EXPECT_EQ(choose_moments(reader, 0, all, 2).back().tick, choose_moments(reader, 0, all, 3).back().tick);
+  EXPECT_EQ(choose_moments(reader, 0, all, 1).size(), 1u);
+  write_animation(reader, folder_.path() / "one.webp", {.frames = 1});
   EXPECT_EQ(decode(read_file(folder_.path() / "one.webp")).rgb.size(), 1u);
 }
 
 TEST_F(AnimationOfSample, BadInputIsNamed) {
   const DatasetReader reader(set_);
-  EXPECT_THAT(error_of([&] { write_animation(reader, folder_.path() / "x.gif", 40); }),
-              HasSubstr("ends in .webp, found '" + (folder_.path() / "x.gif").string()));
-  EXPECT_THAT(error_of([&] { write_animation(reader, folder_.path() / "x.webp", 0); }),
+  EXPECT_THAT(error_of([&] { write_animation(reader, folder_.path() / "x.gif", {}); }),
+              HasSubstr("x.gif: expected a name that ends in .webp"));
+  EXPECT_THAT(error_of([&] { write_animation(reader, folder_.path() / "x.webp", {.frames = 0}); }),
               HasSubstr("1 frame or more, found 0"));
-  EXPECT_THAT(error_of([&] { write_animation(reader, folder_.path() / "x.webp", 40, 2); }),
+  EXPECT_THAT(error_of([&] { write_animation(reader, folder_.path() / "x.webp", {}, 2); }),
               HasSubstr("sequence 2 has no records"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "x.webp"));
 }
@@ -165,7 +193,7 @@ TEST(Animation, NeedsASensorThatIsDrawnMomentByMoment) {
     }
     writer.flush();
   }
-  EXPECT_THAT(error_of([&] { Animation(DatasetReader(folder.path()), 40); }),
+  EXPECT_THAT(error_of([&] { Animation(DatasetReader(folder.path()), {}); }),
               HasSubstr("nothing to animate"));
 }
 

@@ -23,7 +23,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 TEST(Canvas, DrawsInsideItsClipOnly) {
-  Canvas canvas(20, 10, {0, 0, 0});
+  Canvas canvas(20, 10, Color{0, 0, 0});
   canvas.clip({5, 2, 4, 4});
   canvas.fill({0, 0, 20, 10}, {255, 0, 0});
   const Array image = canvas.image();
@@ -33,7 +33,7 @@ TEST(Canvas, DrawsInsideItsClipOnly) {
 }
 
 TEST(Canvas, TextHasTheGlyphsDots) {
-  Canvas canvas(20, 20, {0, 0, 0});
+  Canvas canvas(20, 20, Color{0, 0, 0});
   canvas.text(0, 0, "!", 2,
               {255, 255, 255});  // the glyph is one column of seven rows, of which the sixth is empty
   const Array image = canvas.image();
@@ -45,7 +45,7 @@ TEST(Canvas, TextHasTheGlyphsDots) {
 TEST(Canvas, PictureKeepsTheMeanWhenItShrinks) {
   Array rgb(DType::u8, {4, 4, 3});
   for (size_t i = 0; i < 48; ++i) rgb.as<uint8_t>()[i] = i / 3 % 2 == 0 ? 200 : 100;
-  Canvas canvas(2, 2, {0, 0, 0});
+  Canvas canvas(2, 2, Color{0, 0, 0});
   canvas.picture({0, 0, 2, 2}, rgb);
   const Array image = canvas.image();
   for (const uint8_t value : image.as<uint8_t>()) EXPECT_EQ(value, 150);
@@ -105,6 +105,174 @@ TEST(ContactSheet, WorksForAnySensorAlone) {
     EXPECT_GT(contact_sheet(DatasetReader(folder.path())).shape[1], 1000)
         << "an unfinished set, " << info.sensors[0].name;
   }
+}
+
+/// Writes a data set of cameras with long names and pictures from 1 x 1 to 1 x 300 pixels, each with a
+/// segmentation of many ids, beside poses.
+void write_cameras(const std::filesystem::path& folder, size_t count) {
+  DatasetInfo info;
+  info.tick_rate = "10";
+  info.ticks_per_sequence = 5;
+  const int64_t sizes[][2] = {{1, 1}, {1, 300}, {300, 1}, {48, 64}};
+  nlohmann::json run{{"scenario", std::string(90, 'x')}, {"instances", nlohmann::json::array()}};
+  for (int i = 0; i < 40; ++i)
+    run["instances"].push_back(
+        {{"name", "a_thing_with_quite_a_long_name_" + std::to_string(i)}, {"class", "building"}});
+  run["instances"][7]["node"] = "a_node_that_moves";
+  info.run_json = run.dump();
+  for (size_t c = 0; c < count; ++c) {
+    const auto& [height, width] = sizes[c % 4];
+    info.sensors.push_back({fmt::format("an_unmanned_aerial_vehicle_{}/camera_front_left_wide", c),
+                            "camera",
+                            "10",
+                            {{"rgb", DType::u8, {height, width, 3}, "1", ""},
+                             {"depth", DType::f32, {height, width}, "m", ""},
+                             {"instance", DType::u16, {height, width}, "1", ""}},
+                            {{"rgb", FileFormat::png, {"rgb"}},
+                             {"depth", FileFormat::exr, {"depth"}},
+                             {"instance", FileFormat::png, {"instance"}}},
+                            "{}"});
+  }
+  info.sensors.push_back(
+      {"poses",
+       "pose",
+       "10",
+       {{"position", DType::f64, {12, 3}, "m", ""}, {"velocity", DType::f64, {12, 3}, "m/s", ""}},
+       {{"position", FileFormat::npy_stack, {"position"}}, {"velocity", FileFormat::npy_stack, {"velocity"}}},
+       R"({"nodes": ["one", "two", "a_node_that_moves", "four", "five", "six", "seven"]})"});
+  DatasetWriter writer(folder, info);
+  writer.begin_sequence(0);
+  for (int64_t tick = 0; tick < 5; ++tick) {
+    Packet packet{tick, tick * 100'000'000, {}};
+    for (uint32_t c = 0; c < count; ++c) {
+      const auto& [height, width] = sizes[c % 4];
+      Array depth(DType::f32, {height, width}), ids(DType::u16, {height, width});
+      for (size_t i = 0; i < ids.as<uint16_t>().size(); ++i) {
+        depth.as<float>()[i] = 1.0f + static_cast<float>(i);
+        ids.as<uint16_t>()[i] = static_cast<uint16_t>(i % 41);
+      }
+      packet.records.push_back(
+          {c, tick, packet.time_ns, tick, {Array(DType::u8, {height, width, 3}), depth, ids}});
+    }
+    Array position(DType::f64, {12, 3}), velocity(DType::f64, {12, 3});
+    for (size_t i = 0; i < 36; ++i)
+      position.as<double>()[i] = 5e6 + static_cast<double>(i) * 3.7 + static_cast<double>(tick);
+    packet.records.push_back(
+        {static_cast<uint32_t>(count), tick, packet.time_ns, tick, {position, velocity}});
+    writer.write(std::move(packet));
+  }
+  writer.end_sequence();
+  writer.finish();
+}
+
+/// Whatever the number of sensors, the length of names and the shape of pictures: no text covers another one
+/// or is cut off.
+TEST(ContactSheet, TextsNeitherOverlapNorAreCut) {
+  for (const size_t cameras : {1, 3, 6, 12}) {
+    const test::TemporaryFolder folder;
+    write_cameras(folder.path() / "set", cameras);
+    const Canvas sheet = drawn_contact_sheet(DatasetReader(folder.path() / "set"));
+    const std::vector<DrawnText>& texts = sheet.texts();
+    EXPECT_GT(texts.size(), 20 * cameras);
+    for (size_t i = 0; i < texts.size(); ++i) {
+      EXPECT_TRUE(texts[i].whole) << texts[i].text;
+      for (size_t j = i + 1; j < texts.size(); ++j)
+        ASSERT_FALSE(texts[i].rect.overlaps(texts[j].rect))
+            << cameras << " cameras: '" << texts[i].text << "' and '" << texts[j].text << "'";
+    }
+  }
+}
+
+/// The key names what is seen, in the colours of the picture; what moves comes first.
+TEST(ContactSheet, TheKeyOfIdsNamesWhatIsSeen) {
+  const test::TemporaryFolder folder;
+  write_cameras(folder.path() / "set", 4);
+  const DatasetReader reader(folder.path() / "set");
+  const auto scene = std::make_shared<const SceneFacts>(scene_facts(reader));
+  for (const auto& [camera, seen] : {std::pair(size_t{0}, 0), std::pair(size_t{3}, 40)}) {
+    Panels panels;
+    add_panels({reader, 0, camera, reader.records_of(0, camera), {}, scene}, panels);
+    ASSERT_EQ(panels.frames.size(), 3u);
+    const std::vector<KeyEntry> key = panels.frames[2]->key(light_theme());
+    if (seen == 0) {
+      EXPECT_TRUE(key.empty()) << "the only pixel has id 0";
+      continue;
+    }
+    ASSERT_EQ(key.size(), most_key_entries);
+    EXPECT_EQ(key[0].text, "8 a_thing_with_quite_a_long_name_7 (building)");
+    EXPECT_EQ(key.back().text, "and 32 more");
+    const Color color = color_of_id(light_theme(), 8);
+    EXPECT_EQ(std::tuple(key[0].color.r, key[0].color.g, key[0].color.b),
+              std::tuple(color.r, color.g, color.b));
+    // A pixel of the picture with this id has the colour.
+    Canvas canvas(64, 80, light_theme());
+    panels.frames[2]->draw(canvas, {0, 0, 64, 48}, {0, 50, 64, 20}, 0);
+    const Array image = canvas.image();
+    EXPECT_EQ(image.as<uint8_t>()[3 * 8 + 2], color.b);
+  }
+}
+
+TEST(ContactSheet, IdsAreThoseWished) {
+  const test::TemporaryFolder folder;
+  DatasetInfo info;
+  info.ticks_per_sequence = 1;
+  info.sensors = {{"uav/cam", "camera", "1000", {}, {}, "{}"}};
+  for (const char* name : {"instance", "semantic", "material"}) {
+    info.sensors[0].arrays.push_back({name, DType::u8, {2, 2}, "1", ""});
+    info.sensors[0].outputs.push_back({name, FileFormat::png, {name}});
+  }
+  DatasetWriter writer(folder.path(), info);
+  writer.begin_sequence(0);
+  Packet packet{0, 0, {}};
+  packet.records.push_back(
+      {0, 0, 0, 0, {Array(DType::u8, {2, 2}), Array(DType::u8, {2, 2}), Array(DType::u8, {2, 2})}});
+  writer.write(std::move(packet));
+  writer.end_sequence();
+  writer.finish();
+  const DatasetReader reader(folder.path());
+  for (const auto& [wish, title] : {std::pair("", "uav/cam instances"),
+                                    {"semantic", "uav/cam semantic"},
+                                    {"material", "uav/cam material"}}) {
+    Panels panels;
+    add_panels({reader, 0, 0, reader.records_of(0, 0)}, panels, {.ids = wish, .links = {}});
+    ASSERT_EQ(panels.frames.size(), 1u);
+    EXPECT_EQ(panels.frames[0]->title(), title);
+  }
+}
+
+/// Outlines of a run, and boxes of buildings where a run has none.
+TEST(SceneOutlines, AreThoseOfTheRunOrItsBoxes) {
+  const test::TemporaryFolder folder;
+  const auto outlines_with = [&](const std::string& instances) {
+    std::filesystem::remove_all(folder.path() / "set");
+    DatasetInfo info = sample_info();
+    info.run_json = fmt::format(R"({{"instances": {}}})", instances);
+    DatasetWriter writer(folder.path() / "set", info);
+    EXPECT_TRUE(write_sample_run(writer, info));
+    return scene_outlines(DatasetReader(folder.path() / "set"));
+  };
+  const char* const boxes = R"({"name": "b", "class": "building", "box_m": [[10, 10, 0], [20, 30, 8]]},
+    {"name": "c", "class": "vegetation", "box_m": [[10, 10, 0], [20, 30, 8]]},
+    {"name": "d", "class": "building", "node": "uav", "box_m": [[0, 0, 0], [1, 1, 1]]})";
+  const std::vector<OutlineLine> lines =
+      outlines_with(fmt::format(R"([{{"name": "a", "class": "building", "outline_height_m": 4.5,
+                        "outline_m": [[0, 1, 2, 1], [2, 1, 2, 3]]}}, {}])",
+                                boxes));
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[1].to, dvec3(2, 3, 4.5));
+  const std::vector<OutlineLine> sides = outlines_with(fmt::format("[{}]", boxes));
+  ASSERT_EQ(sides.size(), 4u);
+  EXPECT_EQ(sides[0].from, dvec3(10, 10, 4));
+  EXPECT_EQ(sides[3].to, dvec3(10, 10, 4)) << "the box is closed";
+  for (const auto& [instances, place] :
+       {std::pair(R"([{"name": "a", "outline_m": [[0, 1, 2, 1]]}])", "outline_height_m"),
+        {R"([{"name": "a", "outline_height_m": 1, "outline_m": [[0, 1, 2]]}])", "instances[0].outline_m[0]"}})
+    try {
+      outlines_with(instances);
+      ADD_FAILURE() << instances;
+    } catch (const UserError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(place));
+    }
 }
 
 /// A path of known delay and amplitude is a line at this delay in the picture of |h|. Its value is |a| in dB.
@@ -274,7 +442,7 @@ TEST(ContactSheet, SensingFromAboveShowsTheMapAndItsMarks) {
   };
   const Color top = viridis(1.0), floor = viridis(1.0 / 41.0);
   // Between the ring of 10 m and the mark.
-  EXPECT_THAT(color_at(9.4, 0.4), ElementsAre(top.r, top.g, top.b));
+  EXPECT_THAT(color_at(9.7, 0.4), ElementsAre(top.r, top.g, top.b));
   EXPECT_THAT(color_at(15.5, 0.6), ElementsAre(floor.r, floor.g, floor.b));
 }
 

@@ -332,14 +332,38 @@ TEST(Ply, RoundTrips) {
   const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
   EXPECT_TRUE(
       text.starts_with("ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\n"
-                       "property float y\nproperty float z\nproperty float intensity\nproperty ushort ring\n"
-                       "property uint instance\nend_header\n"));
+                       "property float y\nproperty float z\nproperty float intensity\nproperty uint16 ring\n"
+                       "property int instance\nend_header\n"));
   const std::map<std::string, Array> back = decode_ply(file, "x.ply");
   EXPECT_EQ(back.at("z").as<float>()[1], 6.0f);
   EXPECT_EQ(back.at("intensity").as<float>()[0], 0.5f);
   EXPECT_EQ(back.at("ring").as<uint16_t>()[1], 65535);
-  EXPECT_EQ(back.at("instance").as<uint32_t>()[0], 70000u);
+  EXPECT_EQ(back.at("instance").as<int32_t>()[0], 70000);
   EXPECT_THROW(decode_ply(std::span(file).first(file.size() - 1), "x.ply"), UserError);
+}
+
+TEST(Ply, ReadsTheTypeNamesOfOlderFiles) {
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty ushort ring\n"
+      "property uint instance\nproperty uchar class\nend_header\n";
+  Bytes file(header.size() + 7);
+  std::memcpy(file.data(), header.data(), header.size());
+  const unsigned char row[] = {0xff, 0xff, 0x04, 0x03, 0x02, 0xf1, 9};
+  std::memcpy(file.data() + header.size(), row, sizeof row);
+  const std::map<std::string, Array> back = decode_ply(file, "x.ply");
+  EXPECT_EQ(back.at("ring").as<uint16_t>()[0], 65535);
+  EXPECT_EQ(back.at("instance").as<uint32_t>()[0], 0xf1020304u);
+  EXPECT_EQ(back.at("class").as<uint8_t>()[0], 9);
+}
+
+TEST(Ply, RefusesNumbersThatNoTypeHolds) {
+  const std::vector<float> points{1, 2, 3, 0.5f};
+  const std::vector<uint32_t> most{0x7fffffff}, beyond{0x80000000};
+  const Array a = Array::of<float>({1, 4}, points), fits = Array::of<uint32_t>({1}, most),
+              large = Array::of<uint32_t>({1}, beyond);
+  EXPECT_EQ(decode_ply(encode_ply({"points", "id"}, {&a, &fits}), "x.ply").at("id").as<int32_t>()[0],
+            0x7fffffff);
+  EXPECT_THROW(encode_ply({"points", "id"}, {&a, &large}), UserError);
 }
 
 TEST(Ply, MayBeEmpty) {

@@ -82,7 +82,7 @@ def pcd(path):
     return points
 def ply(path):
     head, _, data = open(path, "rb").read().partition(b"end_header\n")
-    kinds = {"float": "<f4", "ushort": "<u2"}
+    kinds = {"float": "<f4", "uint16": "<u2"}
     return numpy.frombuffer(data, [(w[2], kinds[w[1]]) for w in )"
                                   R"((line.split() for line in head.decode().splitlines())
                                    if w[0] == "property"])

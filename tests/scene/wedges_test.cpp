@@ -312,6 +312,32 @@ TEST(FindWedges, TooShort) {
   EXPECT_EQ(too_short, 4u);
 }
 
+TEST(FindWedges, AnyWedgeLooksAtSmallBodiesFirst) {
+  Hand hand;
+  hand.box({0, 0, 0}, {4, 5, 6});
+  hand.box({0, 0, 10}, {4, 5, 6});  // one static body with 24 wedges, and a plate on a body of its own
+  const uint32_t first = static_cast<uint32_t>(hand.scene.facets.size());
+  hand.plate({20, 0, 0}, {3, 0, 0}, {0, 3, 0});
+  hand.scene.bodies.resize(2);
+  for (uint32_t facet = first; facet < hand.scene.facets.size(); ++facet) hand.scene.facets[facet].body = 1;
+  const WedgeOptions options{.free_edges = true};
+  const std::vector<Wedge> all = find_wedges(hand.scene, options);
+  ASSERT_EQ(all.size(), 28u);
+  size_t asked = 0;
+  EXPECT_TRUE(any_wedge(hand.scene, options, [&](const Wedge&) { return ++asked > 0; }));
+  EXPECT_EQ(asked, 1u);
+  std::vector<uint32_t> bodies;
+  EXPECT_FALSE(any_wedge(hand.scene, options, [&](const Wedge& wedge) {
+    bodies.push_back(wedge.body);
+    return false;
+  }));
+  ASSERT_EQ(bodies.size(), all.size());
+  EXPECT_TRUE(std::ranges::is_sorted(bodies, std::greater<>()));
+  for (const Wedge& wanted : all)
+    EXPECT_TRUE(any_wedge(hand.scene, options,
+                          [&](const Wedge& wedge) { return wedge.a == wanted.a && wedge.b == wanted.b; }));
+}
+
 TEST(FindWedges, RoundingOfAFileMovesNothing) {
   Hand hand;
   hand.box({0, 0, 0}, {4, 5, 6});

@@ -19,8 +19,8 @@
 #include "core/error.h"
 #include "io/files/file.h"
 #include "io/formats/png.h"
+#include "io/video/frame_file.h"
 #include "tests/support/temporary_folder.h"
-#include "view/record/frame_file.h"
 
 namespace greatx::view {
 namespace {
@@ -145,7 +145,7 @@ TEST_F(Recording, FaultsNameTheFile) {
   EXPECT_THAT(fault_of(folder() / "b.webp"), HasSubstr("expected a file or nothing"));
   EXPECT_THAT(
       fault_of(folder() / "a.mp4"),
-      HasSubstr(writes_video() ? "nothing was recorded" : "this greatx was built without libavformat"));
+      HasSubstr(io::writes_video() ? "nothing was recorded" : "this greatx was built without libavformat"));
 }
 
 TEST_F(Recording, WhatCannotBeWrittenIsAnErrorAndLeavesNothing) {
@@ -173,7 +173,7 @@ TEST_F(Recording, AFileThatMayNotGrowIsAnErrorAndLeavesNothing) {
 }
 
 TEST_F(Recording, VideosAreComplete) {
-  if (!writes_video()) GTEST_SKIP() << "built without libavformat";
+  if (!io::writes_video()) GTEST_SKIP() << "built without libavformat";
   for (const char* const name : {"v.mp4", "v.mkv", "v.mov", "v.webm"}) {
     const RecorderStatus status = record(folder() / name, 20, 65, 49);
     EXPECT_EQ(status.error, "") << name;

@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "view/record/frame_file.h"
+#include "io/video/frame_file.h"
 
 namespace greatx::view {
 
@@ -167,8 +167,8 @@ void Recording::draw() {
     ImGui::SetNextItemWidth(28.0f * ImGui::GetFontSize());
     ImGui::InputText("file", dialog_name_, sizeof dialog_name_);
     ImGui::TextDisabled("%s; a name without an ending becomes a folder of PNG files",
-                        frame_file_endings().c_str());
-    if (!writes_video()) ImGui::TextDisabled("Videos: this greatx was built without libavformat.");
+                        io::frame_file_endings().c_str());
+    if (!io::writes_video()) ImGui::TextDisabled("Videos: this greatx was built without libavformat.");
     if (ImGui::RadioButton("one picture for each tick", dialog_ticks_)) dialog_ticks_ = true;
     if (ImGui::RadioButton("every frame, 30 a second", !dialog_ticks_)) dialog_ticks_ = false;
     if (ImGui::Button("Record")) {

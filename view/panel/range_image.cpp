@@ -110,7 +110,7 @@ class RangeImage : public Panel {
     picture_ = {left, 0, canvas.width() - left - (axes ? 20 : 0), canvas.height() - bottom};
     canvas.raster(picture_, picture_.width, picture_.height, [&](int x, int y) {
       const uint32_t i = nearest_below(x, y);
-      if (i == empty_cell) return io::color_of_sky;
+      if (i == empty_cell) return canvas.theme().sky;
       return range_color(scale_.at(std::max<double>(ranges_[i], 0.01)));
     });
     if (axes) draw_axes(canvas);

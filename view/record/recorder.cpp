@@ -10,7 +10,7 @@
 
 #include "core/activity.h"
 #include "core/error.h"
-#include "view/record/frame_file.h"
+#include "io/video/frame_file.h"
 
 namespace greatx::view {
 
@@ -22,7 +22,7 @@ constexpr int64_t last_frame_ms = 100;  ///< if nobody says how long it is shown
 
 Recorder::Recorder(std::filesystem::path path, WhenFull when_full, size_t most_bytes)
     : path_(std::move(path)), when_full_(when_full), most_bytes_(most_bytes) {
-  check_frame_file(path_);
+  io::check_frame_file(path_);
   thread_ = std::thread([this] { work(); });
 }
 
@@ -96,13 +96,13 @@ void Recorder::work() {
 }
 
 void Recorder::write_frames() {
-  std::unique_ptr<FrameFile> file;
+  std::unique_ptr<io::FrameFile> file;
   std::vector<int64_t> shape;
   int64_t end_ms = 0;
   for (Frame frame; take(frame);) {
     if (file == nullptr) {
       shape = frame.rgb.shape;
-      file = open_frame_file(path_, static_cast<int>(shape.at(1)), static_cast<int>(shape.at(0)));
+      file = io::open_frame_file(path_, static_cast<int>(shape.at(1)), static_cast<int>(shape.at(0)));
     } else if (frame.rgb.shape != shape && !file->takes_any_size()) {
       const std::lock_guard lock(mutex_);
       status_.note = "the window's size has changed, so the recording has ended";

@@ -35,7 +35,7 @@ class Recorder {
   /// The bytes of the pictures that may wait. One picture may always wait.
   static constexpr size_t most_waiting_bytes = size_t{192} << 20;
 
-  /// Throws UserError if the file cannot be recorded to (check_frame_file()).
+  /// Throws UserError if the file cannot be recorded to (io::check_frame_file()).
   Recorder(std::filesystem::path path, WhenFull when_full, size_t most_bytes = most_waiting_bytes);
   /// Completes the file, which may take a while.
   ~Recorder();

@@ -1,19 +1,21 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """The command python3 -m greatx.convert. Its exit codes are those of greatx: 0 for success, 1 for faulty
-input or data, or if a package is missing that the converter needs.
+input or data, or if a package is missing that the converter needs, 130 if somebody stops it.
 """
 
 from __future__ import annotations
 
 import argparse
 import errno
+import pathlib
 import re
 import sys
 from typing import List, NoReturn, Optional
 
-from .. import DatasetError, load
+from .. import Campaign, DatasetError, load
 from ..errors import nearest
+from ..files import interpreting
 from .catalogue import COMMANDS
 
 
@@ -39,7 +41,7 @@ def _words(error: Exception, out: str) -> str:
 def main(arguments: Optional[List[str]] = None) -> int:
     parser = _Parser(
         prog="python3 -m greatx.convert",
-        description="Writes a data set in the conventions of another tool (docs/converters.md). Nothing is "
+        description="Writes a data set in the conventions of another tool (docs/exports.md). Nothing is "
         "normalised.",
     )
     commands = parser.add_subparsers(dest="to", required=True, metavar="TOOL")
@@ -51,10 +53,20 @@ def main(arguments: Optional[List[str]] = None) -> int:
         command.arguments(sub)
     given = parser.parse_args(arguments)
     try:
-        summary = by_name[given.to].run(load(given.DIR), given)
+        dataset = load(given.DIR)
+        if isinstance(dataset, Campaign):
+            raise DatasetError(
+                f"{given.DIR}: expected a data set, found a campaign; convert one of its cells, as "
+                f"{pathlib.Path(given.DIR, 'data', dataset.cells[0])}"
+            )
+        with interpreting(given.DIR):
+            summary = by_name[given.to].run(dataset, given)
     except (DatasetError, OSError, ImportError) as error:
         print(f"error: {_words(error, given.OUT)}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print(f"error: interrupted; {given.OUT} is not made", file=sys.stderr)
+        return 130
     print(f"{given.OUT}: " + ", ".join(f"{value} {key}" for key, value in summary.items()))
     return 0
 

@@ -4,9 +4,30 @@
 
 from __future__ import annotations
 
-from . import deepmimo, sionna
+from . import (
+    coco,
+    deepmimo,
+    dsec,
+    hdf5,
+    kitti,
+    mcap,
+    nuscenes,
+    radar,
+    sionna,
+    trajectories,
+    webdataset,
+)
 
 COMMANDS = (
     deepmimo.COMMAND,
     sionna.COMMAND,
+    *kitti.COMMANDS,
+    nuscenes.COMMAND,
+    coco.COMMAND,
+    hdf5.COMMAND,
+    webdataset.COMMAND,
+    *trajectories.COMMANDS,
+    dsec.COMMAND,
+    mcap.COMMAND,
+    *radar.COMMANDS,
 )
