@@ -45,13 +45,15 @@ struct Options {
   std::vector<uint32_t> cores{32, 320};
 };
 
-void add_common(CLI::App& command, const std::shared_ptr<Options>& options) {
+/// `has_folder`: the command reads or writes the folder of the campaign.
+void add_common(CLI::App& command, const std::shared_ptr<Options>& options, bool has_folder) {
   command
       .add_option("CAMPAIGN", options->campaign.file,
                   "campaign file (.yaml), or an embedded one: " + embedded_campaign_names())
       ->required();
-  command.add_option("-o,--output", options->campaign.output, "folder of the campaign")
-      ->capture_default_str();
+  CLI::Option* output =
+      command.add_option("-o,--output", options->campaign.output, "folder of the campaign, such as out/mini");
+  if (has_folder) output->required();
   command.add_option("--assets", options->campaign.assets,
                      "folder to look in for files that are not beside the scenarios");
   command.add_option("--cell", options->campaign.cells, "only these cells; `plan` lists them");
@@ -306,7 +308,7 @@ void add_campaign(CLI::App& app) {
   const auto add = [&](const char* name, const char* text, void (*call)(const Options&)) {
     CLI::App* command = campaign->add_subcommand(name, text);
     auto options = std::make_shared<Options>();
-    add_common(*command, options);
+    add_common(*command, options, call != plan);
     command->callback([options, call] { call(*options); });
     return std::pair(command, options);
   };

@@ -30,7 +30,7 @@ namespace {
 struct GenerateOptions {
   ScenarioOptions scenario;
   RunOptions run;
-  std::string output = "out/dataset", compression;
+  std::string output, compression;
   bool resume = false, json = false, quiet = false;
   uint32_t threads = 0;
 };
@@ -76,11 +76,24 @@ sim::Experiment with_settings(sim::Experiment experiment, const GenerateOptions&
   return sim::make_experiment(std::move(resolved.scenario), experiment);
 }
 
+/// A data set takes megabytes to terabytes, so that a folder is not chosen for the user.
+void require_output(const GenerateOptions& options, const sim::Scenario& scenario) {
+  if (!options.output.empty()) return;
+  const std::string& name = options.scenario.scenario;
+  throw_user_error(
+      "-o: expected the folder of the data set, found none; for example: greatx generate {} -o out/{}\n"
+      "The scenario has {} ticks in {} sequence{}; `greatx check {}` measures how many gigabytes and hours "
+      "they take.",
+      name, scenario.name, scenario.ticks, scenario.sequences, scenario.sequences == 1 ? "" : "s", name);
+}
+
 void run_generate(const GenerateOptions& options) {
   const Clock::time_point begin = Clock::now();
   ScenarioOptions chosen = options.scenario;
   if (!options.compression.empty()) chosen.set.push_back("storage.compression=" + options.compression);
-  sim::Experiment asked = sim::make_experiment(load_scenario(chosen, true));
+  sim::Scenario scenario = load_scenario(chosen, true);
+  require_output(options, scenario);
+  sim::Experiment asked = sim::make_experiment(std::move(scenario));
   gpu::Device device(options.run.device_options());
   const std::filesystem::path calibration_file = std::filesystem::path(options.output) / io::calibration_file;
   nlohmann::json calibration;
@@ -159,12 +172,12 @@ void add_generate(CLI::App& app) {
   auto options = std::make_shared<GenerateOptions>();
   options->scenario.add_to(*command);
   options->run.add_to(*command);
-  command->add_option("-o,--output", options->output, "folder of the data set")->capture_default_str();
+  command->add_option("-o,--output", options->output, "folder of the data set, such as out/city (required)");
   command
       ->add_option("--compression", options->compression,
                    "how large arrays are stored: none (NumPy files), fast or small (HDF5 files; "
                    "docs/dataset.md) [the scenario's storage.compression, else none]")
-      ->check(CLI::IsMember({"none", "fast", "small"}));
+      ->check(one_of({"none", "fast", "small"}));
   command->add_flag("--resume", options->resume,
                     "go on with an unfinished data set; the finished one has the same bytes");
   command

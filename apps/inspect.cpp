@@ -153,7 +153,7 @@ void add_inspect(CLI::App& app) {
   command->add_option("--picture", options->picture, "where the contact sheet goes [DIR/contact_sheet.png]");
   command->add_option("--theme", options->theme, "colours: dark for screens, light for paper")
       ->capture_default_str()
-      ->check(CLI::IsMember({"dark", "light"}));
+      ->check(one_of({"dark", "light"}));
   command
       ->add_option("--scale", options->scale, "pixels along a side for one, for print: 2 doubles both sides")
       ->capture_default_str()
@@ -170,7 +170,7 @@ void add_inspect(CLI::App& app) {
       ->expected(1);
   command
       ->add_option("--ids", options->ids, "of pictures of ids the one to draw [the first that a camera has]")
-      ->check(CLI::IsMember({"instance", "semantic", "material"}));
+      ->check(one_of({"instance", "semantic", "material"}));
   CLI::Option* const animated = command->add_option(
       "--animation", options->animation,
       "also write an animation: FILE.webp, a video FILE.mp4, .mkv, .mov or .webm, or a folder of PNG files");

@@ -7,11 +7,33 @@
 #include "apps/commands.h"
 #include "apps/console/command_line.h"
 #include "apps/console/exit.h"
+#include "apps/console/help.h"
+#include "apps/console/parse_error.h"
 #include "apps/console/run_record.h"
 #include "apps/console/terminal.h"
 #include "core/activity.h"
 #include "core/version.h"
 #include "io/files/file.h"
+
+namespace {
+
+/// Adds all commands, in the groups and in the order in which --help shows them.
+void add_commands(CLI::App& app) {
+  using namespace greatx::apps;
+  const auto group = [&](const char* name, std::initializer_list<void (*)(CLI::App&)> adders) {
+    const size_t before = app.get_subcommands({}).size();
+    for (const auto& add : adders) add(app);
+    const std::vector<CLI::App*> commands = app.get_subcommands({});
+    for (size_t i = before; i < commands.size(); ++i) commands[i]->group(name);
+  };
+  group("Make", {add_generate, add_campaign, add_scene});
+  group("Look", {add_inspect, add_view});
+  group("Check and measure", {add_check, add_verify, add_explain, add_calibrate, add_tradeoff, add_bench});
+  group("Radio", {add_paths, add_map, add_rcs});
+  group("Machine", {add_info, add_selftest, add_cache, add_manual});
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace greatx;
@@ -22,42 +44,26 @@ int main(int argc, char** argv) {
   watch_memory();
   const apps::SafeStream safe_out(std::cout), safe_err(std::cerr);
   CLI::App app{
-      "greatx simulates sensing and communication in one scene on one clock: RGB, depth, ids, LiDAR and "
-      "channel state "
-      "information, aligned to the tick and the pixel."};
+      "greatx simulates sensing and communication in one scene on one clock. It computes seven modalities: "
+      "channel state information (CSI), RGB, depth, LiDAR, radar, events, and poses, aligned to the tick and "
+      "the pixel.",
+      "greatx"};
+  app.formatter(apps::help_formatter());
   app.set_version_flag("--version", "greatx " GREATX_VERSION " (" GREATX_COMMIT ")");
   app.require_subcommand(1);
   app.footer(
       "greatx COMMAND --help tells more. Exit codes: 0 success, 1 faulty input or data, 2 device or "
       "program, 130 interrupted.");
-  apps::add_info(app);
-  apps::add_generate(app);
-  apps::add_view(app);
-  apps::add_inspect(app);
-  apps::add_verify(app);
-  apps::add_check(app);
-  apps::add_campaign(app);
-  apps::add_scene(app);
-  apps::add_explain(app);
-  apps::add_paths(app);
-  apps::add_map(app);
-  apps::add_rcs(app);
-  apps::add_cache(app);
-  apps::add_tradeoff(app);
-  apps::add_calibrate(app);
-  apps::add_bench(app);
-  apps::add_selftest(app);
-  apps::add_manual(app);
+  add_commands(app);
   apps::read_numbers_strictly(app);
+  apps::name_values(app);
   try {
     app.parse(argc, argv);
     apps::check_printed();
     return apps::exit_success;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    const std::string unknown = apps::unknown_command(app, {argv + 1, argv + argc});
-    std::cerr << "greatx: error: " << (unknown.empty() ? error.what() : unknown)
-              << "\n--help tells what there is.\n";
+    std::cerr << "greatx: error: " << apps::parse_error_words(app, error) << '\n';
     return apps::exit_user;
   } catch (...) {
     return apps::report_exception("greatx");

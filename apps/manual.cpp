@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/commands.h"
+#include "apps/console/command_line.h"
 #include "apps/manual/completion.h"
 #include "apps/manual/manual_page.h"
 #include "assets/assets.h"
@@ -29,7 +30,7 @@ void add_manual(CLI::App& app) {
   auto shell = std::make_shared<std::string>();
   completion->add_option("SHELL", *shell, "bash, zsh or fish")
       ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+      ->check(one_of({"bash", "zsh", "fish"}));
   completion->callback([&app, shell] {
     const CommandTree tree = tree_of(app);
     std::cout << (*shell == "bash"  ? bash_completion(tree)

@@ -17,6 +17,7 @@
 #include "apps/map/journal.h"
 #include "apps/map/output.h"
 #include "core/hash.h"
+#include "core/text.h"
 #include "draw/map/background.h"
 #include "draw/paths/render.h"
 #include "sim/channel/radio_map_run.h"
@@ -92,8 +93,8 @@ sim::MapReceiver map_receiver(const MapOptions& options, const sim::ChannelSnaps
       for (const sim::SensorConfig& sensor : node.sensors)
         if (std::holds_alternative<sim::AntennaConfig>(sensor.config))
           names.push_back(node.name + "/" + sensor.name);
-    throw_user_error("--rx: expected an antenna of the scenario ({}), found '{}'", fmt::join(names, ", "),
-                     options.receiver);
+    throw_user_error("--rx: expected an antenna of the scenario ({}), found '{}'{}", fmt::join(names, ", "),
+                     options.receiver, suggestion(options.receiver, names));
   }
   const double carrier_hz = scenario.channels[snapshot.channel()].carrier_hz;
   return {sim::antenna_array(scenario, options.receiver, carrier_hz),
@@ -298,8 +299,7 @@ void add_place(CLI::App& command, MapOptions& options) {
   command
       .add_option("--over", options.over,
                   "what lies beneath: ground (roads, pavements, terrain), or roofs as well")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, sim::MapOver>{
-          {"ground", sim::MapOver::ground}, {"roofs", sim::MapOver::roofs}}))
+      ->transform(index_in({"ground", "roofs"}))
       ->default_str("ground")
       ->excludes(plane);
   command.add_option("--min", options.min, "south-western corner, x y, m [the scene's]")

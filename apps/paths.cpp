@@ -16,6 +16,7 @@
 #include "apps/paths/cfr.h"
 #include "apps/paths/glb.h"
 #include "apps/paths/output.h"
+#include "core/text.h"
 #include "draw/paths/draw.h"
 #include "draw/paths/render.h"
 #include "io/formats/png.h"
@@ -65,8 +66,9 @@ uint32_t find_end(const char* option, const std::string& text, size_t count,
   if (error == std::errc{} && end == text.data() + text.size() && index < count) return index;
   for (uint32_t i = 0; i < names.size(); ++i)
     if (names[i] == text) return i;
-  throw_user_error("{}: expected 0 to {}{}, found '{}'", option, count - 1,
-                   names.empty() ? "" : fmt::format(", or one of {}", fmt::join(names, ", ")), text);
+  throw_user_error("{}: expected 0 to {}{}, found '{}'{}", option, count - 1,
+                   names.empty() ? "" : fmt::format(", or one of {}", fmt::join(names, ", ")), text,
+                   suggestion(text, {names.begin(), names.end()}));
 }
 
 PathsRequest paths_request(const PathsOptions& options, const sim::Scenario& scenario) {
@@ -312,8 +314,7 @@ void add_pictures(CLI::App& command, PathsOptions& options) {
       ->capture_default_str()
       ->check(integer_of(1, 16384));
   command.add_option("--color", options.colors, "of lines: by gain, or by kind of path")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, PathColors>{{"gain", PathColors::gain}, {"kind", PathColors::kind}}))
+      ->transform(index_in({"gain", "kind"}))
       ->default_str("gain");
   command
       .add_option("--within", options.within_db,

@@ -15,6 +15,7 @@
 #include "apps/console/command_line.h"
 #include "apps/console/session.h"
 #include "core/error.h"
+#include "core/expected.h"
 #include "core/units.h"
 #include "core/watch.h"
 #include "gpu/device.h"
@@ -58,7 +59,9 @@ sim::World world_of(const RcsCommand& command) {
     channel.where = node.where;
     return sim::load_world(alone);
   }
-  throw_user_error("--node: expected the name of a node of the scenario, found '{}'", command.node);
+  std::vector<std::string> names;
+  for (const sim::NodeConfig& node : all.nodes) names.push_back(node.name);
+  throw_user_error("--node: {}", expected_one_of(names, command.node));
 }
 
 rf::PosedTarget posed(const scene::Scene& scene, uint32_t body) {
@@ -183,16 +186,24 @@ void add_rcs(CLI::App& app) {
   options->scenario.add_to(*command);
   options->run.add_to(*command);
   command->add_option("--node", options->node, "the node whose model scatters")->required();
-  command->add_option("--carrier", options->carrier_hz, "frequency, Hz")->check(number_of(1e6, 1e13));
+  command->add_option("--carrier", options->carrier_hz, "frequency, Hz")
+      ->default_str("28e9")
+      ->check(number_of(1e6, 1e13));
   command->add_option("--step", options->step_deg, "step of both angles, degrees; it divides 180")
+      ->capture_default_str()
       ->check(number_of(0.1, 90.0));
-  command->add_option("--width", options->width_m, "width of the ray tubes, m")->check(number_of(1e-4, 1e4));
-  command->add_option("--budget", options->budget, "most ray tubes")->check(integer_of(100, 4'000'000));
+  command->add_option("--width", options->width_m, "width of the ray tubes, m")
+      ->capture_default_str()
+      ->check(number_of(1e-4, 1e4));
+  command->add_option("--budget", options->budget, "most ray tubes")
+      ->capture_default_str()
+      ->check(integer_of(100, 4'000'000));
   command->add_option("--bounces", options->bounces, "most surfaces that a tube meets")
+      ->capture_default_str()
       ->check(integer_of(1, 6));
   command->add_flag("--bistatic", options->bistatic,
                     "every pair of directions, of the source and of the receiver, instead of equal ones");
-  command->add_option("-o,--output", options->output, "the table, CSV");
+  command->add_option("-o,--output", options->output, "the table, CSV")->capture_default_str();
   command->callback([options] { run(*options); });
 }
 

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include <fstream>
 #include <iostream>
 #include <memory>
 
@@ -8,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "apps/commands.h"
+#include "apps/console/command_line.h"
 #include "apps/files/scene_import.h"
 #include "apps/place/command/build_command.h"
 #include "apps/scene_check.h"
@@ -29,10 +29,8 @@ struct GenerateCommand {
 
 void generate(const GenerateCommand& command) {
   const std::vector<std::byte> glb = scene::generate_glb(command.options);
-  std::ofstream out(command.output, std::ios::binary | std::ios::trunc);
-  out.write(reinterpret_cast<const char*>(glb.data()), static_cast<std::streamsize>(glb.size()));
-  out.close();
-  if (!out) throw_user_error("{}: cannot be written", command.output);
+  io::create_folder_of(command.output);
+  io::write_file_atomically(command.output, glb);
   std::cout << fmt::format("wrote {} ({:.1f} KiB)\n", command.output,
                            static_cast<double>(glb.size()) / 1024.0);
 }
@@ -59,8 +57,8 @@ void import(const ImportCommand& command) {
 }
 
 void add_import(CLI::App& scene_command) {
-  CLI::App* command =
-      scene_command.add_subcommand("import", "a scene of Mitsuba 3 and Sionna RT (XML and PLY) to glTF");
+  CLI::App* command = scene_command.add_subcommand(
+      "import", "convert a scene of Mitsuba 3 or Sionna RT (XML and PLY) to glTF (docs/import.md)");
   auto options = std::make_shared<ImportCommand>();
   command->add_option("FILE", options->file, ".xml, its meshes beside it")->required();
   command->add_option("-o,--output", options->output, ".glb to write")->required();
@@ -157,17 +155,25 @@ void info(const InfoCommand& command) {
 }  // namespace
 
 void add_scene(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("scene", "make a scene or an object, or describe a file");
+  CLI::App* command =
+      app.add_subcommand("scene", "make a scene or an object, import or build one, describe or check a file");
   command->require_subcommand(1);
-  for (const std::string& kind : scene::generator_kinds()) {
-    CLI::App* maker = command->add_subcommand(kind, fmt::format("generate: {}", kind));
+  for (const scene::GeneratorKind& kind : scene::generators()) {
+    CLI::App* maker = command->add_subcommand(kind.name, fmt::format("make {}", kind.words));
     auto options = std::make_shared<GenerateCommand>();
-    options->options.kind = kind;
-    options->output = kind + ".glb";
-    maker->add_option("--seed", options->options.seed, "every choice follows from it")->capture_default_str();
-    maker->add_option("--size", options->options.size_m, "edge of the square, m")->capture_default_str();
-    if (const std::vector<std::string> variants = scene::generator_variants(kind); !variants.empty())
-      maker->add_option("--variant", options->options.variant, fmt::format("{}", fmt::join(variants, ", ")));
+    options->options.kind = kind.name;
+    options->output = kind.name + ".glb";
+    if (kind.most_size_m > 0.0) {
+      maker->add_option("--seed", options->options.seed, "every choice follows from it")
+          ->capture_default_str();
+      maker->add_option("--size", options->options.size_m, "edge of the square, or length of the street, m")
+          ->capture_default_str()
+          ->check(number_of(kind.least_size_m, kind.most_size_m));
+    }
+    if (const std::vector<std::string> variants = scene::generator_variants(kind.name); !variants.empty())
+      maker->add_option("--variant", options->options.variant, "which one")
+          ->default_str(variants.front())
+          ->check(one_of(variants));
     maker->add_option("-o,--output", options->output, "file to write")->capture_default_str();
     maker->callback([options] { generate(*options); });
   }

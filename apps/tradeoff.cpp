@@ -14,6 +14,7 @@
 #include "apps/tradeoff/report.h"
 #include "apps/tradeoff/study.h"
 #include "core/error.h"
+#include "core/expected.h"
 
 namespace greatx::apps {
 
@@ -32,7 +33,7 @@ void check_parts(const std::vector<std::string>& only) {
   names.push_back(map_part);
   for (const std::string& name : only)
     if (std::ranges::find(names, name) == names.end())
-      throw_user_error("--only: expected {}, found '{}'", fmt::join(names, ", "), name);
+      throw_user_error("--only: {}", expected_one_of(names, name));
 }
 
 void run_tradeoff(TradeoffOptions options) {

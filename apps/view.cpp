@@ -123,7 +123,7 @@ void add_view(CLI::App& app) {
   command->add_flag("--paused", options->paused, "show the first tick and wait");
   command->add_option("--size", options->size, "of the window, pixels [that of the last time, or 1280x720]");
   command->add_option("--scale", options->scale, "of texts and buttons [as the display asks for]")
-      ->check(CLI::Range(0.5, 4.0));
+      ->check(number_of(0.5, 4.0));
   command->add_option("--settings", options->settings,
                       "file in which the viewer remembers its settings, for scripts, too "
                       "[~/.config/greatx/viewer.json; none for scripts]");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/expected.h"
 #include "core/units.h"
 
 namespace greatx {
@@ -56,7 +57,8 @@ LocalFrame::LocalFrame(const Georeference& reference) : reference_(reference) {
   const auto& [latitude_deg, longitude_deg, height_m] = reference.origin;
   const auto require = [](const char* what, const char* unit, double value, double most) {
     if (!(std::abs(value) <= most))
-      throw_user_error("{}: expected {:g} to {:g} {}, found {}", what, -most, most, unit, value);
+      throw_user_error("{}: expected {} to {} {}, found {}", what, number_words(-most), number_words(most),
+                       unit, number_words(value));
   };
   require("latitude_deg", "degrees", latitude_deg, 90.0);
   require("longitude_deg", "degrees", longitude_deg, 180.0);

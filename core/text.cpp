@@ -60,19 +60,34 @@ std::string escaped(std::string_view text, bool keep_lines) {
   return shown;
 }
 
+/// Returns how many insertions, removals, substitutions and swaps of neighbours lead from `a` to `b`, each
+/// place being edited once (optimal string alignment).
 size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
+  std::vector<size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   std::iota(row.begin(), row.end(), size_t{0});
   for (size_t i = 0; i < a.size(); ++i) {
-    size_t diagonal = row[0];
+    std::swap(before, last);
+    std::swap(last, row);
     row[0] = i + 1;
     for (size_t j = 0; j < b.size(); ++j) {
-      const size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, substituted});
+      row[j + 1] = std::min({row[j] + 1, last[j + 1] + 1, last[j] + (a[i] == b[j] ? 0 : 1)});
+      if (i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j])
+        row[j + 1] = std::min(row[j + 1], before[j - 1] + 1);
     }
   }
   return row.back();
+}
+
+/// Returns a name without what people mix up: case, and the marks between words.
+std::string folded(std::string_view name) {
+  std::string text;
+  for (const char c : name) {
+    if (c >= 'A' && c <= 'Z')
+      text += static_cast<char>(c - 'A' + 'a');
+    else
+      text += c == '-' || c == ' ' ? '_' : c;
+  }
+  return text;
 }
 
 }  // namespace
@@ -99,17 +114,22 @@ std::optional<double> parse_number(std::string_view text) {
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
+  constexpr size_t longest = 100;  // nobody mistypes a longer name; the time grows with the square
+  if (word.size() > longest) return "";
   const std::string* best = nullptr;
+  const std::string typed = folded(word);
   size_t best_distance = std::max<size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
+    if (candidate.size() > longest) continue;
+    const std::string name = folded(candidate);
     // A forgotten unit ("rate" for "rate_hz") is nearer than the distance of the letters says.
-    const bool prefix = candidate.starts_with(std::string(word) + "_");
-    const size_t distance = prefix ? 1 : edit_distance(word, candidate);
+    const bool prefix = name.starts_with(typed + "_");
+    const size_t distance = prefix ? 1 : edit_distance(typed, name);
     if (distance >= best_distance || distance >= candidate.size()) continue;
     best = &candidate;
     best_distance = distance;
   }
-  return best ? fmt::format(" (did you mean '{}'?)", *best) : "";
+  return best ? fmt::format(" (did you mean '{}'?)", printable(*best)) : "";
 }
 
 }  // namespace greatx

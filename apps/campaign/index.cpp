@@ -3,6 +3,7 @@
 #include "apps/campaign/index.h"
 
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -194,7 +195,7 @@ class IndexWriter {
         "records_gain ON records (kind, path_gain_db); CREATE INDEX links_record ON links (record); CREATE "
         "INDEX links_gain ON links (path_gain_db); PRAGMA analysis_limit=1000; ANALYZE; COMMIT");
     csv_.flush();
-    if (!csv_) throw_user_error("{}: cannot be written", csv_path_.string());
+    if (!csv_) throw io::WriteError(csv_path_, errno);
     return static_cast<uint64_t>(count_);
   }
 
@@ -266,9 +267,13 @@ void add_sequence(size_t cell, uint32_t sequence, IndexedSet& set, IndexWriter& 
 uint64_t write_index(const OpenCampaign& open, bool quiet) {
   const fs::path sqlite = open.folder / "index.sqlite", csv = open.folder / "index.csv";
   std::error_code ignored;
-  fs::remove(io::part_name(sqlite), ignored);
+  const auto remove_parts = [&] {
+    fs::remove(io::part_name(sqlite), ignored);
+    fs::remove(io::part_name(csv), ignored);
+  };
+  remove_parts();
   uint64_t records = 0;
-  {
+  try {
     IndexWriter writer(open, io::part_name(sqlite), io::part_name(csv));
     Progress progress("index", static_cast<int64_t>(open.cells.size()), quiet, "cells");
     for (size_t cell = 0; cell < open.cells.size(); ++cell) {
@@ -278,6 +283,9 @@ uint64_t write_index(const OpenCampaign& open, bool quiet) {
       progress.update(static_cast<int64_t>(cell) + 1);
     }
     records = writer.finish();
+  } catch (...) {
+    remove_parts();
+    throw;
   }
   io::rename_file(io::part_name(sqlite), sqlite);
   io::rename_file(io::part_name(csv), csv);

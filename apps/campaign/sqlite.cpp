@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <sqlite3.h>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -42,8 +43,11 @@ void SqliteFile::each(const std::string& sql, const std::function<void(const Sql
 }
 
 void SqliteFile::fail(const char* what) const {
-  throw_user_error("{}: cannot {} the index: {}", file_.string(), what,
-                   handle_ ? sqlite3_errmsg(handle_) : "no memory");
+  // "disk I/O error" alone does not tell a limit on the size of files from a broken disk.
+  const int system = handle_ ? sqlite3_system_errno(handle_) : 0;
+  throw_user_error("{}: cannot {} the index: {}{}", file_.string(), what,
+                   handle_ ? sqlite3_errmsg(handle_) : "no memory",
+                   system != 0 ? ": " + std::generic_category().message(system) : "");
 }
 
 SqliteInsert::SqliteInsert(SqliteFile& file, const std::string& table, size_t columns)

@@ -17,6 +17,7 @@
 #include "assets/assets.h"
 #include "core/hash.h"
 #include "core/input_file.h"
+#include "core/text.h"
 #include "io/files/file.h"
 
 namespace greatx::apps {
@@ -127,10 +128,20 @@ OpenCampaign open_campaign(const CampaignOptions& options) {
   OpenCampaign open;
   const fs::path file = options.file;
   const auto embedded = is_there(file) ? std::nullopt : embedded_text(options.file);
+  if (!embedded && !is_there(file)) {
+    std::vector<std::string> known;
+    for (const EmbeddedScenario& campaign : embedded_campaigns())
+      if (is_campaign_text(campaign.text)) known.emplace_back(campaign.name);
+    throw_user_error("{}: no such campaign: expected a YAML file or one of {}{}", options.file,
+                     fmt::join(known, ", "), suggestion(options.file, known));
+  }
   const std::string text =
       embedded ? *embedded
                : InputFile(file, fmt::format("{}: expected a campaign file", options.file), budget::yaml_file)
                      .text();
+  if (!is_campaign_text(text) && (text.starts_with("greatx:") || text.find("\ngreatx:") != std::string::npos))
+    throw_user_error("{0}: expected a campaign, found a scenario; `greatx generate {0} -o DIR` runs it",
+                     options.file);
   open.campaign = sim::parse_campaign(text, options.file, fs::absolute(file).parent_path());
   open.folder = options.output;
   open.cells = sim::campaign_cells(open.campaign, [&](const std::string& name) {
@@ -142,11 +153,13 @@ OpenCampaign open_campaign(const CampaignOptions& options) {
         "'time_budget_ms_per_tick'; `greatx calibrate` writes a scenario with the choice",
         options.file);
   if (options.cells.empty()) return open;
+  std::vector<std::string> names;
+  for (const sim::CampaignCell& cell : open.cells) names.push_back(cell.name);
   for (const std::string& name : options.cells)
-    if (std::ranges::find(open.cells, name, &sim::CampaignCell::name) == open.cells.end())
+    if (std::ranges::find(names, name) == names.end())
       throw_user_error(
-          "--cell: expected one of the cells of {}, found '{}'; `greatx campaign plan` lists them",
-          options.file, name);
+          "--cell: expected one of the cells of {}, found '{}'{}; `greatx campaign plan` lists them",
+          options.file, name, suggestion(name, names));
   std::erase_if(open.cells, [&](const sim::CampaignCell& cell) {
     return std::ranges::find(options.cells, cell.name) == options.cells.end();
   });

@@ -55,7 +55,7 @@ std::filesystem::path consistency_of(const std::filesystem::path& journals, uint
 
 /// Chooses cells and units by the command line.
 struct CampaignOptions {
-  std::string file, output = "out/campaign", assets;
+  std::string file, output, assets;
   std::vector<std::string> cells;  ///< only these; empty: all
 };
 

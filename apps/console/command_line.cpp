@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/expected.h"
 #include "core/text.h"
 
 namespace greatx::apps {
@@ -32,7 +33,7 @@ std::optional<T> read(std::string_view text) {
 /// Returns a check that the text is a T. It rewrites integers without leading zeros, so that CLI11 does not
 /// read them as octal.
 template <typename T>
-CLI::Validator strict(const char* expected) {
+CLI::Validator strict(const std::string& expected) {
   return {[expected](std::string& text) {
             const std::optional<T> value = read<T>(text);
             if (!value) return fmt::format("expected {}, found '{}'", expected, text);
@@ -44,8 +45,14 @@ CLI::Validator strict(const char* expected) {
 
 template <typename T>
 CLI::Validator ranged(T low, T high, T most, const char* kind) {
-  const std::string range =
-      high == most ? fmt::format("{} or more", low) : fmt::format("{} to {}", low, high);
+  const auto words_of = [](T value) {
+    if constexpr (std::is_integral_v<T>)
+      return integer_words(value);
+    else
+      return number_words(value);
+  };
+  const std::string range = high == most ? fmt::format("{} or more", words_of(low))
+                                         : fmt::format("{} to {}", words_of(low), words_of(high));
   return {[=](std::string& text) {
             const std::optional<T> value = read<T>(text);
             if (value && *value >= low && *value <= high) return std::string();
@@ -53,10 +60,6 @@ CLI::Validator ranged(T low, T high, T most, const char* kind) {
                                text);
           },
           range};
-}
-
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
 }  // namespace
@@ -74,7 +77,7 @@ void read_numbers_strictly(CLI::App& app) {
     const std::string type = option->get_type_name();
     // The transforms run before the option's own checks.
     if (type.starts_with("UINT"))
-      option->transform(strict<uint64_t>("an integer from 0 to 18446744073709551615"));
+      option->transform(strict<uint64_t>(integer_range(0, std::numeric_limits<uint64_t>::max())));
     else if (type.starts_with("INT"))
       option->transform(strict<int64_t>("an integer"));
     else if (type.starts_with("FLOAT"))
@@ -84,30 +87,22 @@ void read_numbers_strictly(CLI::App& app) {
     read_numbers_strictly(*command);
 }
 
-std::string unknown_command(const CLI::App& app, const std::vector<std::string>& arguments) {
-  const CLI::App* at = &app;
-  for (const std::string& argument : arguments) {
-    if (argument.starts_with('-')) continue;
-    const std::vector<const CLI::App*> commands = commands_of(*at);
-    const auto found = std::find_if(commands.begin(), commands.end(),
-                                    [&](const CLI::App* command) { return command->get_name() == argument; });
-    if (found != commands.end()) {
-      at = *found;
-      continue;
-    }
-    if (commands.empty() || at->get_require_subcommand_min() == 0) return "";
-    std::vector<std::string> names;
-    for (const CLI::App* command : commands) names.push_back(command->get_name());
-    std::string hint = suggestion(argument, names);  // " (did you mean 'x'?)"
-    hint = hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", "))
-                        : fmt::format(", {}", hint.substr(2, hint.size() - 3));
-    return fmt::format("no command '{}{}{}'{}", at == &app ? "" : at->get_name(), at == &app ? "" : " ",
-                       argument, hint);
-  }
-  if (at->get_require_subcommand_min() == 0) return "";
-  std::vector<std::string> names;
-  for (const CLI::App* command : commands_of(*at)) names.push_back(command->get_name());
-  return fmt::format("expected a command ({}), found none", fmt::join(names, ", "));
+CLI::Validator one_of(const std::vector<std::string>& names) {
+  return {[names](std::string& text) {
+            if (std::ranges::find(names, text) != names.end()) return std::string();
+            return expected_one_of(names, text);
+          },
+          fmt::format("{}", fmt::join(names, "|"))};
+}
+
+CLI::Validator index_in(const std::vector<std::string>& names) {
+  return {[names](std::string& text) {
+            const auto found = std::ranges::find(names, text);
+            if (found == names.end()) return expected_one_of(names, text);
+            text = fmt::format("{}", found - names.begin());
+            return std::string();
+          },
+          fmt::format("{}", fmt::join(names, "|"))};
 }
 
 std::pair<int, int> parse_window_size(const std::string& text) {

@@ -8,8 +8,11 @@
 #include "apps/console/command_line.h"
 #include "apps/console/run_record.h"
 #include "assets/assets.h"
+#include "core/expected.h"
 #include "core/fields/named_path.h"
+#include "core/text.h"
 #include "io/dataset/dataset_format.h"
+#include "scene/files/known_format.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/parse/override.h"
 
@@ -66,7 +69,7 @@ void RunOptions::add_to(CLI::App& command) {
           "--tracer", [this](const std::string& name) { tracer = *gpu::tracer_of(name); },
           "how rays meet triangles: auto, driver (its ray queries) or tree (trees of greatx's own) "
           "[$GREATX_TRACER, else auto: tree on a CPU or without ray queries]")
-      ->check(CLI::IsMember({"auto", "driver", "tree"}));
+      ->check(one_of({"auto", "driver", "tree"}));
   command.add_flag("--validation", validation,
                    "run under the Vulkan validation layer; a message is an error");
 }
@@ -83,11 +86,25 @@ sim::Scenario load_scenario(const ScenarioOptions& options, bool chooses) {
     const std::filesystem::path file = options.scenario;
     std::error_code unreadable;  // for example of a symbolic link to itself
     if (!std::filesystem::is_regular_file(file, unreadable)) {
-      std::vector<std::string_view> names;
-      for (const EmbeddedScenario& s : embedded_scenarios()) names.push_back(s.name);
-      throw_user_error("{}: no such scenario: expected a YAML file or one of {}", options.scenario,
-                       fmt::join(names, ", "));
+      if (std::filesystem::is_directory(file, unreadable))
+        throw_user_error(
+            "{}: expected a scenario (.yaml), found a folder{}", options.scenario,
+            std::filesystem::exists(file / io::scenario_file, unreadable)
+                ? fmt::format("; {} is the scenario of this data set", (file / io::scenario_file).string())
+                : "");
+      for (const EmbeddedScenario& campaign : embedded_campaigns())
+        if (options.scenario == campaign.name)
+          throw_user_error(
+              "{0}: expected a scenario, found a campaign; `greatx campaign run {0} -o DIR` runs it",
+              options.scenario);
+      std::vector<std::string> names;
+      for (const EmbeddedScenario& s : embedded_scenarios()) names.emplace_back(s.name);
+      throw_user_error("{}: no such scenario: expected a YAML file or one of {}{}", options.scenario,
+                       fmt::join(names, ", "), suggestion(options.scenario, names));
     }
+    const auto format = scene::recognised_format(file, scene::first_bytes(file));
+    if (format && !format->is_scenario)
+      throw UserError(scene::wrong_format(file, *format, "a scenario (.yaml)"));
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
     ScenarioOptions from = options;
     // The scenario.yaml of a data set names its files as the scenario did that was run, from the folder that
@@ -126,7 +143,7 @@ uint32_t find_channel(const std::string& name, const sim::Scenario& scenario) {
     if (scenario.channels[i].name == name) return i;
     names.push_back(scenario.channels[i].name);
   }
-  throw_user_error("--channel: expected one of {}, found '{}'", fmt::join(names, ", "), name);
+  throw_user_error("--channel: {}", expected_one_of(names, name));
 }
 
 void check_instant(uint32_t sequence, int64_t tick, const sim::Scenario& scenario) {

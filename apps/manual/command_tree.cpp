@@ -12,17 +12,15 @@ namespace greatx::apps {
 
 namespace {
 
-/// Returns the values in the braces of a type such as "TEXT:{auto,driver}" or "ENUM:value in
-/// {gain->0,kind->1} OR {0,1}": the first list, in which a value may name the number that it stands for.
+/// Returns the values of a choice, whose type is, for example, "TEXT:auto|driver|tree".
 std::vector<std::string> choices_of(const std::string& type) {
-  const size_t begin = type.find('{'), end = type.find('}');
   std::vector<std::string> choices;
-  if (begin == std::string::npos || end == std::string::npos) return choices;
-  for (size_t at = begin + 1; at < end;) {
-    const size_t comma = std::min(type.find(',', at), end);
-    const std::string choice = type.substr(at, comma - at);
-    choices.push_back(choice.substr(0, choice.find("->")));
-    at = comma + 1;
+  const size_t colon = type.find(':');
+  if (colon == std::string::npos || type.find('|', colon) == std::string::npos) return choices;
+  for (size_t at = colon + 1; at <= type.size();) {
+    const size_t end = std::min(type.find('|', at), type.size());
+    choices.push_back(type.substr(at, end - at));
+    at = end + 1;
   }
   return choices;
 }
@@ -39,12 +37,15 @@ CommandArgument argument_of(const CLI::Option& option, const std::vector<std::st
   const std::string type = option.get_type_name();
   const size_t colon = type.find(':');
   argument.type = type.substr(0, colon);
+  if (argument.type == "UINT" || argument.type == "INT") argument.type = "N";
+  if (argument.type == "FLOAT") argument.type = "X";
   argument.choices = choices_of(type);
   if (argument.choices.empty() && colon != std::string::npos) argument.range = type.substr(colon + 1);
   argument.initial = option.get_default_str();
   argument.repeats = option.get_items_expected_max() > option.get_type_size_max();
-  const bool number = argument.type == "UINT" || argument.type == "INT" || argument.type == "FLOAT";
-  argument.files = !number && argument.choices.empty();
+  // name_values() of apps/console/help.h tells files and folders from other texts.
+  const bool file = argument.type == "FILE" || argument.type == "DIR" || argument.type == "TEXT";
+  argument.files = file && argument.choices.empty();
   if (positional && argument.names[0] == "SCENARIO") argument.choices = scenarios;
   return argument;
 }

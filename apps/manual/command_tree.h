@@ -19,10 +19,10 @@ namespace greatx::apps {
 
 /// Describes an option or a positional argument.
 struct CommandArgument {
-  std::vector<std::string> names;    ///< "-o", "--output"; of a positional: its name, "SCENARIO"
-  std::string type;                  ///< "TEXT", "UINT", "FLOAT", …; empty for a flag
-  std::string range;                 ///< "1 to 1000", or empty
-  std::string initial;               ///< the value without the option, or empty
+  std::vector<std::string> names;  ///< "-o", "--output"; of a positional: its name, "SCENARIO"
+  std::string type;     ///< "FILE", "NAME", "N" (an integer), "X" (a number), …; empty for a flag
+  std::string range;    ///< "1 to 1000", or empty
+  std::string initial;  ///< the value without the option, or empty
   std::vector<std::string> choices;  ///< the values that are allowed, or that are known by name
   std::string words;                 ///< what it means
   bool files = false;                ///< whether a name of a file or folder may stand here

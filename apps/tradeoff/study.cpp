@@ -17,6 +17,7 @@
 #include "apps/tradeoff/report.h"
 #include "apps/tradeoff/study_json.h"
 #include "core/error.h"
+#include "core/expected.h"
 #include "core/hash.h"
 #include "io/files/file.h"
 #include "io/formats/png.h"
@@ -292,7 +293,7 @@ void Study::check_names(const std::vector<Part>& parts, const std::optional<MapP
   if (maps) known.push_back(maps->knob.name);
   for (const std::string& name : options_.knobs)
     if (std::ranges::find(known, name) == known.end())
-      throw_user_error("--knob: expected one of {}, found '{}'", fmt::join(known, ", "), name);
+      throw_user_error("--knob: {}", expected_one_of(known, name));
 }
 
 bool Study::run() {

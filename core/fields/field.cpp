@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/expected.h"
 #include "core/fields/yaml.h"
 #include "core/text.h"
 
@@ -102,15 +103,16 @@ double Field::finite(const std::string& expected) const {
 
 double Field::number(double most) const {
   const double value = finite(), size = std::abs(value);
-  if (size > most) fail(fmt::format("a number from {:g} to {:g}", -most, most));
-  if (size > 0.0 && size < least_number) fail(fmt::format("0, or a number of {:g} or more", least_number));
+  if (size > most) fail(number_range(-most, most));
+  if (size > 0.0 && size < least_number)
+    fail(fmt::format("0, or a number of {} or more", number_words(least_number)));
   return value;
 }
 
 double Field::positive(double least, double most) const {
   const double value = finite();
   if (!(value > 0.0)) fail("a number greater than 0");
-  if (value < least || value > most) fail(fmt::format("a number from {:g} to {:g}", least, most));
+  if (value < least || value > most) fail(number_range(least, most));
   return value;
 }
 
@@ -122,12 +124,12 @@ double Field::non_negative(double most) const {
 
 double Field::between(double low, double high) const {
   const double value = finite();
-  if (!(value >= low && value <= high)) fail(fmt::format("a number from {} to {}", low, high));
+  if (!(value >= low && value <= high)) fail(number_range(low, high));
   return number(std::max(std::abs(low), std::abs(high)));
 }
 
 uint64_t Field::integer(uint64_t low, uint64_t high) const {
-  const std::string expected = fmt::format("an integer from {} to {}", low, high);
+  const std::string expected = integer_range(low, high);
   if (!is_scalar() || value_->quoted) fail(expected);
   const std::string& text = value_->text;
   uint64_t value = 0;
@@ -153,7 +155,10 @@ size_t Field::choice(std::span<const std::string_view> choices) const {
     const auto found = std::find(choices.begin(), choices.end(), value_->text);
     if (found != choices.end()) return static_cast<size_t>(found - choices.begin());
   }
-  fail(fmt::format("{}{}", choices.size() > 1 ? "one of " : "", fmt::join(choices, ", ")));
+  const std::string expected =
+      fmt::format("{}{}", choices.size() > 1 ? "one of " : "", fmt::join(choices, ", "));
+  fail(expected,
+       describe() + (is_scalar() ? suggestion(value_->text, {choices.begin(), choices.end()}) : ""));
 }
 
 std::vector<Field> Field::list(const std::string& of_what, size_t least) const {

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/fields/yaml.h"
+#include "core/text.h"
 
 namespace greatx {
 namespace {
@@ -28,8 +29,9 @@ size_t item_named(const FieldValue& list, std::string_view name, std::string_vie
     if (names.back() == name) return i;
   }
   throw_user_error(
-      "{}: expected a number or one of the names {}, found '{}'", path,
-      names.empty() ? std::string("(the list is empty)") : fmt::format("{}", fmt::join(names, ", ")), name);
+      "{}: expected a number or one of the names {}, found '{}'{}", path,
+      names.empty() ? std::string("(the list is empty)") : fmt::format("{}", fmt::join(names, ", ")), name,
+      suggestion(name, names));
 }
 
 }  // namespace
@@ -66,7 +68,9 @@ std::string set_yaml_value(const std::string& text, const std::string& path, con
     return edit_yaml(text, {value.empty() ? YamlChange::Kind::remove : YamlChange::Kind::set, place, value})
         .text;
   } catch (const UserError& error) {
-    throw_user_error("{}: {}: {}", where, path, error.what());
+    // A fault of the path names it already.
+    const std::string message = error.what();
+    throw_user_error("{}: {}{}", where, message.starts_with(path + ":") ? "" : path + ": ", message);
   }
 }
 

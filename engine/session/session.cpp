@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "core/expected.h"
 #include "engine/session/environment.h"
 #include "engine/session/map_result.h"
 #include "engine/session/path_set.h"
@@ -239,7 +240,7 @@ uint32_t Session::find_channel(const std::string& name) const {
     if (scenario_.channels[i].name == name) return i;
     names.push_back(scenario_.channels[i].name);
   }
-  throw_user_error("channel: expected one of {}, found '{}'", fmt::join(names, ", "), name);
+  throw_user_error("channel: {}", expected_one_of(names, name));
 }
 
 void Session::check_instant(uint32_t sequence, int64_t tick) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "io/dataset/expect_dataset.h"
 #include "io/dataset/packed_stream.h"
 #include "io/dataset/recovery.h"
 #include "io/files/inside.h"
@@ -83,8 +84,7 @@ Array unsigned_of(Array ids, const std::string& file, const std::string& propert
 }  // namespace
 
 DatasetReader::DatasetReader(const fs::path& folder) : folder_(folder) {
-  if (!exists_inside(folder, dataset_file))
-    throw_user_error("{}: expected a data set, found no {}", folder.string(), dataset_file);
+  expect_dataset(folder);
   const fs::path description = folder / dataset_file;
   info_ = parse_dataset_json(read_text_file(description, JsonLimits{}.bytes), description.string());
   info_.scenario_text = read_text_file(inside(folder, scenario_file), JsonLimits{}.bytes);

@@ -8,6 +8,7 @@
 
 #include "core/text.h"
 #include "io/dataset/dataset_reader.h"
+#include "io/dataset/expect_dataset.h"
 #include "io/dataset/manifest.h"
 #include "io/dataset/packed_stream.h"
 #include "io/dataset/worker_pool.h"
@@ -54,8 +55,7 @@ class Verifier {
 };
 
 std::vector<Problem> Verifier::run() {
-  if (!exists_inside(folder_, dataset_file))
-    throw_user_error("{}: expected a data set, found no {}", folder_.string(), dataset_file);
+  expect_dataset(folder_);
   if (!exists_inside(folder_, manifest_file)) {
     size_t records = 0;
     const DatasetReader reader(folder_);

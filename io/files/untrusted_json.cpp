@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/expected.h"
 #include "core/text.h"
 
 namespace greatx::io {
@@ -178,13 +179,14 @@ int64_t JsonValue::integer(int64_t least, int64_t most) const {
   const bool fits = json_->is_number_integer() &&
                     (!json_->is_number_unsigned() || json_->get<uint64_t>() <= uint64_t{INT64_MAX});
   if (!fits || json_->get<int64_t>() < least || json_->get<int64_t>() > most)
-    fail(fmt::format("an integer from {} to {}", least, most));
+    fail(least < 0 ? fmt::format("an integer from {} to {}", least, most)
+                   : integer_range(static_cast<uint64_t>(least), static_cast<uint64_t>(most)));
   return json_->get<int64_t>();
 }
 
 double JsonValue::number(double least, double most) const {
   const double value = json_->is_number() ? json_->get<double>() : std::nan("");
-  if (!(value >= least && value <= most)) fail(fmt::format("a number from {:g} to {:g}", least, most));
+  if (!(value >= least && value <= most)) fail(number_range(least, most));
   return value;
 }
 

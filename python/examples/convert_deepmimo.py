@@ -19,6 +19,9 @@ from greatx.links import transmitters
 KEYS = "power", "phase", "delay", "inter", "aoa_el"
 
 # %% Write every tick as one more user, which requires that the transmitters do not move
+greatx.print_errors_plainly()
+if len(sys.argv) != 2:
+    sys.exit(__doc__)
 ds = greatx.load(sys.argv[1])
 sequence = ds.sequences[0]
 csi = sequence.first("csi", ["cfr", "delay"])

@@ -15,6 +15,9 @@ import numpy as np
 import greatx
 
 # %% Load the stream as views of the files: t in nanoseconds since the sequence's first tick, ascending
+greatx.print_errors_plainly()
+if len(sys.argv) != 2:
+    sys.exit(__doc__)
 ds = greatx.load(sys.argv[1])
 camera = ds.sequences[0].first("event_camera", ["t", "x", "y", "p"])
 events = camera.events()

@@ -14,6 +14,9 @@ import numpy as np
 import greatx
 
 # %% Open the data set, which reads only dataset.json and the index
+greatx.print_errors_plainly()
+if len(sys.argv) != 2:
+    sys.exit(__doc__)
 ds = greatx.load(sys.argv[1])
 sequence = ds.sequences[0]
 print(ds)

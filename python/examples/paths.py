@@ -11,6 +11,7 @@ import numpy as np
 import greatx
 
 # %% Load the scene: a generated one, or a glTF file with the radio properties of its materials
+greatx.print_errors_plainly()
 if len(sys.argv) > 2:
     sim = greatx.Simulation.from_scene(sys.argv[1], radio_materials=sys.argv[2])
 else:

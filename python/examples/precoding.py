@@ -12,6 +12,7 @@ import greatx
 from greatx import precoding
 
 # %% Find the places of the default city's streets within 60 m of its base station that have a path
+greatx.print_errors_plainly()
 sim = greatx.Simulation()
 area = {"min_m": [-50, -50], "max_m": [60, 60]}
 coverage = sim.radio_map(5.0, "csi", **area)

@@ -11,6 +11,7 @@ import numpy as np
 import greatx
 
 # %% Place two base stations in a generated street
+greatx.print_errors_plainly()
 sim = greatx.Simulation(
     {"greatx": 1, "name": "street", "ticks": 1, "scene": {"generate": {"kind": "canyon", "size_m": 120}}}
 )

@@ -12,6 +12,7 @@ import numpy as np
 import greatx
 
 # %% Load a scenario with a base station, a car with a camera, and a channel
+greatx.print_errors_plainly()
 sim = greatx.Simulation(sys.argv[1] if len(sys.argv) > 1 else "canyon", ticks=20)
 print(sim)
 channel = next(iter(sim.channels), None)

@@ -5,8 +5,7 @@
     greatx generate room -o out/room
     python3 python/examples/train_torch.py out/room
 
-The model weights every delay in the delay domain. It learns which delays hold the channel and which hold only
-noise. The example shows how complex tensors get from a data set into a training loop.
+The model weights every delay. It learns which delays hold the channel and which hold only noise.
 """
 import sys
 
@@ -29,6 +28,9 @@ def links(item):
 
 
 # %% Load one item for each tick at which the channel has a record, complex64 as on disk
+greatx.print_errors_plainly()
+if len(sys.argv) != 2:
+    sys.exit(__doc__)
 ds = greatx.load(sys.argv[1])
 name = ds.sequences[0].first("csi", ["cfr"]).name + "/cfr"
 data = ds.torch(name, transform=links)
@@ -73,7 +75,5 @@ for epoch in range(40):
         optimizer.step()
     if epoch % 10 == 9:
         with torch.no_grad():
-            print(
-                f"epoch {epoch + 1:3}:    {10 * torch.log10(nmse(model(test), held_out)):6.2f} dB "
-                "on ticks it never saw"
-            )
+            error = nmse(model(test), held_out)
+        print(f"epoch {epoch + 1:3}:    {10 * torch.log10(error):6.2f} dB on ticks it never saw")

@@ -34,11 +34,11 @@ def write_png(path, rgb):
 
 
 # %% Load the middle record of the first camera with flow and boxes
+greatx.print_errors_plainly()
+if len(sys.argv) != 2:
+    sys.exit(__doc__)
 ds = greatx.load(sys.argv[1])
-try:
-    camera = ds.sequences[0].first("camera", ["rgb", "flow", "box_amodal"])
-except greatx.Error as error:
-    sys.exit(f"{error}\n`greatx generate uav_medium` makes one that has them")
+camera = ds.sequences[0].first("camera", ["rgb", "flow", "box_amodal"])
 record = camera.record(len(camera) // 2)
 flow = record.flow  # [h, w, 2] pixels to the right and down; NaN: not visible in the next picture
 speed = np.hypot(flow[..., 0], flow[..., 1])

@@ -17,7 +17,7 @@ from .arrays import Frames, Ragged
 from .campaign import Campaign, campaign
 from .campaign_samples import CampaignSamples, ShuffledSamples
 from .dataset import Dataset, Record, Sensor, Sequence, Tick
-from .errors import DatasetError, Error
+from .errors import DatasetError, Error, print_errors_plainly
 from .events import Events
 from .loading import load
 from .packed import PackedRagged, PackedStack, PackedTable
@@ -54,6 +54,7 @@ __all__ = [
     "campaign",
     "geodesy",
     "load",
+    "print_errors_plainly",
 ]
 
 #: Names that need greatx._native.

@@ -26,7 +26,7 @@ from typing import (
 import numpy as np
 
 from .arrays import Frames, Ragged, open_stack
-from .errors import DatasetError
+from .errors import DatasetError, nearest
 from .files import MOST_SEQUENCES, MOST_TICKS, Field, inside
 from .frames import load_npy
 from .layout import EXPORT_SUFFIX, PACKED, ArrayInfo, OutputInfo, SensorInfo, parse_sensors, read_info
@@ -39,6 +39,17 @@ if TYPE_CHECKING:
     from .events import Events
     from .samples import Samples
 
+#: The output of a scenario's sensor that makes an array.
+OUTPUT_OF = {
+    "cfr": "cfr",
+    "delay": "paths",
+    "rgb": "rgb",
+    "depth": "depth",
+    "instance": "ids",
+    "semantic": "ids",
+    "flow": "flow",
+    "box_amodal": "boxes",
+}
 INDEX_COLUMNS = ("tick", "time_ns", "sensor", "sample", "row")
 
 
@@ -281,7 +292,8 @@ class Sequence:
             return self.sensors[sensor]
         except KeyError:
             raise KeyError(
-                f"{self.dataset.path}: has no sensor {sensor!r}; it has {', '.join(self.sensors)}"
+                f"{self.dataset.path}: has no sensor {sensor!r}{nearest(sensor, self.sensors)}; it has "
+                f"{', '.join(self.sensors)}"
             ) from None
 
     def first(self, kind: str, arrays: Iterable[str] = ()) -> "Sensor":
@@ -296,8 +308,20 @@ class Sequence:
         raise DatasetError(
             f"{self.path}: expected a sensor of kind {kind!r} with records"
             + (f" of {', '.join(wanted)}" if wanted else "")
-            + f", found {has}"
+            + f", found {has}; "
+            + self._needs(kind, wanted)
         )
+
+    def _needs(self, kind: str, wanted: List[str]) -> str:
+        """Says what a scenario needs for a sensor of a kind with arrays."""
+        outputs = list(dict.fromkeys(OUTPUT_OF[name] for name in wanted if name in OUTPUT_OF))
+        what = "a channel" if kind == "csi" else f"a sensor of type {kind}"
+        text = f"the scenario needs {what}" + (f" with outputs: [{', '.join(outputs)}]" if outputs else "")
+        for sensor in self.sensors.values():
+            lacks = [name for name in wanted if name not in sensor]
+            if sensor.kind == kind and lacks:
+                return f"{text}; {sensor.name} has no {', '.join(lacks)}"
+        return text
 
     @property
     def poses(self) -> "Sensor":
@@ -427,7 +451,10 @@ class Sensor:
     def __getitem__(self, name: str) -> Any:
         located = self.info.locate(name)
         if located is None:
-            raise KeyError(f"{self.name} has no array {name!r}; it has {', '.join(self.arrays)}")
+            raise KeyError(
+                f"{self.name} has no array {name!r}{nearest(name, self.arrays)}; it has "
+                f"{', '.join(self.arrays)}"
+            )
         output, array = located
         key = (self._token, output.name, array.name if array else None)
         return self.sequence.dataset.files.get(key, lambda: self._open(output, array))

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Finds the antennas at the ends of a channel's links, and the paths of each link."""
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple
@@ -116,7 +117,10 @@ def paths_of(record: "Record", rx: Optional[int] = None, tx: Optional[int] = Non
         if o.name.startswith("paths/")
     }
     if not arrays:
-        raise DatasetError(f"{sensor.sequence.path / sensor.name}: the data set keeps no paths")
+        raise DatasetError(
+            f"{sensor.sequence.path / sensor.name}: the data set keeps no paths; the scenario's channel "
+            "needs outputs: [cfr, paths]"
+        )
     if "delay" not in arrays or len({len(a) for a in arrays.values()}) != 1:
         raise DatasetError(
             f"{sensor.sequence.path / sensor.name}: expected arrays of as many paths, among them `delay`, "

@@ -15,7 +15,7 @@ import numpy as np
 
 from . import _native
 from .antenna import Array, look_from_to
-from .errors import Error
+from .errors import Error, nearest
 from .paths import Paths
 from .process import Owned
 from .radio_map import RadioMap
@@ -148,7 +148,7 @@ class Simulation:
         else:
             raise Error(
                 f"{os.fspath(scenario)}: no such scenario: expected a YAML file or one of "
-                f"{', '.join(embedded)}"
+                f"{', '.join(embedded)}{nearest(os.fspath(scenario), embedded)}"
             )
         self._native = Owned(session)
         self._placed: Dict[str, List[str]] = {"transmitters": [], "receivers": []}
@@ -427,7 +427,7 @@ class Simulation:
         if name is None and len(channels) == 1:
             return next(iter(channels))
         what = (
-            f"no channel {name!r}"
+            f"no channel {name!r}{nearest(name, channels)}"
             if name is not None
             else "several channels: say which" if channels else "no channel"
         )

@@ -3,10 +3,13 @@
 """Tests the converters against closed forms and against the data set's own response. tests/peer/deepmimo.py,
 which is not part of these tests, checks that DeepMIMO itself reads the result.
 """
+
 import contextlib
 import io
 import json
 import pathlib
+import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -213,6 +216,32 @@ class CommandLine(Converted):
         code, _, err = self.run_main("deepmimo", self.out / "none", self.out)
         self.assertEqual(code, 1)
         self.assertIn("no dataset.json", err)
+
+    def test_what_is_missing_or_mistyped_is_named(self):
+        for arguments, words in (
+            (("deepmimo", support.truth()), "expected a channel, found none; the scenario needs a channel"),
+            (("sionna", support.street(), "--channel", "cis"), "has no channel 'cis' (did you mean 'csi'?)"),
+            (("deepmimo", support.street(), "--sequence", "3"), "has no sequence 3; it has 0"),
+        ):
+            code, out, err = self.run_main(*arguments[:2], self.out, *arguments[2:])
+            self.assertEqual((code, out, err.count("\n")), (1, "", 1), err)
+            self.assertIn(words, err)
+            self.assertFalse(self.out.exists())
+        error = io.StringIO()
+        with self.assertRaises(SystemExit) as end, contextlib.redirect_stderr(error):
+            main(["deepmimoo", str(support.street()), str(self.out)])
+        self.assertEqual(end.exception.code, 1)
+        self.assertIn("(did you mean 'deepmimo'?)", error.getvalue())
+
+    def test_a_limit_on_the_size_of_files_ends_like_a_full_disk(self):
+        command = f"ulimit -f 1; exec {sys.executable} -m greatx.convert sionna {support.street()} {self.out}"
+        done = subprocess.run(["bash", "-c", command], stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(
+            done.stderr,
+            f"error: {self.out}: cannot be written: File too large; nothing of it is left\n",
+        )
+        self.assertFalse(self.out.exists())
 
 
 if __name__ == "__main__":

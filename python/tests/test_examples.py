@@ -102,7 +102,14 @@ class Examples(unittest.TestCase):
             ("load_dataset.py", support.truth(), "expected a sensor of kind 'csi'"),
             ("convert_deepmimo.py", support.truth(), "expected a sensor of kind 'csi'"),
         ):
-            self.assertIn(word, self.run_example(name, data, code=1))
+            out = self.run_example(name, data, code=1)
+            self.assertIn(word, out)
+            self.assertIn("; the scenario needs a ", out)
+            self.assertNotIn("Traceback", out)
+
+    def test_no_argument_prints_the_usage(self):
+        for name in ("convert_deepmimo.py", "events.py", "load_dataset.py", "truth.py"):
+            self.assertIn(f"python3 python/examples/{name} out/", self.run_example(name, code=1))
 
     def test_events(self):
         out = self.run_example("events.py", support.events())

@@ -377,7 +377,7 @@ class Commands(unittest.TestCase):
 
     def test_an_unknown_tool_is_refused(self):
         code, said = command("kity", export_scene.scene(), export_scene.out_folder())
-        self.assertEqual(code, 2)
+        self.assertEqual(code, 1)
         self.assertIn("kitti-raw", said)
 
     def test_a_damaged_picture_of_ids_fails_and_leaves_nothing(self):

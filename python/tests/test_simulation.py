@@ -411,6 +411,11 @@ class Errors(unittest.TestCase):
         sim = in_space()
         paths = sim.paths()
         self.check(["no such scenario", "city"], greatx.Simulation, "nowhere.yaml")
+        self.check(["(did you mean 'room'?)"], greatx.Simulation, "rom")
+        for seed in (-1, 1.5, 1 << 64):
+            self.check(
+                ["seed: expected an integer from 0 to 2^64 - 1, found"], greatx.Simulation, EMPTY, seed=seed
+            )
         self.check(["ticks", "expected"], greatx.Simulation, {"greatx": 1, "name": "x"})
         self.check(
             ["Simulation: effects", "one of auto, on, off", "'maybe'"],

@@ -13,15 +13,11 @@ namespace greatx::scene::check {
 
 /// Returns
 ///   no_radio         materials that a mesh uses and that have no radio properties (a fault, if `radio`); the
-///                    size is the area of their triangles, and `other` is the medium of ITU-R P.2040 that a
-///                    word of the name suggests, if one does
+///                    size is the area of their triangles, and `other` holds the radio fields that a word of
+///                    the name suggests (scene/material/material_words.h)
 ///   lost_picture     pictures that cannot be read (a fault); `material` is the message
 ///   unused_material  materials that no mesh uses (a doubt)
 std::vector<SceneFault> find_material_faults(const Model& model, const std::vector<double>& area_of_material,
                                              bool radio);
-
-/// Returns the radio fields that a word of a material's name suggests, such as "itu: glass" for "Window.001",
-/// or an empty text. A person should confirm it.
-std::string suggested_radio(const std::string& material_name);
 
 }  // namespace greatx::scene::check

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/expected.h"
 #include "scene/generator/canyon.h"
 #include "scene/generator/city/city.h"
 #include "scene/generator/country/country.h"
@@ -22,26 +23,27 @@ using namespace generator;
 
 struct Kind {
   const char* name;
+  const char* words;
   double min_size_m, max_size_m;  ///< both 0: the kind has no size
   std::vector<std::string> variants;
 };
 
 const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> list{{"city", 100, 1000, {}},
-                                      {"country", 160, 2000, {}},
-                                      {"canyon", 60, 1000, {}},
-                                      {"room", 0, 0, {}},
-                                      {"mast", 0, 0, {}},
-                                      {"car", 0, 0, {"hatchback", "van"}},
-                                      {"quadrotor", 0, 0, {"medium", "small", "large"}}};
+  static const std::vector<Kind> list{
+      {"city", "a part of a city: streets, buildings, park, trees, lamps, parked cars", 100, 1000, {}},
+      {"country", "hills, a winding road, fields, hedges, farms, woods", 160, 2000, {}},
+      {"canyon", "a street between two rows of houses", 60, 1000, {}},
+      {"room", "a closed room of 12 x 8 x 3.2 m", 0, 0, {}},
+      {"mast", "a base-station mast of 24.6 m", 0, 0, {}},
+      {"car", "a car or a van", 0, 0, {"hatchback", "van"}},
+      {"quadrotor", "a drone with four rotors", 0, 0, {"medium", "small", "large"}}};
   return list;
 }
 
 const Kind& find_kind(const std::string& name) {
   for (const Kind& kind : kinds())
     if (name == kind.name) return kind;
-  throw_user_error("scene generator: kind: expected one of {}, found \"{}\"",
-                   fmt::join(generator_kinds(), ", "), name);
+  throw_user_error("scene generator: kind: {}", expected_one_of(generator_kinds(), name));
 }
 
 std::string checked_variant(const Kind& kind, const std::string& variant) {
@@ -49,8 +51,8 @@ std::string checked_variant(const Kind& kind, const std::string& variant) {
   if (kind.variants.empty())
     throw_user_error("scene generator: variant: \"{}\" has none, found \"{}\"", kind.name, variant);
   if (std::find(kind.variants.begin(), kind.variants.end(), variant) == kind.variants.end())
-    throw_user_error("scene generator: variant: expected one of {} for \"{}\", found \"{}\"",
-                     fmt::join(kind.variants, ", "), kind.name, variant);
+    throw_user_error("scene generator: variant of {}: {}", kind.name,
+                     expected_one_of(kind.variants, variant));
   return variant;
 }
 
@@ -76,6 +78,12 @@ std::vector<std::string> generator_kinds() {
   std::vector<std::string> names;
   for (const Kind& kind : kinds()) names.emplace_back(kind.name);
   return names;
+}
+
+std::vector<GeneratorKind> generators() {
+  std::vector<GeneratorKind> list;
+  for (const Kind& kind : kinds()) list.push_back({kind.name, kind.words, kind.min_size_m, kind.max_size_m});
+  return list;
 }
 
 std::vector<std::string> generator_variants(const std::string& kind) { return find_kind(kind).variants; }

@@ -30,6 +30,14 @@ std::vector<std::byte> generate_glb(const GenerateOptions& options);
 /// Returns "city", "country", "canyon", "room", "mast", "car", "quadrotor".
 std::vector<std::string> generator_kinds();
 
+/// Says what a kind is, for help, and which sizes it has.
+struct GeneratorKind {
+  std::string name, words;  ///< "car", "a car at rest"
+  /// Bounds of GenerateOptions::size_m; both 0: the kind has neither a size nor a seed.
+  double least_size_m = 0, most_size_m = 0;
+};
+std::vector<GeneratorKind> generators();
+
 /// Returns the variants of `kind`, the default first, or nothing if it has none. Throws UserError for an
 /// unknown kind.
 std::vector<std::string> generator_variants(const std::string& kind);

@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "scene/gltf/gltf_geometry.h"
 #include "scene/gltf/gltf_textures.h"
+#include "scene/material/material_words.h"
 #include "scene/material/radio_fields.h"
 #include "scene/material/radio_sidecar.h"
 
@@ -186,17 +187,20 @@ std::string yaml_quoted(const std::string& name) {
 [[noreturn]] void refuse_missing(const std::string& file, const std::vector<MissingRadio>& missing) {
   std::string lines, hints;
   for (const MissingRadio& entry : missing) {
-    lines += fmt::format("\n  {}: {{ itu: concrete, thickness_m: 0.3 }}  # used by mesh '{}'",
-                         yaml_quoted(printable(entry.material)), printable(entry.mesh));
+    const std::string guess = suggested_radio(entry.material);
+    lines += fmt::format("\n  {}: {{ {} }}  # used by mesh '{}'{}", yaml_quoted(printable(entry.material)),
+                         guess.empty() ? "itu: concrete, thickness_m: 0.3" : guess, printable(entry.mesh),
+                         guess.empty() ? "; its name says nothing" : "");
     if (const auto itu = itu_part_of_name(entry.material)) {
-      hints += fmt::format("\n'{}' is no material of ITU-R P.2040-4, Table 3.", printable(*itu));
+      hints += fmt::format("\n'{}' is no material of ITU-R P.2040-4, Table 3{}.", printable(*itu),
+                           suggestion(*itu, itu_names()));
     }
   }
   throw_user_error(
       "{}: {} material{} used by meshes without radio properties. Add the extension GREATX_radio_material "
       "(in Blender: the custom property greatx_radio), or a line "
-      "each to the radio-materials YAML, with the right medium in place of concrete (one of {}; or "
-      "relative_permittivity and conductivity):\nmaterials:{}{}",
+      "each to the radio-materials YAML. These are guesses by the names; put the right medium in their place "
+      "(one of {}; a conductor; foliage; or relative_permittivity and conductivity):\nmaterials:{}{}",
       file, missing.size(), missing.size() == 1 ? " is" : "s are", fmt::join(itu_names(), ", "), lines,
       hints);
 }

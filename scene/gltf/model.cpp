@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "scene/files/asset_folder.h"
+#include "scene/files/known_format.h"
 #include "scene/georeference/georeference.h"
 #include "scene/gltf/gltf_file.h"
 #include "scene/gltf/gltf_geometry.h"
@@ -107,6 +108,9 @@ Model load_model(const std::filesystem::path& file, const LoadOptions& options) 
   const Activity activity("loading a model");
   const std::string name = file.string();
   const std::vector<unsigned char> bytes = read_regular_file(file, "model", budget::model_file);
+  // The JSON parser would complain about the first character of a file that is something else.
+  const std::optional<KnownFormat> format = recognised_format(file, bytes);
+  if (format && !format->is_gltf) throw UserError(wrong_format(file, *format, "glTF 2.0 (.glb, .gltf)"));
   AssetFolder folder(file);
   return model_of(parse_gltf(name, bytes, folder, options.keep_faults), options);
 }

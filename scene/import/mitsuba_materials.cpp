@@ -96,8 +96,8 @@ ImportedMaterial read_mitsuba_material(const MitsubaXml& xml, const pugi::xml_no
     const std::string medium = type.value_or(material.name.substr(by_name ? 4 : 0));
     const std::string itu = itu_name(medium);
     if (itu.empty())
-      xml.fail(bsdf, "material '{}': expected one of ITU-R P.2040's ({}), found '{}'", material.name,
-               fmt::join(itu_names(), ", "), medium);
+      xml.fail(bsdf, "material '{}': expected one of ITU-R P.2040's ({}), found '{}'{}", material.name,
+               fmt::join(itu_names(), ", "), medium, suggestion(medium, itu_names()));
     radio["itu"] = itu;
     for (const Look& look : looks)
       if (itu == look.itu) material.base_color = look.color;

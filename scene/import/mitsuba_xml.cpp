@@ -12,6 +12,7 @@
 
 #include "core/input_file.h"
 #include "core/text.h"
+#include "scene/files/known_format.h"
 
 namespace greatx::scene {
 
@@ -48,6 +49,9 @@ MitsubaXml::MitsubaXml(const std::filesystem::path& file) : file_(file) {
   source_ = InputFile(file, file.string(), budget::import_xml).text();
   for (size_t at = 0; at < source_.size(); ++at)
     if (source_[at] == '\n') line_ends_.push_back(static_cast<std::ptrdiff_t>(at));
+  const auto format =
+      recognised_format(file, {reinterpret_cast<const unsigned char*>(source_.data()), source_.size()});
+  if (format && !format->is_mitsuba) throw UserError(wrong_format(file, *format, "a Mitsuba scene (.xml)"));
   const pugi::xml_parse_result result = document_.load_buffer(source_.data(), source_.size());
   if (!result) throw_user_error_at(location(result.offset), "XML: {}", result.description());
   if (!scene())

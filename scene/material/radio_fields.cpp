@@ -11,6 +11,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "core/expected.h"
+#include "core/text.h"
 #include "scene/material/conductors.h"
 
 namespace greatx::scene {
@@ -96,7 +98,8 @@ std::optional<RadioMedium> read_itu(const FieldMap& map) {
   if (!field) return std::nullopt;
   auto medium = itu_medium(std::string(field->scalar()));
   if (!medium)
-    field->fail(fmt::format("a material of ITU-R P.2040-4, Table 3 ({})", fmt::join(itu_names(), ", ")));
+    field->fail(fmt::format("a material of ITU-R P.2040-4, Table 3 ({})", fmt::join(itu_names(), ", ")),
+                fmt::format("'{}'{}", printable(field->scalar()), suggestion(field->scalar(), itu_names())));
   return medium;
 }
 
@@ -104,7 +107,7 @@ std::optional<RadioMedium> read_conductor(const FieldMap& map) {
   const std::optional<Field> field = map.find("conductor");
   if (!field) return std::nullopt;
   auto medium = conductor_medium(std::string(field->scalar()));
-  if (!medium) field->fail(fmt::format("one of {}", fmt::join(conductor_names(), ", ")));
+  if (!medium) field->refuse(expected_one_of(conductor_names(), field->scalar()));
   return medium;
 }
 

@@ -11,6 +11,7 @@
 #include "core/fields/edit_yaml.h"
 #include "core/fields/field.h"
 #include "core/fields/yaml.h"
+#include "core/text.h"
 #include "sim/scenario/limits.h"
 
 namespace greatx::sim {
@@ -76,7 +77,8 @@ size_t find_axis(const std::vector<CampaignAxis>& axes, const std::string& name,
   if (at != axes.end()) return static_cast<size_t>(at - axes.begin());
   std::vector<std::string> names;
   for (const CampaignAxis& axis : axes) names.push_back(axis.name);
-  field.refuse(fmt::format("expected one of the axes {}, found '{}'", fmt::join(names, ", "), name));
+  field.refuse(fmt::format("expected one of the axes {}, found '{}'{}", fmt::join(names, ", "), name,
+                           suggestion(name, names)));
 }
 
 size_t find_value(const CampaignAxis& axis, const Field& field) {
@@ -85,7 +87,8 @@ size_t find_value(const CampaignAxis& axis, const Field& field) {
   if (at != axis.values.end()) return static_cast<size_t>(at - axis.values.begin());
   std::vector<std::string> names;
   for (const CampaignValue& value : axis.values) names.push_back(value.name);
-  field.fail(fmt::format("one of the values of '{}': {}", axis.name, fmt::join(names, ", ")));
+  field.fail(fmt::format("one of the values of '{}': {}", axis.name, fmt::join(names, ", ")),
+             fmt::format("'{}'{}", name, suggestion(name, names)));
 }
 
 std::vector<size_t> find_values(const CampaignAxis& axis, const Field& field) {

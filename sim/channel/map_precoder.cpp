@@ -8,6 +8,7 @@
 
 #include "core/budget.h"
 #include "core/error.h"
+#include "core/expected.h"
 
 namespace greatx::sim {
 
@@ -24,7 +25,7 @@ bool has_beams(MapPrecoding precoding) {
 MapPrecoding map_precoding(const std::string& name) {
   for (size_t i = 0; i < map_precodings.size(); ++i)
     if (name == map_precodings[i]) return static_cast<MapPrecoding>(i);
-  throw_user_error("--precoder: expected one of {}, found '{}'", fmt::join(map_precodings, ", "), name);
+  throw_user_error("--precoder: {}", expected_one_of(map_precodings, name));
 }
 
 void check_map_precoder(const MapPrecoder& precoder) {

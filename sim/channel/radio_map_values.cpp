@@ -8,6 +8,7 @@
 
 #include <fmt/ranges.h>
 
+#include "core/text.h"
 #include "core/units.h"
 #include "rf/channel/received.h"
 
@@ -160,7 +161,8 @@ const MapQuantity& map_quantity(const std::string& name) {
     if (quantity.name == name) return quantity;
     names.push_back(quantity.name);
   }
-  throw_user_error("--quantities: expected some of {}, found '{}'", fmt::join(names, ", "), name);
+  throw_user_error("--quantities: expected some of {}, found '{}'{}", fmt::join(names, ", "), name,
+                   suggestion(name, names));
 }
 
 Array map_heights(const MapCells& cells) {

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/built_effects.h"
+#include "core/text.h"
 #include "core/units.h"
 #include "sim/plan/camera_plan.h"
 #include "sim/plan/effect_planner.h"
@@ -87,9 +88,9 @@ EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene,
     std::vector<std::string> names;
     for (const Effect* effect : effects)
       if (effect->switchable) names.push_back(effect->name);
-    throw_user_error("{}: effects: '{}' is no effect; expected one of {}",
+    throw_user_error("{}: effects: '{}' is no effect{}; expected one of {}",
                      scenario.file.empty() ? scenario.name : scenario.file.string(), name,
-                     fmt::join(names, ", "));
+                     suggestion(name, names), fmt::join(names, ", "));
   }
   if constexpr (!all_effects_built) require_built(plan, scenario);
   return plan;

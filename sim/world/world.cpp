@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "core/expected.h"
 #include "rf/surface/surfaces.h"
 #include "scene/build/build.h"
 #include "scene/generator/generate.h"
@@ -36,7 +37,7 @@ std::optional<scene::SemanticClass> semantic_class(const std::optional<std::stri
   const std::vector<std::string>& names = scene::semantic_class_names();
   for (size_t i = 0; i < names.size(); ++i)
     if (names[i] == *name) return static_cast<scene::SemanticClass>(i);
-  throw_user_error_at(where, "class: expected one of {}, found '{}'", fmt::join(names, ", "), *name);
+  throw_user_error_at(where, "class: {}", expected_one_of(names, *name));
 }
 
 dquat orientation_of(const dvec3& yaw_pitch_roll) {

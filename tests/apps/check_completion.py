@@ -143,8 +143,8 @@ def commands(program, path=()):
     """Yields the path of each command, and its --help."""
     text = run(program, *path, "--help")
     yield path, text
-    below = re.search(r"^(?:Subcommands|Commands.*):\n((?: .*\n|\n)+)", text, re.MULTILINE)
-    for name in re.findall(r"^  ([a-z]\w*)", below.group(1), re.MULTILINE) if below else []:
+    # The groups of commands follow the options; no option begins with a letter.
+    for name in re.findall(r"^  ([a-z]\w*) ", text.partition("\nOptions:\n")[2], re.MULTILINE):
         yield from commands(program, (*path, name))
 
 

@@ -6,14 +6,18 @@ pages are the program's own.
 Every `greatx ...`, between backticks or in a block, must have subcommands, options and embedded scenarios
 that --help knows. So must every option that stands alone between backticks.
 
-A block that begins with `greatx` or `$ greatx` is run, line by line, in a folder of the page's own, and must
-succeed. A block below the comment <!-- check: options --> is not run: it has names to be filled in, or takes
-long. A block below <!-- file: NAME --> is the content of this file, for the commands of its page.
+A block that begins with `greatx` or with `$ COMMAND` is run, line by line, in a folder of the page's own, and
+must succeed. These comments in front of a block change that:
 
-The lines below `$ greatx ...` must be the output of the command, one after another from some line on. Numbers
-with a fraction or an exponent may differ by one and a half of their last digit. Spaces may differ in number.
-`...` or `…` within a line stands for any text, and alone in a line for any lines. Output after the last line
-is ignored.
+    <!-- check: options -->         it is not run: it has names to be filled in, or takes long
+    <!-- check: fails -->           its commands must end with exit code 1; what is shown is the message
+    <!-- check: prints COMMAND -->  it is what this command prints; the command is run once for the whole page
+    <!-- file: NAME -->             it is the content of this file, for the commands of its page
+
+The lines below `$ COMMAND`, or of a block that a command prints, must be its output, one after another from
+some line on. Numbers with a fraction or an exponent may differ by one and a half of their last digit. Spaces
+may differ in number. `...` or `…` within a line stands for any text, for example for a time or for what
+depends on the device, and alone in a line for any lines. Output after the last line is ignored.
 
 Three more checks: docs/commands.md names every embedded scenario. In README.md the numbers of triangles in
 the table are right, and so are the paths of files below "sequence_0000/", whose numbers of frames are taken
@@ -42,6 +46,7 @@ OTHERS = {  # options of other programs, and options of greatx's scripts
     "--no-build-isolation",
     "--no-deps",
     "--layout",
+    "--prefix",
     "--table",
 }
 
@@ -85,8 +90,9 @@ class Program:
 
     @functools.cache
     def subcommands(self, *chain: str) -> list[str]:
-        part = self.help(*chain).partition("Subcommands:\n")[2]
-        return re.findall(r"^  (\w+) ", part, re.MULTILINE)
+        # The groups of commands follow the options; no option begins with a letter.
+        part = self.help(*chain).partition("\nOptions:\n")[2]
+        return re.findall(r"^  ([a-z]\w*) ", part, re.MULTILINE)
 
     @functools.cache
     def scenarios(self, command: str = "explain") -> list[str]:
@@ -176,6 +182,7 @@ class Page:
         self.text = file.read_text(encoding="utf-8")
         self.folder = folder / file.stem
         self.runs = self.checked = 0
+        self.printed: dict[str, list[str]] = {}  # what each command of the page prints
         self.env = dict(
             os.environ, GREATX_CACHE=str(folder / "cache"), PATH=f"{folder}/bin:{os.environ['PATH']}"
         )
@@ -191,7 +198,14 @@ class Page:
             for name in re.findall(r"<!-- file: (\S+) -->", block["comments"]):
                 (self.folder / name).write_text(block["body"], encoding="utf-8")
 
-    def run(self, command: str) -> list[str]:
+    def prints(self, command: str) -> list[str]:
+        """Returns what a command prints; it is run if no block of this page has run it before."""
+        if command not in self.printed:
+            self.run(command)
+        return self.printed[command]
+
+    def run(self, command: str, fails: bool = False) -> list[str]:
+        written = command
         command = re.sub(r"\bpython3\b", shlex.quote(sys.executable), command)
         done = subprocess.run(
             ["bash", "-c", command],
@@ -202,11 +216,20 @@ class Page:
             check=False,
         )
         self.runs += 1
-        if done.returncode != 0:
+        if done.returncode != (1 if fails else 0):
             raise Failure(f"ends with {done.returncode}: {done.stderr.strip()}")
-        return done.stdout.splitlines()
+        self.printed[written] = (done.stderr if fails else done.stdout).splitlines()
+        return self.printed[written]
 
-    def block(self, body: str, runs: bool) -> None:
+    def block(self, body: str, comments: str) -> None:
+        printed = re.search(r"<!-- check: prints (.*?) -->", comments)
+        if printed:
+            try:
+                compare(body.splitlines(), self.prints(printed[1]))
+            except Failure as failure:
+                raise Failure(f"{printed[1]}\n{failure}") from None
+            return
+        runs, fails = "check: options" not in comments, "check: fails" in comments
         lines = body.splitlines()
         if not lines[0].startswith("$ "):
             lines = [f"$ {line}" for line in lines if line.strip() and not line.lstrip().startswith("#")]
@@ -214,11 +237,11 @@ class Page:
         for start, end in zip(starts, [*starts[1:], len(lines)], strict=True):
             command = lines[start][2:]
             try:
-                if "greatx" in shlex.split(command, comments=True):
+                if "greatx" in shlex.split(command, comments=True) and not fails:
                     self.program.check(command)
                     self.checked += 1
                 if runs:
-                    compare(lines[start + 1 : end], self.run(command))
+                    compare(lines[start + 1 : end], self.run(command, fails))
                 elif end > start + 1:
                     raise Failure("what it prints is shown, so it has to be run")
             except Failure as failure:
@@ -244,12 +267,16 @@ class Page:
                         )
             except Failure as failure:
                 raise Failure(f"{self.file}:{self.line_of(span.start())}: {code}\n{failure}") from None
-        blocks = [match for match in FENCE.finditer(self.text) if re.match(r"(\$ )?greatx ", match["body"])]
+        blocks = [
+            match
+            for match in FENCE.finditer(self.text)
+            if re.match(r"\$ |greatx ", match["body"]) or "check: prints" in match["comments"]
+        ]
         if any("check: options" not in match["comments"] for match in blocks):
             self.prepare()
         for match in blocks:
             try:
-                self.block(match["body"], "check: options" not in match["comments"])
+                self.block(match["body"], match["comments"])
             except Failure as failure:
                 raise Failure(f"{self.file}:{self.line_of(match.start('body'))}: {failure}") from None
 

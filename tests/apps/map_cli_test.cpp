@@ -274,10 +274,10 @@ TEST_F(MapCli, SaysWhatIsWrong) {
       {"--bandwidth 0", "--bandwidth: expected more than 0 Hz"},
       {"--noise-figure -3", "--noise-figure: expected 0 dB or more"},
       {"--quantities rss,gain", "--quantities: expected some of path_gain"},
-      {"--channel none", "--channel: expected one of csi, found 'none'"},
+      {"--channel none", "--channel: expected csi, found 'none'"},
       {"--rx ue/camera", "--rx: expected an antenna of the scenario"},
       {"--tick 99", "--tick: expected 0 to 10"},
-      {"--plane 1 --height 2", "excludes"}};
+      {"--plane 1 --height 2", "--plane: expected no --height beside it"}};
   for (const auto& [arguments, message] : faults) {
     const Outcome outcome = map("wrong", arguments);
     EXPECT_EQ(outcome.code, 1) << arguments;

@@ -340,7 +340,9 @@ TEST_F(RadioCli, ReceiverListsWithFaults) {
 TEST_F(RadioCli, EffectsThatAreNoneAndWeatherThatIsNone) {
   const std::string text = radio_scenario;
   write("house.yaml", text + "effects: {difraction: on}\n");
-  fails("effect", {"house.yaml", "effects: 'difraction' is no effect; expected one of", "diffraction"});
+  fails("effect",
+        {"house.yaml", "effects: 'difraction' is no effect (did you mean 'diffraction'?); expected one of",
+         "diffraction"});
   write("house.yaml", text + "effects: {channel: off}\n");
   fails("fixed", {"house.yaml", "effects.channel: cannot be switched"});
   write("house.yaml", text + "environment: {temperature_k: 20}\n");

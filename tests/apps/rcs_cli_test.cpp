@@ -253,8 +253,8 @@ TEST_F(RcsCli, BadArgumentsAreNamed) {
     EXPECT_EQ(outcome.out, "") << options;
     EXPECT_FALSE(fs::exists(path("table.csv"))) << options;
   };
-  refused("", "--node is required");
-  refused("--node nobody", "--node: expected the name of a node of the scenario, found 'nobody'");
+  refused("", "greatx rcs: expected --node (");
+  refused("--node nobody", "--node: expected one of bs, plate, found 'nobody'");
   refused("--node bs", "--node: expected a node with a model, found 'bs'");
   refused("--node plate --step 7", "--step: expected a step that divides 180 degrees, found 7");
   refused("--node plate --step 0", "--step: expected a number from 0.1 to 90, found '0'");

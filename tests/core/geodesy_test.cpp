@@ -183,9 +183,10 @@ TEST(Geodesy, RefusesOriginsThatAreNotOnEarth) {
   EXPECT_EQ(message({{0.0, -181.0, 0.0}, 0.0, ""}),
             "longitude_deg: expected -180 to 180 degrees, found -181");
   EXPECT_EQ(message({{nan, 0.0, 0.0}, 0.0, ""}), "latitude_deg: expected -90 to 90 degrees, found nan");
-  EXPECT_EQ(message({{0.0, 0.0, 2e6}, 0.0, ""}), "height_m: expected -1e+06 to 1e+06 metres, found 2000000");
+  EXPECT_EQ(message({{0.0, 0.0, 2e6}, 0.0, ""}),
+            "height_m: expected -1000000 to 1000000 metres, found 2000000");
   EXPECT_EQ(message({{0.0, 0.0, 0.0}, -1e300, ""}),
-            "undulation_m: expected -10000 to 10000 metres, found -1e+300");
+            "undulation_m: expected -10000 to 10000 metres, found -1e300");
   EXPECT_EQ(message({{-90.0, 180.0, -400.0}, 17.0, "EGM96"}), "no error");
 }
 

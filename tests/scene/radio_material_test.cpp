@@ -418,17 +418,19 @@ TEST(RadioMaterial, UsedMaterialsWithoutRadioAreListedInOneError) {
 }
 
 TEST(RadioSidecar, TheLinesOfTheErrorAreTheCure) {
-  const GltfWriter writer = quad_with({{"name", "tar \"new\""}});
-  std::string message;
-  try {
-    writer.load();
-  } catch (const UserError& error) {
-    message = error.what();
+  for (const auto& [name, thickness] : {std::pair("coat \"new\"", 0.3), {"red_\"brick\"", 0.24}}) {
+    const GltfWriter writer = quad_with({{"name", name}});
+    std::string message;
+    try {
+      writer.load();
+    } catch (const UserError& error) {
+      message = error.what();
+    }
+    const TemporaryFolder folder;
+    LoadOptions options;
+    options.radio_materials = folder.write("radio.yaml", message.substr(message.find("materials:")));
+    EXPECT_EQ(writer.load(options).materials.at(0).radio->layers.at(0).thickness_m, thickness) << name;
   }
-  const TemporaryFolder folder;
-  LoadOptions options;
-  options.radio_materials = folder.write("radio.yaml", message.substr(message.find("materials:")));
-  EXPECT_EQ(writer.load(options).materials.at(0).radio->layers.at(0).thickness_m, 0.3);
 }
 
 TEST(RadioSidecar, ExactNameBeatsGlobAndFirstGlobWins) {

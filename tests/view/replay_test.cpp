@@ -159,7 +159,7 @@ TEST_F(Replay, NoDataSetOrABrokenOne) {
   const auto none = replay_run(temporary_.path() / "nothing");
   ASSERT_TRUE(wait_for_error(*none));
   EXPECT_EQ(none->status().phase, RunStatus::Phase::failed);
-  EXPECT_THAT(none->status().error, HasSubstr("expected a data set, found no dataset.json"));
+  EXPECT_THAT(none->status().error, HasSubstr("expected a data set, found no such folder"));
   write();
   io::write_file_atomically(set() / "dataset.json", std::string("{"));
   const auto broken = replay_run(set());

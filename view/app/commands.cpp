@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/expected.h"
 #include "core/text.h"
 #include "view/script/script.h"
 
@@ -121,8 +122,7 @@ size_t chosen_place(const char* command, const std::string& name, const std::vec
                     size_t now) {
   if (name.empty()) return (now + 1) % names.size();
   const auto found = std::ranges::find(names, name);
-  if (found == names.end())
-    throw_user_error("{}: expected one of {}, found '{}'", command, fmt::join(names, ", "), printable(name));
+  if (found == names.end()) throw_user_error("{}: {}", command, expected_one_of(names, name));
   return static_cast<size_t>(found - names.begin());
 }
 

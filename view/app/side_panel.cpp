@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/expected.h"
 #include "core/text.h"
 #include "draw/paths/facts.h"
 #include "view/app/fact_table.h"
@@ -82,8 +83,7 @@ void SidePanel::open_tab(const std::string& name) {
         [](char c) { return std::tolower(static_cast<unsigned char>(c)); });
   };
   const auto* const found = std::ranges::find_if(tabs, same);
-  if (found == std::end(tabs))
-    throw_user_error("tab: expected one of {}, found '{}'", fmt::join(tabs, ", "), printable(name));
+  if (found == std::end(tabs)) throw_user_error("tab: {}", expected_one_of(tabs, name));
   wanted_tab_ = *found;
 }
 

@@ -11,12 +11,15 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/expected.h"
+#include "core/text.h"
 
 namespace greatx::apps {
 
 namespace {
 
 constexpr const char* program_name = "greatx-places";
+constexpr double most_simplify_m = 10.0;
 
 [[noreturn]] void start_program(const BuildCommand& command) {
   const std::filesystem::path program =
@@ -41,12 +44,19 @@ constexpr const char* program_name = "greatx-places";
 }  // namespace
 
 void add_build_options(CLI::App& app, BuildCommand& command) {
-  app.add_option("FILE", command.file, "place.yaml");
+  app.add_option("FILE", command.file, "the place, .yaml; needed unless --print-materials is there");
   app.add_option("--assets", command.assets, "folder to look in for files that are not beside place.yaml");
-  app.add_option("-o,--output", command.output, ".glb to write; default: NAME.glb");
-  app.add_option("--report", command.report, "folder of the report; default: beside the output, NAME_report");
+  app.add_option("-o,--output", command.output, ".glb to write [NAME.glb]");
+  app.add_option("--report", command.report, "folder of the report [NAME_report, beside the output]");
   app.add_option("--simplify", command.simplify_m, "detail of outlines below this many metres may go")
-      ->check(CLI::Range(0.0, 10.0));
+      ->check(CLI::Validator(
+          [](std::string& text) {
+            const std::optional<double> value = parse_number(text);
+            if (value && *value >= 0.0 && *value <= most_simplify_m) return std::string();
+            return fmt::format("expected {}, found '{}'", number_range(0.0, most_simplify_m),
+                               printable(text));
+          },
+          fmt::format("0 to {}", number_words(most_simplify_m))));
   app.add_flag("--json", command.json, "print the report as JSON");
   app.add_flag("-q,--quiet", command.quiet, "show no progress");
   app.add_flag("--print-materials", command.print_materials,
@@ -70,8 +80,8 @@ std::vector<std::string> arguments_of(const BuildCommand& command) {
 }
 
 void add_scene_build(CLI::App& scene_command) {
-  CLI::App* app =
-      scene_command.add_subcommand("build", "a real place from maps, terrain and imagery (docs/places.md)");
+  CLI::App* app = scene_command.add_subcommand(
+      "build", "make a real place from maps, terrain and imagery (docs/places.md)");
   auto command = std::make_shared<BuildCommand>();
   add_build_options(*app, *command);
   app->callback([command] { start_program(*command); });

@@ -8,16 +8,37 @@ from __future__ import annotations
 
 import argparse
 import pathlib
+import re
 import sys
-from typing import List, Optional
+from typing import List, NoReturn, Optional
 
 from .. import Campaign, DatasetError, load
+from ..errors import nearest
 from ..files import interpreting
 from .catalogue import COMMANDS
 
 
+class _Parser(argparse.ArgumentParser):
+    """A parser that ends like greatx: a wrong argument has the exit code 1, and a name comes with the one
+    that was probably meant."""
+
+    def error(self, message: str) -> NoReturn:
+        found = re.search(r"invalid choice: '(.*?)'", message)
+        names = [name for name in re.findall(r"'(.*?)'", message[found.end() :])] if found else []
+        hint = nearest(found[1], names) if found else ""
+        self.exit(1, f"error: {message}{hint}\n`{self.prog} --help` tells what there is.\n")
+
+
+def _words(error: Exception, out: str) -> str:
+    """Returns the message of an error. A write that fails, as on a full disk or at a limit on the size of
+    files, names no file, so that the message names OUT."""
+    if not isinstance(error, OSError) or error.errno is None or error.filename is not None:
+        return str(error)
+    return f"{out}: cannot be written: {error.strerror}; nothing of it is left"
+
+
 def main(arguments: Optional[List[str]] = None) -> int:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="python3 -m greatx.convert",
         description="Writes a data set in the conventions of another tool (docs/exports.md). Nothing is "
         "normalised.",
@@ -39,12 +60,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
                     f"{pathlib.Path(given.DIR, 'data', dataset.cells[0])}"
                 )
             summary = by_name[given.to].run(dataset, given)
-    except OSError as error:
-        place = "" if error.filename else f"{given.OUT}: "  # a write does not know its file
-        print(f"error: {place}{error}", file=sys.stderr)
-        return 1
-    except (DatasetError, ImportError) as error:
-        print(f"error: {error}", file=sys.stderr)
+    except (DatasetError, OSError, ImportError) as error:
+        print(f"error: {_words(error, given.OUT)}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print(f"error: interrupted; {given.OUT} is not made", file=sys.stderr)

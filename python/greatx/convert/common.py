@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import io
 import os
 import pathlib
 from typing import Any, Callable, Dict, Optional, Union
@@ -19,7 +20,7 @@ from typing import Any, Callable, Dict, Optional, Union
 import numpy as np
 
 from ..dataset import Dataset, Sensor, Sequence
-from ..errors import DatasetError
+from ..errors import DatasetError, nearest
 
 
 @dataclasses.dataclass(frozen=True)
@@ -48,7 +49,7 @@ def pick_sequence(dataset: Dataset, number: Optional[int]) -> Sequence:
     if number is None:
         if len(dataset.sequences) != 1:
             raise DatasetError(
-                f"{dataset.path}: has {len(dataset.sequences)} sequences: say which one (--sequence)"
+                f"{dataset.path}: has {len(dataset.sequences)} sequences: say which one (--sequence 0)"
             )
         return dataset.sequences[0]
     for sequence in dataset.sequences:
@@ -64,24 +65,33 @@ def pick_channel(sequence: Sequence, name: Optional[str]) -> Sensor:
     """Returns the channel of this name; None stands for the only one. Raises DatasetError if there is
     none.
     """
-    channels = [s for s in sequence.sensors.values() if s.kind == "csi"]
-    names = ", ".join(s.name for s in channels) or "none"
-    for channel in channels:
-        if channel.name == name or (name is None and len(channels) == 1):
-            return channel
-    what = (
-        f"no channel {name!r}" if name is not None else "several channels or none: say which one (--channel)"
-    )
-    raise DatasetError(f"{sequence.dataset.path}: has {what}; channels: {names}")
+    channels = {s.name: s for s in sequence.sensors.values() if s.kind == "csi"}
+    if not channels:
+        raise DatasetError(
+            f"{sequence.dataset.path}: expected a channel, found none; the scenario needs a channel with "
+            "outputs: [cfr, paths]"
+        )
+    if name is None:
+        if len(channels) > 1:
+            raise DatasetError(
+                f"{sequence.dataset.path}: has the channels {', '.join(channels)}: say which one (--channel)"
+            )
+        return next(iter(channels.values()))
+    if name not in channels:
+        raise DatasetError(
+            f"{sequence.dataset.path}: has no channel {name!r}{nearest(name, channels)}; channels: "
+            f"{', '.join(channels)}"
+        )
+    return channels[name]
 
 
-def make_folder(out: Union[str, "os.PathLike[str]"]) -> pathlib.Path:
-    """Creates a folder, or accepts an empty one. Raises FileExistsError if the folder is not empty."""
-    path = pathlib.Path(out)
-    path.mkdir(parents=True, exist_ok=True)
-    if any(path.iterdir()):
-        raise FileExistsError(f"{path}: is not empty; nothing is overwritten")
-    return path
+def save_npz(file: pathlib.Path, **arrays: Any) -> None:
+    """Writes arrays to a compressed .npz. They are compressed in memory first, because a ZipFile that cannot
+    write fails a second time when it is removed, and prints that.
+    """
+    buffer = io.BytesIO()
+    np.savez_compressed(buffer, **arrays)
+    file.write_bytes(buffer.getbuffer())
 
 
 def turns(frequency_hz: float, delay_s: np.ndarray) -> np.ndarray:

@@ -35,7 +35,8 @@ from ..links import (
     receivers,
     transmitters,
 )
-from .common import Command, channel_arguments, make_folder, pick_channel, pick_sequence, turns
+from .common import Command, channel_arguments, pick_channel, pick_sequence, save_npz, turns
+from .folders import new_folder
 
 #: The version of DeepMIMO whose format is written.
 DEEPMIMO_VERSION = "4.0.5"
@@ -84,7 +85,8 @@ def write_deepmimo(
 
     with interpreting(sensor.sequence.path / sensor.name):
         room = _Room(sensor, records)
-        return _write(make_folder(out), sensor, snapshots, records, room, layout)
+        with new_folder(out) as root:
+            return _write(root, sensor, snapshots, records, room, layout)
 
 
 def _write(
@@ -103,8 +105,8 @@ def _write(
             arrays = _arrays(points, tx, room)
             active |= ~np.isnan(arrays["power"][:, 0])
             for key, value in arrays.items():
-                np.savez_compressed(folder / f"{key}_t{TX_SET:03}_tx{tx:03}_r{RX_SET:03}.npz", **{key: value})
-        np.savez_compressed(folder / "vertices.npz", vertices=np.empty((0, 3), np.float32))
+                save_npz(folder / f"{key}_t{TX_SET:03}_tx{tx:03}_r{RX_SET:03}.npz", **{key: value})
+        save_npz(folder / "vertices.npz", vertices=np.empty((0, 3), np.float32))
         (folder / "objects.json").write_text("[]\n")  # no objects, because a data set holds no geometry
     params = _params(sensor, records, len(snapshots), len(snapshots[0]), int(active.sum()), layout)
     (root / "params.json").write_text(json.dumps(params, indent=2) + "\n")

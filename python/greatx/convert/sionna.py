@@ -28,7 +28,8 @@ from ..links import (
     receivers,
     transmitters,
 )
-from .common import Command, channel_arguments, make_folder, pick_channel, pick_sequence, turns
+from .common import Command, channel_arguments, pick_channel, pick_sequence, save_npz, turns
+from .folders import new_folder
 
 #: Values of sionna.rt.constants.InteractionType of our interactions: SPECULAR, DIFFUSE, REFRACTION,
 #: DIFFRACTION.
@@ -144,17 +145,17 @@ def write_sionna(
                     f"{sensor.name}: expected an array {needed!r}, found none; the scenario's channel needs "
                     "outputs: [cfr, paths]"
                 )
-    root = make_folder(out)
     written = 0
-    for sensor in sensors:
-        folder = root / sensor.sequence.path.name
-        folder.mkdir()
-        for record in sensor:
-            arrays = vars(sionna_paths(record))
-            np.savez_compressed(
-                folder / f"{record.sample:06d}.npz", tick=record.tick, time_s=record.time_s, **arrays
-            )
-            written += 1
+    with new_folder(out) as root:
+        for sensor in sensors:
+            folder = root / sensor.sequence.path.name
+            folder.mkdir()
+            for record in sensor:
+                arrays = vars(sionna_paths(record))
+                save_npz(
+                    folder / f"{record.sample:06d}.npz", tick=record.tick, time_s=record.time_s, **arrays
+                )
+                written += 1
     return {"sequences": len(sensors), "files": written}
 
 

@@ -12,6 +12,7 @@
 #include <unordered_map>
 
 #include "core/error.h"
+#include "core/expected.h"
 #include "core/text.h"
 #include "scene/place/input/osm_values.h"
 #include "scene/place/source/crs.h"
@@ -56,16 +57,15 @@ class TableReader {
       throw_user_error(
           "{}: expected OpenStreetMap (.osm, .pbf), CityJSON, GeoJSON, GeoPackage or Shapefile{}", where_,
           messages.suffix());
-    std::string layers;
+    std::vector<std::string> layers;
     bool found = false;
     for (OGRLayer* layer : dataset->GetLayers()) {
-      layers += fmt::format("{}'{}'", layers.empty() ? "" : ", ", printable(layer->GetName()));
+      layers.push_back(printable(layer->GetName()));
       if (!source_.layer.empty() && source_.layer != layer->GetName()) continue;
       found = true;
       read_layer(*layer);
     }
-    if (!found)
-      throw_user_error("{}: layer: expected one of {}, found '{}'", where_, layers, printable(source_.layer));
+    if (!found) throw_user_error("{}: layer: {}", where_, expected_one_of(layers, source_.layer));
     if (messages.failed()) throw_user_error("{}: the file is damaged{}", where_, messages.suffix());
     require_known_keys();
     join_parts();

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/activity.h"
+#include "core/expected.h"
 #include "core/input_file.h"
 #include "core/units.h"
 #include "sim/scenario/parse/scenario_parse.h"
@@ -55,8 +56,7 @@ AccuracyWish parse_accuracy(const FieldMap& map) {
   std::vector<std::string_view> names;
   for (const AccuracyKind& kind : accuracy_kinds()) names.push_back(kind.name);
   for (const auto& [name, value] : accuracy->entries())
-    if (std::ranges::find(names, name) == names.end())
-      value.refuse(fmt::format("expected one of {}, found '{}'", fmt::join(names, ", "), name));
+    if (std::ranges::find(names, name) == names.end()) value.refuse(expected_one_of(names, name));
   for (const AccuracyKind& kind : accuracy_kinds())
     for (const auto& [name, value] : accuracy->entries())
       if (name == kind.name) wish.targets.push_back({&kind, value.between(kind.least, kind.most)});
@@ -107,6 +107,8 @@ void check_names(const Field& root, const Scenario& scenario) {
 Scenario parse_scenario(const std::string& text, const std::string& name, const std::filesystem::path& folder,
                         const std::filesystem::path& assets) {
   const Field root = Field::parse_yaml(text, {name, folder, assets});
+  if (!root.is_map())
+    root.fail("a scenario: a map with 'greatx: 1', 'name', 'ticks' and others (docs/scenario.md)");
   const FieldMap map(root, {"greatx", "name", "seed", "sequences", "duration_s", "ticks", "trajectory_ticks",
                             "tick_rate_hz", "scene", "environment", "nodes", "channels", "effects",
                             "tolerance_db", "accuracy", "time_budget_ms_per_tick", "storage"});

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/expected.h"
 #include "sim/scenario/date_time.h"
 #include "sim/scenario/limits.h"
 #include "sim/scenario/parse/csv.h"
@@ -33,7 +34,7 @@ double LogTimes::next(std::string_view text, const EarthPositions::Fail& fail) {
   if (!std::isfinite(time_s)) fail("a finite number", found);
   if (std::abs(time_s) > most_time_s)
     fail(*dates_ ? fmt::format("a time within {:g} s of the start", most_time_s)
-                 : fmt::format("a number from {:g} to {:g}", -most_time_s, most_time_s),
+                 : number_range(-most_time_s, most_time_s),
          found);
   if (last_s_ && !(time_s > *last_s_))
     fail(fmt::format("a time greater than the one before, {}", *last_s_), found);

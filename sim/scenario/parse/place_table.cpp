@@ -8,6 +8,7 @@
 
 #include <fmt/ranges.h>
 
+#include "core/expected.h"
 #include "sim/scenario/limits.h"
 
 namespace greatx::sim {
@@ -91,8 +92,7 @@ double PlaceTable::number(const CsvLine& line, PlaceColumn column, double most) 
   const std::optional<double> value = csv_number(text);
   const std::string found = text.empty() ? "a gap" : fmt::format("'{}'", text);
   if (!value || !std::isfinite(*value)) fail(line, column, "a finite number", found);
-  if (std::abs(*value) > most)
-    fail(line, column, fmt::format("a number from {:g} to {:g}", -most, most), found);
+  if (std::abs(*value) > most) fail(line, column, number_range(-most, most), found);
   return *value;
 }
 

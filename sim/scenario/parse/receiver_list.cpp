@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/expected.h"
 #include "sim/scenario/limits.h"
 #include "sim/scenario/parse/csv.h"
 #include "sim/scenario/parse/place_table.h"
@@ -40,8 +41,8 @@ dvec3 parse_position(const CsvLine& line) {
                 fmt::format("{}: expected a finite number, found {}", receiver_columns[i],
                             line.cells[i].text.empty() ? "a gap" : fmt::format("'{}'", line.cells[i].text)));
     if (std::abs(*value) > most_position_m)
-      line.fail(i, fmt::format("{}: expected a number from {:g} to {:g}, found '{}'", receiver_columns[i],
-                               -most_position_m, most_position_m, line.cells[i].text));
+      line.fail(i, fmt::format("{}: expected {}, found '{}'", receiver_columns[i],
+                               number_range(-most_position_m, most_position_m), line.cells[i].text));
     position[static_cast<int>(i)] = *value;
   }
   return position;

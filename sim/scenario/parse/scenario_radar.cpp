@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/text.h"
 #include "core/units.h"
 #include "sim/scenario/parse/scenario_parse.h"
 
@@ -130,6 +131,16 @@ void place_arrays(RadarConfig& radar, uint32_t chirps) {
   signal.waveform.slots = chirps * signal.waveform.loop();
 }
 
+/// Returns the names, node/sensor, of all sensors of a kind.
+template <typename Config>
+std::vector<std::string> sensors_of(const std::vector<NodeConfig>& nodes) {
+  std::vector<std::string> names;
+  for (const NodeConfig& node : nodes)
+    for (const SensorConfig& sensor : node.sensors)
+      if (std::holds_alternative<Config>(sensor.config)) names.push_back(node.name + "/" + sensor.name);
+  return names;
+}
+
 /// Returns the antenna that a bistatic radar names.
 const AntennaConfig& illuminator_of(const std::vector<NodeConfig>& nodes, const RadarConfig& radar,
                                     const std::string& field) {
@@ -138,7 +149,9 @@ const AntennaConfig& illuminator_of(const std::vector<NodeConfig>& nodes, const 
                         "{}: expected an antenna of one polarization as node/sensor, found {}", field, found);
   };
   const std::optional<SensorPlace> place = find_sensor(nodes, radar.illuminator);
-  if (!place) fail(fmt::format("unknown '{}'", radar.illuminator));
+  if (!place)
+    fail(fmt::format("unknown '{}'{}", radar.illuminator,
+                     suggestion(radar.illuminator, sensors_of<AntennaConfig>(nodes))));
   const auto* antenna = std::get_if<AntennaConfig>(&nodes[place->node].sensors[place->sensor].config);
   if (antenna == nullptr) fail(fmt::format("'{}', which is none", radar.illuminator));
   if (array_of(*antenna, radar.signal.waveform.carrier_hz).polarization_count() != 1)
@@ -203,11 +216,10 @@ void resolve_interferers(std::vector<NodeConfig>& nodes) {
       auto* radar = std::get_if<RadarConfig>(&nodes[n].sensors[s].config);
       if (radar == nullptr) continue;
       const std::string own = nodes[n].name + "/" + nodes[n].sensors[s].name;
+      std::vector<std::string> others = sensors_of<RadarConfig>(nodes);
+      std::erase(others, own);
       if (radar->interference.all)
-        for (const NodeConfig& node : nodes)
-          for (const SensorConfig& sensor : node.sensors)
-            if (std::holds_alternative<RadarConfig>(sensor.config) && node.name + "/" + sensor.name != own)
-              radar->interferers.push_back(node.name + "/" + sensor.name);
+        radar->interferers.insert(radar->interferers.end(), others.begin(), others.end());
       for (const std::string& name : radar->interferers) {
         const auto fail = [&](const std::string& found) {
           throw_user_error_at(radar->interference.where,
@@ -216,7 +228,7 @@ void resolve_interferers(std::vector<NodeConfig>& nodes) {
                               n, s, found);
         };
         const std::optional<SensorPlace> place = find_sensor(nodes, name);
-        if (!place) fail(fmt::format("unknown '{}'", name));
+        if (!place) fail(fmt::format("unknown '{}'{}", name, suggestion(name, others)));
         const auto* other = std::get_if<RadarConfig>(&nodes[place->node].sensors[place->sensor].config);
         if (other == nullptr) fail(fmt::format("'{}', which is none", name));
         if (name == own) fail(fmt::format("'{}', which is the radar itself", name));

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/expected.h"
 #include "core/units.h"
 #include "sim/scenario/limits.h"
 #include "sim/scenario/parse/csv.h"
@@ -69,8 +70,7 @@ WayPoint parse_point(const CsvLine& line, LogTimes& times) {
     if (!value || !std::isfinite(*value))
       fail(line, i, "a finite number", fmt::format("'{}'", line.cells[i].text));
     if (std::abs(*value) > most)
-      fail(line, i, fmt::format("a number from {:g} to {:g}", -most, most),
-           fmt::format("'{}'", line.cells[i].text));
+      fail(line, i, number_range(-most, most), fmt::format("'{}'", line.cells[i].text));
     return *value;
   };
   const auto vector = [&](size_t i, double most) {

@@ -152,9 +152,7 @@ def pick_names(
     if images_left is None and isinstance(shared, str) and shared in found["camera"]:
         images_left = shared if "rgb" in dataset.sensors[shared].arrays else None
     if images_right is not None and images_left is None:
-        raise DatasetError(
-            f"{dataset.path}: expected a left camera (--images-left) beside the right one"
-        )
+        raise DatasetError(f"{dataset.path}: expected a left camera (--images-left) beside the right one")
     names = Names(events_left, events_right, images_left, images_right)
     nodes = nodes_of(dataset.sequences[0])
     for name, known, what in (
