@@ -13,9 +13,8 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import io
-import os
 import pathlib
-from typing import Any, Callable, Dict, Optional, Union
+from typing import Any, Callable, Dict, Optional
 
 import numpy as np
 
