@@ -26,6 +26,7 @@ struct Color {
 using ColorMap = Color (*)(double);
 
 struct Theme {
+  explicit Theme() = default;  // no list of three numbers, which may be a Color, becomes a theme
   const char* name;
   Color page, panel, border, grid;  ///< behind everything, behind plots, around them, within them
   Color text, dim;                  ///< titles and values; what is less important
