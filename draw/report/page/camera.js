@@ -69,6 +69,8 @@ class CameraPanel {
   }
   update() {
     this.record = latest(this.sensor);
+    // A picture out of sight is decoded, too, so that it is there when the page is printed.
+    if (this.record && this.record.rgb) imageOf(this.record.rgb.blob, () => {});
     this.age.textContent = this.record ? ageText(this.record) : 'nothing yet';
     this.board.redraw();
     this.drawLegend();
@@ -162,8 +164,11 @@ class CameraPanel {
     context.scale(zoom, zoom);
     if (this.layers.boxes && record.boxes) this.drawBoxes(context, record, camera, zoom);
     if (this.layers.paths) this.drawPaths(context, record, camera, zoom);
+    const seen = ([x, y]) => x >= 0 && y >= 0 && x <= width && y <= height;
+    const none = this.layers.paths && !this.drawn.some(seen);
     if (this.layers.detections) this.drawDetections(context, camera, zoom);
     context.restore();
+    if (none) label(context, presentPaths().length ? 'no path in view' : 'no paths', 10, height - 14);
   }
   /// The depth of the picture at a pixel of the sensor; infinite for the sky and without depth.
   depthAt(record, u, v) {

@@ -98,9 +98,9 @@ class MapPanel {
   }
   /// The power in a cell of the data set's map, dBm, and its code.
   levelAt(map, row, column) { return map.low + map.step * this.codeAt(map, row, column); }
-  codeAt(map, row, column) {
+  codeAt(map, row, column, codes = rasterOf(map, 1, false)) {
     const y = Math.min(map.h - 1, Math.floor(row / map.by[0]));
-    return rasterOf(map, 1, false)[y * map.w + Math.min(map.w - 1, Math.floor(column / map.by[1]))];
+    return codes[y * map.w + Math.min(map.w - 1, Math.floor(column / map.by[1]))];
   }
   draw(context, width, height) {
     const map = this.part && this.part[this.view];
@@ -117,18 +117,16 @@ class MapPanel {
   /// A picture of the map, point by point: cellAt(x, y) gives [row, column] or null.
   raster(context, map, left, top, width, height, cellAt) {
     const w = Math.max(1, Math.round(Math.min(width, 480))), h = Math.max(1, Math.round(w * height / width));
-    const image = new ImageData(w, h), range = this.scale;
-    const colours = Array.from(
-        {length: 256},
-        (_, code) =>
-            viridis(clamp((map.low + map.step * code - range.low) / (range.high - range.low), 0, 1)));
+    const codes = rasterOf(map, 1, false), image = new ImageData(w, h), range = this.scale;
+    const at = code => (map.low + map.step * code - range.low) / (range.high - range.low);
+    const colours = Array.from({length: 256}, (_, code) => packColour(viridis(clamp(at(code), 0, 1))));
+    const pixels = new Uint32Array(image.data.buffer);
     for (let y = 0; y < h; ++y)
       for (let x = 0; x < w; ++x) {
         const cell = cellAt((x + 0.5) / w, (y + 0.5) / h);
         if (!cell) continue;
-        const code = this.codeAt(map, cell[0], cell[1]);
-        image.data.set(colours[code], 4 * (y * w + x));
-        image.data[4 * (y * w + x) + 3] = 255;
+        const code = this.codeAt(map, cell[0], cell[1], codes);
+        pixels[y * w + x] = colours[code];
       }
     const canvas = el('canvas', {width: w, height: h});
     canvas.getContext('2d').putImageData(image, 0, 0);

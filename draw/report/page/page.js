@@ -167,6 +167,8 @@ const keep = list => {
 /// Makes all panels of the present sequence.
 function build() {
   panels = [];
+  // The first record of an event camera has no interval, and no events.
+  state.moment = moments().length > 1 && sensorsOf('event_camera').length ? 1 : 0;
   clear(bar.links);
   clear(bar.main);
   fillChoices();
