@@ -112,11 +112,11 @@ class Engine:
         path.chmod(0o755)
         before = run("patchelf", "--print-needed", path).split()
         after = [self.names.get(name, name) for name in before]
-        pairs = [pair for pair in zip(before, after) if pair[0] != pair[1]]
-        # One change in each call: patchelf 0.14 of Debian 12 forgets some of several.
+        changes = [("--replace-needed", *pair) for pair in zip(before, after) if pair[0] != pair[1]]
+        # One kind of change in each call: patchelf 0.14 of Debian 12 forgets some of several kinds.
         run("patchelf", "--set-rpath", rpath, path)
-        for old, new in pairs:
-            run("patchelf", "--replace-needed", old, new, path)
+        if changes:
+            run("patchelf", *(word for change in changes for word in change), path)
         if path.parent == self.lib:
             run("patchelf", "--set-soname", path.name, path)
         if run("patchelf", "--print-needed", path).split() != after:

@@ -34,7 +34,7 @@ step() { # step MESSAGE COMMAND...
 # The newer Mesa of the release's backports, where there is one, computes twice as fast.
 step "installing packages" within env GREATX_BACKPORTS=1 scripts/setup.sh
 packages "$name" patchelf python3-pip python3-setuptools python3-wheel git ca-certificates dpkg-dev
-within git config --global safe.directory "$project" # it may belong to another user
+within git config --global --replace-all safe.directory "$project" # it may belong to another user
 step "building smaller libraries" within packaging/small_libraries.sh /build/small
 step "configuring" within cmake --preset release -DGREATX_TESTS=OFF -DGREATX_VIDEO=OFF -DGREATX_EMBREE=OFF
 step "building greatx" within cmake --build build/release
