@@ -215,9 +215,12 @@ def fill(engine, base, prefix, driver, replaced, any_python):
         library = pathlib.Path(place.group(1))
     for file in [*programs, *modules, library]:
         engine.add_libraries(file, replaced)
-    engine.sources[library.name] = library.resolve()
-    shutil.copy(library, engine.lib / library.name)
-    description["ICD"]["library_path"] = f"../lib/{library.name}"
+    # The machine's own description of lavapipe may name its library without a folder. The loader would then
+    # find a bundled one of that name first.
+    name = own_name(library.name, library)
+    engine.sources[name] = library.resolve()
+    shutil.copy(library, engine.lib / name)
+    description["ICD"]["library_path"] = f"../lib/{name}"
     (folder / "vulkan").mkdir()
     (folder / "vulkan" / "lavapipe.json").write_text(json.dumps(description, indent=2) + "\n")
     if any(name.startswith("libproj") for name in engine.names):  # PROJ looks for it beside its own folder

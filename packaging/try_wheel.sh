@@ -94,7 +94,10 @@ as_user 'mv env/lib/python3*/site-packages/greatx_engine moved; moved/bin/greatx
 packages "$name" mesa-vulkan-drivers
 [ "$(as_user "greatx info" | grep -c "^[0-9]*: llvmpipe")" -eq 1 ] ||
   die "expected one lavapipe beside the machine's own drivers"
-as_user "greatx info" | grep llvmpipe
+version=$(enter "$name" dpkg-query -W -f '${source:Upstream-Version}' mesa-vulkan-drivers)
+as_user "greatx info" | grep "llvmpipe Mesa $version[ -]" ||
+  die "expected the machine's lavapipe, Mesa $version, in place of the bundled one"
 own=$(as_user 'python3 -c "import greatx_engine; print(greatx_engine.lavapipe)"')
-timed "the bundled driver in place of the machine's" "VK_DRIVER_FILES=$own greatx info | grep llvmpipe"
+timed "the bundled driver in place of the machine's" \
+  "VK_DRIVER_FILES=$own greatx info | grep -q 'llvmpipe Mesa'"
 say "the wheel works"
