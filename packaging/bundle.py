@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes a wheel with the engine from the wheel of the Python package and an installed prefix.
 
-usage: bundle.py BASE_WHEEL PREFIX --driver ICD_JSON [--replace FOLDER] --out FOLDER
+usage: bundle.py BASE_WHEEL PREFIX --driver ICD_JSON [--replace FOLDER] [--any-python]
+                 --out FOLDER
 
     BASE_WHEEL ─► greatx/ with _native ┐
     PREFIX     ─► bin/, share/         ├─► libraries that they need (ldd), without those of every Linux
@@ -13,6 +14,9 @@ A library that every Linux of the tag has stays outside: the C and C++ runtimes.
 the machine's own GPU need its own libstdc++. All others come along. Each gets a name that no other package
 has, because a process has one library of a name only, and may need another version of it: NumPy's, OpenCV's,
 or that of a driver. Some keep their names (KEPT).
+
+With --any-python, the wheel has no compiled module and fits every Python: the command and all that reads data
+sets. pip prefers the other one where it fits, too.
 
 The tag states the newest version of glibc of which a symbol is used. The files are sorted and have one date,
 so the same input gives the same bytes. It runs on Debian, whose packages say under which licence a library
@@ -108,11 +112,11 @@ class Engine:
         path.chmod(0o755)
         before = run("patchelf", "--print-needed", path).split()
         after = [self.names.get(name, name) for name in before]
-        pairs = [pair for pair in zip(before, after) if pair[0] != pair[1]]
-        # One change in each call: patchelf 0.14 of Debian 12 forgets some of several.
+        changes = [("--replace-needed", *pair) for pair in zip(before, after) if pair[0] != pair[1]]
+        # One kind of change in each call: patchelf 0.14 of Debian 12 forgets some of several kinds.
         run("patchelf", "--set-rpath", rpath, path)
-        for old, new in pairs:
-            run("patchelf", "--replace-needed", old, new, path)
+        if changes:
+            run("patchelf", *(word for change in changes for word in change), path)
         if path.parent == self.lib:
             run("patchelf", "--set-soname", path.name, path)
         if run("patchelf", "--print-needed", path).split() != after:
@@ -187,7 +191,7 @@ def write_file(archive, name, data, mode):
     archive.writestr(entry, data)
 
 
-def fill(engine, base, prefix, driver, replaced):
+def fill(engine, base, prefix, driver, replaced, any_python):
     """Puts the wheel's files into the engine's root. Returns the folder of the metadata."""
     root = engine.root
     with zipfile.ZipFile(base) as archive:
@@ -200,6 +204,8 @@ def fill(engine, base, prefix, driver, replaced):
     modules = [path for path in (root / "greatx").iterdir() if is_elf(path)]
     if not modules:
         sys.exit(f"{base}: expected the compiled module greatx._native, found none")
+    while any_python and modules:
+        modules.pop().unlink()
 
     description = json.loads(driver.read_text())
     library = pathlib.Path(description["ICD"]["library_path"])
@@ -209,9 +215,12 @@ def fill(engine, base, prefix, driver, replaced):
         library = pathlib.Path(place.group(1))
     for file in [*programs, *modules, library]:
         engine.add_libraries(file, replaced)
-    engine.sources[library.name] = library.resolve()
-    shutil.copy(library, engine.lib / library.name)
-    description["ICD"]["library_path"] = f"../lib/{library.name}"
+    # The machine's own description of lavapipe may name its library without a folder. The loader would then
+    # find a bundled one of that name first.
+    name = own_name(library.name, library)
+    engine.sources[name] = library.resolve()
+    shutil.copy(library, engine.lib / name)
+    description["ICD"]["library_path"] = f"../lib/{name}"
     (folder / "vulkan").mkdir()
     (folder / "vulkan" / "lavapipe.json").write_text(json.dumps(description, indent=2) + "\n")
     if any(name.startswith("libproj") for name in engine.names):  # PROJ looks for it beside its own folder
@@ -236,15 +245,16 @@ def main():
     parser.add_argument("prefix", type=pathlib.Path)
     parser.add_argument("--driver", type=pathlib.Path, required=True)
     parser.add_argument("--replace", type=pathlib.Path, help="libraries that take the place of Debian's")
+    parser.add_argument("--any-python", action="store_true")
     parser.add_argument("--out", type=pathlib.Path, required=True)
     options = parser.parse_args()
     replaced = {file.name: file for file in (options.replace.iterdir() if options.replace else ())}
     options.out.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         engine = Engine(pathlib.Path(folder))
-        info = fill(engine, options.base, options.prefix, options.driver, replaced)
+        info = fill(engine, options.base, options.prefix, options.driver, replaced, options.any_python)
         glibc = max(glibc_of(path) for path in engine.root.rglob("*") if is_elf(path))
-        python, abi, _ = options.base.stem.split("-")[-3:]
+        python, abi = ("py3", "none") if options.any_python else options.base.stem.split("-")[-3:-1]
         tag = f"{python}-{abi}-manylinux_{glibc[0]}_{glibc[1]}_x86_64"
         wheel = write_wheel(engine.root, info, tag, options.out)
         sizes = {path: path.stat().st_size for path in engine.root.rglob("*") if path.is_file()}

@@ -49,7 +49,9 @@ make_base() {
   rm -rf "${chroots:?}/$name"
   mkdir -p "$chroots"
   say "making $chroots/$name"
-  debootstrap --variant=minbase "$suite" "$chroots/$name" "$(awk '{print $2; exit}' <<<"$sources")" \
+  local archive
+  archive=$(awk '{print $2; exit}' <<<"$sources")
+  unshare --mount debootstrap --variant=minbase "$suite" "$chroots/$name" "$archive" \
     >"$chroots/$name.log" 2>&1 || { tail -n 5 "$chroots/$name.log" >&2; die "debootstrap failed"; }
   printf '%s\n' "$sources" >"$chroots/$name/etc/apt/sources.list"
   printf '#!/bin/sh\nexit 101\n' >"$chroots/$name/usr/sbin/policy-rc.d" # starts no services

@@ -49,6 +49,7 @@ case $kind in
       "$recipes/greatx.def")"
     enter "$name" useradd --create-home tester
     workdir=/home/tester
+    settings=(HOME=/home/tester) # Apptainer gives everybody the home folder that they have outside
     ;;
   *) die "expected docker or apptainer, found $kind" ;;
 esac

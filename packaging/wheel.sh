@@ -6,7 +6,8 @@
 # lavapipe within, into build/packaging/wheels. It compiles in a chroot with Debian 12 (packaging/chroot.sh),
 # so nothing depends on what is installed on this machine. It needs root, debootstrap, 5 GB, and 15 to 30
 # minutes on two cores; a second run only does what has changed. The wheel runs on every Linux on x86-64 whose
-# glibc is not older than its name says, with the CPython of that name.
+# glibc is not older than its name says, with the CPython of that name. A second wheel, py3-none, lacks the
+# compiled module and fits every Python.
 #
 # SUITE=trixie builds with another release of Debian, and for its Python. CCACHE_DIR names a cache of compiled
 # files that the chroot may use, too.
@@ -33,7 +34,7 @@ step() { # step MESSAGE COMMAND...
 # The newer Mesa of the release's backports, where there is one, computes twice as fast.
 step "installing packages" within env GREATX_BACKPORTS=1 scripts/setup.sh
 packages "$name" patchelf python3-pip python3-setuptools python3-wheel git ca-certificates dpkg-dev
-within git config --global safe.directory "$project" # it may belong to another user
+within git config --global --replace-all safe.directory "$project" # it may belong to another user
 step "building smaller libraries" within packaging/small_libraries.sh /build/small
 step "configuring" within cmake --preset release -DGREATX_TESTS=OFF -DGREATX_VIDEO=OFF -DGREATX_EMBREE=OFF
 step "building greatx" within cmake --build build/release
@@ -41,7 +42,9 @@ step "installing" within sh -c 'rm -rf build/prefix build/base
   cmake --install build/release --prefix build/prefix --strip
   GREATX_NATIVE=1 python3 -m pip -q wheel --no-index --no-deps --no-build-isolation -w build/base ./python'
 step "making the wheel" within sh -c 'rm -rf build/wheels
-  packaging/bundle.py build/base/*.whl build/prefix --driver "$(ls /usr/share/vulkan/icd.d/lvp_icd*.json)" \
-    --replace /build/small/lib --out build/wheels'
+  for python in "" --any-python; do
+    packaging/bundle.py build/base/*.whl build/prefix --driver "$(ls /usr/share/vulkan/icd.d/lvp_icd*.json)" \
+      --replace /build/small/lib $python --out build/wheels
+  done'
 cat "$chroots/$name.log"
 cp "$chroots/$name.out/wheels/"*.whl "$chroots/wheels/"

@@ -70,7 +70,7 @@ def __getattr__(name: str) -> Any:
         raise ImportError(
             f"greatx.{name} needs the compiled module greatx._native, which is not here: {error}. Build it "
             "with ./run.sh and set PYTHONPATH=build/release/python, or `pip install ./python` in the "
-            "project's folder (docs/python.md)"
+            "project's folder, or install a wheel for this version of Python (docs/install.md)"
         ) from error
     return getattr(simulation, name)
 
