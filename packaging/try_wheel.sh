@@ -91,12 +91,14 @@ missing=$(as_user 'find env -name "*.so*" -o -path "*greatx_engine/bin/*" | xarg
 as_user 'mv env/lib/python3*/site-packages/greatx_engine moved; moved/bin/greatx info >/dev/null &&
   mv moved "$(echo env/lib/python3*/site-packages)/greatx_engine"' || die "the moved folder does not run"
 
+bundled=$(as_user "greatx info" | grep -m 1 "llvmpipe Mesa")
 packages "$name" mesa-vulkan-drivers
 [ "$(as_user "greatx info" | grep -c "^[0-9]*: llvmpipe")" -eq 1 ] ||
   die "expected one lavapipe beside the machine's own drivers"
-version=$(enter "$name" dpkg-query -W -f '${source:Upstream-Version}' mesa-vulkan-drivers)
-as_user "greatx info" | grep "llvmpipe Mesa $version[ -]" ||
-  die "expected the machine's lavapipe, Mesa $version, in place of the bundled one"
+machine=$(as_user "greatx info" | grep -m 1 "llvmpipe Mesa")
+[ "$machine" != "$bundled" ] || die "expected the machine's lavapipe in place of the bundled one"
+say "bundled:$bundled"
+say "the machine's:$machine"
 own=$(as_user 'python3 -c "import greatx_engine; print(greatx_engine.lavapipe)"')
 timed "the bundled driver in place of the machine's" \
   "VK_DRIVER_FILES=$own greatx info | grep -q 'llvmpipe Mesa'"

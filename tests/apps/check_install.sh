@@ -36,8 +36,13 @@ if [ -x bin/greatx-places ]; then # by a relative path, from another folder, and
   [ -s "$folder/village.glb" ] && [ -s materials ]
 fi
 
+flags="-Wall -Wextra -Werror"
+# A library with sanitizers needs a program with them.
+if ldd "$(echo lib*/libgreatx.so)" >"$folder/needed" && grep -q libasan "$folder/needed"; then
+  flags+=" -fsanitize=address,undefined"
+fi
 CXX=$4 "$1" -S share/greatx/examples/embed -B "$folder/embed" -DCMAKE_PREFIX_PATH="$prefix" \
-  -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror" >"$folder/log" 2>&1 &&
+  -DCMAKE_CXX_FLAGS="$flags" >"$folder/log" 2>&1 &&
   "$1" --build "$folder/embed" >>"$folder/log" 2>&1 || { cat "$folder/log" >&2; exit 1; }
 "$folder/embed/two_antennas" >embedded
 cat embedded
