@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -38,24 +37,6 @@ void add_html_options(CLI::App& command, HtmlOptions& options) {
       ->capture_default_str()
       ->check(integer_of(1, 100'000))
       ->needs(html);
-}
-
-/// Says so if the folder is a campaign, which has data sets but is none.
-void expect_no_campaign(const std::string& folder) {
-  const std::filesystem::path path(folder);
-  if (std::filesystem::exists(path / io::dataset_file) || !std::filesystem::exists(path / "cells.json"))
-    return;
-  std::string cells;
-  std::error_code failure;
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(path / "data", failure))
-    names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  for (size_t i = 0; i < std::min<size_t>(names.size(), 5); ++i)
-    cells += fmt::format("{}{}", i == 0 ? "" : ", ", (path / "data" / names[i]).string());
-  throw_user_error("{}: expected a data set, found a campaign of {} finished cells{}{}{}", folder,
-                   names.size(), names.empty() ? "" : ": name one of them: ", cells,
-                   names.size() > 5 ? ", ..." : "");
 }
 
 io::ReportFile write_html(const io::DatasetReader& reader, const HtmlOptions& options,
@@ -106,7 +87,6 @@ io::AnimationFile animate(const io::DatasetReader& reader, const InspectOptions&
 }
 
 void inspect(const InspectOptions& options) {
-  for (const std::string& folder : options.folders) expect_no_campaign(folder);
   std::vector<io::DatasetReader> readers;
   for (const std::string& folder : options.folders) readers.emplace_back(folder);
   if (readers.size() > 1 && options.picture.empty())
@@ -120,8 +100,7 @@ void inspect(const InspectOptions& options) {
     throw_user_error("inspect: --html shows one data set, found {}", readers.size());
   // First, because it refuses to replace another file.
   std::optional<io::ReportFile> page;
-  if (!options.html.file.empty())
-    page = write_html(readers[0], options.html, options.sequence, options.json);
+  if (!options.html.file.empty()) page = write_html(readers[0], options.html, options.sequence, options.json);
   std::optional<io::AnimationFile> shown;
   if (!options.animation.empty()) shown = animate(readers[0], options);
   io::write_contact_sheet(readers, picture, options.sequence.value_or(0), options.sheet());

@@ -28,7 +28,8 @@ struct TextValue {
   const char* options;  ///< with a space before and after each
 };
 constexpr TextValue text_values[] = {
-    {"FILE", " animation cfr csv-out glb greatx json png picture radio-materials receivers script settings "},
+    {"FILE",
+     " animation cfr csv-out glb greatx html json png picture radio-materials receivers script settings "},
     {"DIR", " assets from logs report "},
     {"NAME",
      " account cell channel device knob node only partition precoder quantities receiver rx transmitter "

@@ -215,6 +215,14 @@ std::optional<KnownFormat> recognised_format(const std::filesystem::path& file,
   return KnownFormat{found->name, way, *kind == Kind::gltf, *kind == Kind::scenario, *kind == Kind::mitsuba};
 }
 
+KnownFormat unknown_format() {
+  return {
+      "a format that greatx does not know",
+      "greatx reads glTF, imports scenes of Mitsuba 3 and Sionna RT (greatx scene import) and builds maps, "
+      "CityJSON and terrain (greatx scene build); Blender makes glTF of OBJ, FBX, USD and others "
+      "(docs/import.md, docs/models.md)"};
+}
+
 std::vector<unsigned char> first_bytes(const std::filesystem::path& file) {
   std::vector<unsigned char> bytes(head_bytes);
   std::ifstream stream(file, std::ios::binary);

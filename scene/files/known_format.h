@@ -28,6 +28,9 @@ struct KnownFormat {
 std::optional<KnownFormat> recognised_format(const std::filesystem::path& file,
                                              std::span<const unsigned char> bytes);
 
+/// Returns words for a file whose format is not known: which files can become a scene.
+KnownFormat unknown_format();
+
 /// Returns the first 4096 bytes of a file, or fewer; none if it cannot be read.
 std::vector<unsigned char> first_bytes(const std::filesystem::path& file);
 

@@ -173,7 +173,7 @@ TEST_F(Cli, GenerateVerifyInspect) {
   fs::create_directories(folder_ / "campaign/data/rain");
   std::ofstream(folder_ / "campaign/cells.json") << "{}";
   EXPECT_THAT(greatx("inspect " + path("campaign")).err,
-              HasSubstr("found a campaign of 1 finished cells: name one of them: "));
+              HasSubstr("it is a campaign: name one of its 1 data sets, " + path("campaign/data/rain")));
 
   fs::resize_file(folder_ / "a/sequence_0000/uav/camera/rgb/000002.png", 100);
   const Outcome damaged = greatx("verify " + path("a"));

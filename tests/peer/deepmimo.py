@@ -11,6 +11,7 @@ compares with the data set: positions, delays, angles, interactions, the time co
 DeepMIMO computes between single isotropic antennas. It prints the largest difference of each kind beside its
 bound, and exits with 1 if one exceeds its bound.
 """
+
 import contextlib
 import io
 import os
@@ -19,9 +20,9 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-ENVIRONMENT = ROOT / "build/peer/deepmimo"
-VERSION = "4.0.5"
+from environment import ROOT, Worst, run_inside
+
+PACKAGES = ("DeepMIMO==4.0.5",)
 SCENARIO = """
 greatx: 1
 name: peer
@@ -45,56 +46,6 @@ channels:
 bandwidth_hz: 400e6,
      subcarriers: 512, time_samples: 2, time_spacing_s: 1e-4, max_depth: 3}
 """
-
-
-def set_up(program):
-    """Runs this script again inside an environment that has DeepMIMO. Returns its exit code."""
-    python = ENVIRONMENT / "bin/python"
-    stamp = ENVIRONMENT / f"deepmimo-{VERSION}"
-    if not stamp.is_file():
-        print(f"setting up {ENVIRONMENT}", flush=True)
-        subprocess.run([sys.executable, "-m", "venv", "--clear", ENVIRONMENT], check=True)
-        subprocess.run(
-            [
-                python,
-                "-m",
-                "pip",
-                "install",
-                "--quiet",
-                "--disable-pip-version-check",
-                f"DeepMIMO=={VERSION}",
-            ],
-            check=True,
-        )
-        stamp.touch()
-    environment = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
-    return subprocess.run(
-        [python, __file__, "--inside", str(pathlib.Path(program).resolve())], env=environment
-    ).returncode
-
-
-class Worst:
-    """Keeps the largest value of each named difference and its bound."""
-
-    def __init__(self):
-        self.rows = {}
-
-    def add(self, name, value, bound):
-        import numpy as np
-
-        count, worst, _ = self.rows.get(name, (0, 0.0, bound))
-        value = float(np.max(value, initial=0.0))
-        self.rows[name] = (count + 1, value if not value <= worst else worst, bound)
-
-    def failed(self):
-        bad = 0
-        for name, (count, worst, bound) in self.rows.items():
-            bad += not worst <= bound
-            print(
-                f"{'ok' if worst <= bound else 'FAIL':4} {name:58} "
-                f"{worst:9.2e} <= {bound:.0e}  ({count} compared)"
-            )
-        return bad
 
 
 def check_link(theirs, user, record, rx, worst):
@@ -219,4 +170,5 @@ if __name__ == "__main__":
     if "--inside" in sys.argv:
         sys.path.pop(0)  # this folder holds this file, which would hide the package deepmimo
         sys.exit(check(sys.argv[2]))
-    sys.exit(set_up(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release/greatx"))
+    program = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release/greatx").resolve()
+    sys.exit(run_inside("deepmimo", PACKAGES, [__file__, "--inside", program]))

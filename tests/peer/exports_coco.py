@@ -12,7 +12,8 @@ import contextlib
 import io
 import sys
 
-from exports_setup import Worst, main
+from environment import Worst
+from exports_setup import DRIVING, main
 
 
 def check_run_lengths(worst):
@@ -98,7 +99,7 @@ def check_one(data, out, worst):
     return counts
 
 
-def check(folder, data_sets):
+def check(folder, data_sets, program):
     import greatx
 
     worst = Worst()
@@ -109,4 +110,4 @@ def check(folder, data_sets):
 
 
 if __name__ == "__main__":
-    sys.exit(main(__file__, check))
+    sys.exit(main(__file__, check, "exports", DRIVING, of_rig=False))

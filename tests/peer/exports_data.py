@@ -12,7 +12,8 @@ import json
 import pathlib
 import sys
 
-from exports_data_setup import Worst, main
+from environment import Worst
+from exports_setup import main
 
 PACKAGES = (
     "numpy<2",

@@ -10,7 +10,8 @@ script prints the largest difference of each kind beside its bound, and exits wi
 
 import sys
 
-from exports_setup import Worst, main
+from environment import Worst
+from exports_setup import DRIVING, main
 
 
 def relative(pose, other):
@@ -192,7 +193,7 @@ def check_tracking(data, out, choice, worst):
             worst.add("tracking: rectangles, pixels", np.abs(amodal - values).max(axis=1).min(), 6e-3)
 
 
-def check(folder, data_sets):
+def check(folder, data_sets, program):
     import greatx
 
     worst = Worst()
@@ -216,4 +217,4 @@ def check(folder, data_sets):
 
 
 if __name__ == "__main__":
-    sys.exit(main(__file__, check))
+    sys.exit(main(__file__, check, "exports", DRIVING, of_rig=False))

@@ -15,7 +15,8 @@ import pathlib
 import subprocess
 import sys
 
-from exports_data_setup import Worst, main
+from environment import Worst
+from exports_setup import main
 
 PACKAGES = ("numpy", "mcap==1.6.0", "mcap-protobuf-support==0.6.0", "foxglove-schemas-protobuf==0.4.0")
 START_NS = 1_700_000_000_123_456_789

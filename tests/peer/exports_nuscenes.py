@@ -11,7 +11,8 @@ exits with 1 if one exceeds it.
 
 import sys
 
-from exports_setup import Worst, main
+from environment import Worst
+from exports_setup import DRIVING, main
 
 
 def check_sensor(kit, token, sequence, tick, name, worst):
@@ -253,7 +254,7 @@ def render(kit, sample, out):
     kit.list_scenes()
 
 
-def check(folder, data_sets):
+def check(folder, data_sets, program):
     import greatx
 
     worst = Worst()
@@ -267,4 +268,4 @@ def check(folder, data_sets):
 
 
 if __name__ == "__main__":
-    sys.exit(main(__file__, check))
+    sys.exit(main(__file__, check, "exports", DRIVING, of_rig=False))

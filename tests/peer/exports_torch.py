@@ -15,7 +15,8 @@ import subprocess
 import sys
 import time
 
-from exports_data_setup import Worst, main
+from environment import Worst
+from exports_setup import main
 
 PACKAGES = ("torch==2.15.0", "numpy", "webdataset==0.2.111")
 BASE = """

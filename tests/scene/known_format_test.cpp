@@ -99,5 +99,20 @@ TEST(KnownFormat, AModelThatIsNoneSaysWhatItIs) {
   }
 }
 
+TEST(KnownFormat, AModelOfAnUnknownFormatSaysWhatGreatxReads) {
+  const greatx::test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "notes.md";
+  std::ofstream(file) << "# Notes\n";
+  try {
+    load_model(file, {});
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(),
+                testing::StartsWith(file.string() + ": expected glTF 2.0 (.glb, .gltf), found a "
+                                                    "format that greatx does not know; greatx "
+                                                    "reads glTF, imports scenes of Mitsuba 3"));
+  }
+}
+
 }  // namespace
 }  // namespace greatx::scene

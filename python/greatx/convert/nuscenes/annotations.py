@@ -13,25 +13,38 @@ resolve elevation. Velocities have no field: the development kit takes the diffe
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Dict, List
+from typing import Dict, List, Protocol, Sequence as SequenceOf
 
 import numpy as np
 
-from ...dataset import Sequence
+from ...dataset import Dataset, Sequence
 from ..clouds import Cloud
 from ..objects import Inventory, Thing, instance_name, points_inside, seen
 from ..poses import Pose, mount
-from ..rig import Track
+from ..rig import Rig, Track
 from .categories import attributes, visibility_token
 from .points import Detections
-from .tables import Row, chain
+from .tables import Row, Tables, chain
 
-if TYPE_CHECKING:
-    from .write import Writer
+
+class Export(Protocol):
+    """Lists what the annotations take from an export. write.Writer is one."""
+
+    dataset: Dataset
+    rig: Rig
+    tables: Tables
+    samples: Dict[int, SequenceOf[int]]  #: ticks of the keyframes, by number of the sequence
+    boxes: List[str]  #: cameras with boxes
+    channels: Dict[str, str]  #: nuScenes' channels of sensors
+    categories: Dict[str, str]  #: nuScenes' categories of classes
+    range_m: float
+    origin: np.ndarray  #: [3] m, of nuScenes' global frame in the world
+
+    def first_lidar(self) -> str: ...
 
 
 def annotate(
-    writer: "Writer",
+    writer: Export,
     sequence: Sequence,
     track: Track,
     things: Inventory,
@@ -54,7 +67,7 @@ def annotate(
     return sum(len(each) for each in rows.values())
 
 
-def _instance(writer: "Writer", sequence: Sequence, thing: Thing, rows: List[Row]) -> None:
+def _instance(writer: Export, sequence: Sequence, thing: Thing, rows: List[Row]) -> None:
     """Links the annotations of an object, and adds its instance if it has any."""
     if not rows:
         return
@@ -76,7 +89,7 @@ class _Keyframe:
 
     def __init__(
         self,
-        writer: "Writer",
+        writer: Export,
         sequence: Sequence,
         track: Track,
         tick: int,
