@@ -32,8 +32,9 @@ constexpr TextValue text_values[] = {
      " animation cfr csv-out glb greatx html json png picture radio-materials receivers script settings "},
     {"DIR", " assets from logs report "},
     {"NAME",
-     " account cell channel device knob node only partition precoder quantities receiver rx transmitter "
-     "view "},
+     " account cell channel device knob node only partition precoder quantities receiver rx sensor "
+     "transmitter view "},
+    {"TX:RX", " link "},
     {"PATH=VALUE", " set "},
     {"WIDTHxHEIGHT", " size "},
     {"SIZE", " memory "},

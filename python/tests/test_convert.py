@@ -128,7 +128,7 @@ class DeepMimo(Converted):
         self.assertFalse(self.out.exists())
         self.out.mkdir()
         (self.out / "mine").touch()
-        with self.assertRaisesRegex(FileExistsError, "not empty"):
+        with self.assertRaisesRegex(FileExistsError, "no empty folder"):
             write_deepmimo(ds, self.out, sequence=0)
 
     def test_moving_transmitters_are_no_static_scenario(self):

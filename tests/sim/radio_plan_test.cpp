@@ -272,7 +272,9 @@ TEST(RadioPlan, EveryEffectHasAReasonAndUnknownNamesAreErrors) {
     plan(planned_scenario("", switches("difraction: on")), planned_street());
     FAIL();
   } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("effects: 'difraction' is no effect; expected one of"));
+    EXPECT_THAT(
+        error.what(),
+        HasSubstr("effects: 'difraction' is no effect (did you mean 'diffraction'?); expected one of"));
     EXPECT_THAT(error.what(), HasSubstr("diffraction"));
   }
   EXPECT_THROW(plan(planned_scenario("", switches("channel: off")), planned_street()), UserError);

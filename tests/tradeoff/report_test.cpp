@@ -201,7 +201,7 @@ TEST(TradeoffProgram, NamesWhatIsWrong) {
   const greatx::test::TemporaryFolder folder;
   const std::string out = " -o " + folder.path().string();
   EXPECT_THAT(test::greatx("tradeoff room --only sonar" + out).err,
-              HasSubstr("expected csi, camera, events"));
+              HasSubstr("expected one of csi, camera, events"));
   EXPECT_THAT(test::greatx("tradeoff room --only radar" + out).err,
               HasSubstr("the scenario has no such sensor"));
   EXPECT_THAT(test::greatx("tradeoff room --knob depth" + out).err, HasSubstr("expected one of max_depth"));
