@@ -7,6 +7,7 @@ import csv
 import io
 import json
 import pathlib
+import re
 import resource
 import subprocess
 import sys
@@ -21,6 +22,7 @@ import numpy as np
 import greatx
 import support
 from greatx.convert.__main__ import main
+from greatx.convert.files import EXTRAS
 from greatx.convert.hdf5 import write_hdf5
 from greatx.convert.mcap.output import plain
 from greatx.convert.mcap.scene import path_lines, statistics
@@ -262,10 +264,10 @@ class Failures(Exported):
         self.assertFalse(other.exists())
 
     def test_missing_packages_are_named_with_their_extra(self):
-        for tool, module, extra in (
-            ("hdf5", "h5py", "hdf5"),
-            ("mcap", "mcap.writer", "mcap"),
-            ("radial", "PIL.Image", "radar"),
+        for tool, module, packages in (
+            ("hdf5", "h5py", "h5py"),
+            ("mcap", "mcap.writer", "mcap mcap-protobuf-support foxglove-schemas-protobuf"),
+            ("radial", "PIL.Image", "pillow"),
         ):
             said = io.StringIO()
             with mock.patch.dict(sys.modules, {module: None}), mock.patch("sys.stderr", said):
@@ -278,9 +280,15 @@ class Failures(Exported):
                     ]
                 )
             self.assertEqual(code, 1)
-            self.assertIn(f"pip install 'greatx[{extra}]'", said.getvalue())
+            self.assertIn(f"`pip install {packages}`", said.getvalue())
             self.assertIn(module, said.getvalue())
         self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_extras_are_those_of_the_package(self):
+        text = (pathlib.Path(greatx.__file__).resolve().parents[1] / "pyproject.toml").read_text()
+        for extra, packages in EXTRAS.items():
+            listed = re.search(rf"^{extra} = \[(.*)\]$", text, re.MULTILINE)[1]
+            self.assertEqual(re.findall(r'"([\w-]+)', listed), list(packages))
 
     def test_a_campaign_is_no_data_set(self):
         campaign = self.folder / "campaign"

@@ -46,14 +46,23 @@ def new_file(out: Union[str, "os.PathLike[str]"]) -> Iterator[pathlib.Path]:
         raise
 
 
+#: Packages on PyPI by the extra of greatx that has them (pyproject.toml). Messages name the packages, because
+#: greatx itself is on no index.
+EXTRAS = {
+    "hdf5": ("h5py",),
+    "mcap": ("mcap", "mcap-protobuf-support", "foxglove-schemas-protobuf"),
+    "radar": ("pillow",),
+}
+
+
 def need(extra: str, *modules: str) -> Tuple[Any, ...]:
-    """Imports optional packages. Raises ImportError that names the extra of greatx which installs them."""
+    """Imports optional packages. Raises ImportError that names the packages to install."""
     try:
         return tuple(importlib.import_module(module) for module in modules)
     except ImportError as error:
         raise ImportError(
             f"this converter needs {', '.join(modules)}, found: {error}; "
-            f"`pip install 'greatx[{extra}]'` installs what it needs"
+            f"`pip install {' '.join(EXTRAS[extra])}` installs what it needs"
         ) from error
 
 
