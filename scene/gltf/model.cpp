@@ -110,7 +110,9 @@ Model load_model(const std::filesystem::path& file, const LoadOptions& options) 
   const std::vector<unsigned char> bytes = read_regular_file(file, "model", budget::model_file);
   // The JSON parser would complain about the first character of a file that is something else.
   const std::optional<KnownFormat> format = recognised_format(file, bytes);
-  if (!format || !format->is_gltf)
+  // A faulty file that is called glTF has the faults of one.
+  const bool called_gltf = file.extension() == ".gltf" || file.extension() == ".glb";
+  if (format ? !format->is_gltf : !called_gltf)
     throw UserError(wrong_format(file, format.value_or(unknown_format()), "glTF 2.0 (.glb, .gltf)"));
   AssetFolder folder(file);
   return model_of(parse_gltf(name, bytes, folder, options.keep_faults), options);
