@@ -17,10 +17,11 @@ out=$chroots/$suite-deb.out # the build folder of the chroot, apart from that of
 mkdir -p "$out" "$chroots/debs"
 BINDS="$project $project
 $out $project/build
-${CCACHE_DIR:+$CCACHE_DIR /root/.cache/ccache}"
+${CCACHE_DIR:+$CCACHE_DIR /ccache}"
 say "building"
 packages "$name" build-essential lintian
-enter "$name" env -C "$project" packaging/build_deb.sh build/debs >"$chroots/$name.log" 2>&1 ||
+enter "$name" env -C "$project" ${CCACHE_DIR:+CCACHE_DIR=/ccache} packaging/build_deb.sh build/debs \
+  >"$chroots/$name.log" 2>&1 ||
   { tail -n 30 "$chroots/$name.log" >&2; die "failed; see $chroots/$name.log"; }
 say "lintian"
 enter "$name" sh -c "lintian --fail-on error --tag-display-limit 0 --allow-root $project/build/debs/*.deb" ||

@@ -22,8 +22,8 @@ make_chroot "$name" "$suite"
 mkdir -p "$chroots/$name.out" "$chroots/wheels"
 BINDS="$project $project
 $chroots/$name.out $project/build
-${CCACHE_DIR:+$CCACHE_DIR /root/.cache/ccache}"
-within() { enter "$name" env -C "$project" "$@"; }
+${CCACHE_DIR:+$CCACHE_DIR /ccache}"
+within() { enter "$name" env -C "$project" ${CCACHE_DIR:+CCACHE_DIR=/ccache} "$@"; }
 step() { # step MESSAGE COMMAND...
   local log=$chroots/$name.log
   say "$1"
