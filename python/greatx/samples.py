@@ -13,7 +13,7 @@ from .errors import DatasetError
 from .packed import PackedRagged
 
 if TYPE_CHECKING:
-    from .dataset import Dataset, Sensor
+    from .dataset import Dataset
 
 
 def as_torch(samples: Any, transform: Any, name: str) -> Any:
