@@ -19,6 +19,7 @@ velocity jumps by u, it is off by at most u dt.
 
 from __future__ import annotations
 
+import argparse
 import dataclasses
 from typing import Optional
 
@@ -90,3 +91,10 @@ def untwisted(record: Record, track: Track) -> Cloud:
     points = there.points.copy()
     points[:, :3] = at_tick
     return dataclasses.replace(there, points=points)
+
+
+def untwist_argument(parser: argparse.ArgumentParser) -> None:
+    """Adds --untwist, which asks for untwisted() in place of cloud()."""
+    parser.add_argument(
+        "--untwist", action="store_true", help="undo the motion of the LiDAR during each sweep"
+    )

@@ -41,6 +41,18 @@ def channel_arguments(parser: argparse.ArgumentParser, sequence_default: str) ->
     parser.add_argument("--sequence", type=int, help=f"number of the sequence; {sequence_default}")
 
 
+def sequence_argument(parser: argparse.ArgumentParser) -> None:
+    """Adds --sequence of a converter that writes all sequences by default."""
+    parser.add_argument("--sequence", type=int, help="number of the only sequence to write; default: all")
+
+
+def link_argument(parser: argparse.ArgumentParser) -> None:
+    """Adds --link of a converter that copies pictures (folders.place)."""
+    parser.add_argument(
+        "--link", action="store_true", help="make hard links to pictures where possible instead of copies"
+    )
+
+
 def pick_sequence(dataset: Dataset, number: Optional[int]) -> Sequence:
     """Returns the sequence of this number; None stands for the only one. Raises DatasetError if there is
     none.

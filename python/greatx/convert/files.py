@@ -19,7 +19,8 @@ import numpy as np
 from ..dataset import Dataset, Sensor, Sequence
 from ..errors import DatasetError
 from ..layout import EXPORT_SUFFIX
-from .folders import _terminated_as_interrupted
+from .common import sequence_argument
+from .folders import terminated_as_interrupted
 
 
 @contextlib.contextmanager
@@ -36,7 +37,7 @@ def new_file(out: Union[str, "os.PathLike[str]"]) -> Iterator[pathlib.Path]:
             f"{part}: exists, but is no unfinished export of {target}; nothing is overwritten"
         )
     try:
-        with _terminated_as_interrupted():
+        with terminated_as_interrupted():
             part.unlink(missing_ok=True)  # of an export that was killed
             yield part
             os.link(part, target)  # unlike a rename, this does not replace a file that has come meanwhile
@@ -66,11 +67,11 @@ def need(extra: str, *modules: str) -> Tuple[Any, ...]:
         ) from error
 
 
-def selection_arguments(parser: argparse.ArgumentParser, what: str = "write") -> None:
+def selection_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds --sequence and --sensor."""
-    parser.add_argument("--sequence", type=int, help=f"number of the only sequence to {what}; default: all")
+    sequence_argument(parser)
     parser.add_argument(
-        "--sensor", action="append", metavar="NAME", help=f"a sensor to {what}; may be repeated; default: all"
+        "--sensor", action="append", metavar="NAME", help="a sensor to write; may be repeated; default: all"
     )
 
 

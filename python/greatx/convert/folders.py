@@ -39,7 +39,7 @@ def _take(path: pathlib.Path, out: pathlib.Path) -> None:
 
 
 @contextlib.contextmanager
-def _terminated_as_interrupted() -> Iterator[None]:
+def terminated_as_interrupted() -> Iterator[None]:
     """Turns SIGTERM into KeyboardInterrupt, so that the unfinished folder is removed. Signals can be handled
     in the main thread alone."""
     if threading.current_thread() is not threading.main_thread():
@@ -67,7 +67,7 @@ def new_folder(out: Union[str, "os.PathLike[str]"]) -> Iterator[pathlib.Path]:
     part = target.with_name(target.name + ".part")
     _take(part, target)
     try:
-        with _terminated_as_interrupted():
+        with terminated_as_interrupted():
             yield part
             (part / MARK).unlink()
             if target.is_dir():

@@ -11,6 +11,7 @@ gives their boxes at every tick.
 
 from __future__ import annotations
 
+import argparse
 import dataclasses
 from typing import Dict, Iterable, Iterator, List, Optional
 
@@ -157,6 +158,18 @@ def points_inside(points: np.ndarray, frame_from_box: Pose, size: np.ndarray, ax
     axes = 2 the box has no bottom and no top."""
     at_box = frame_from_box.inverse().apply(points)
     return np.all(np.abs(at_box[:, :axes]) <= size[:axes] / 2 + ON_FACE, axis=1)
+
+
+def class_argument(parser: argparse.ArgumentParser, name: str, help: str, default: Dict[str, str]) -> None:
+    """Adds the option --NAME CLASS=NAME for class_arguments(). `help`: what the option gives a class."""
+    parser.add_argument(
+        f"--{name}",
+        action="append",
+        metavar=f"CLASS={name.upper()}",
+        help=f"{help}, for each class that differs from "
+        + ", ".join(f"{key}={value}" for key, value in default.items())
+        + f"; an empty {name} leaves a class out",
+    )
 
 
 def class_arguments(pairs: Optional[List[str]], default: Dict[str, str], option: str) -> Dict[str, str]:

@@ -38,7 +38,7 @@ class Lens:
     width: int
     height: int
     distortion: Dict[str, float]  #: k1, k2, p1, p2, k3; all 0 for a pinhole camera
-    where: str = ""  #: the camera, in messages
+    where: str = dataclasses.field(default="", compare=False)  #: the camera, in messages
 
     @property
     def distorts(self) -> bool:

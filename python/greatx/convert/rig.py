@@ -22,10 +22,10 @@ import numpy as np
 from ..arrays import Frames
 from ..dataset import Dataset, Record, Sensor, Sequence
 from ..errors import DatasetError
-from ..files import Field
 from ..layout import SUFFIX
 from ..links import rotation
-from .common import pick_sequence
+from .common import link_argument, pick_sequence, sequence_argument
+from .optics import Lens, lens_of
 from .poses import Pose, node_of, nodes_of
 
 
@@ -43,43 +43,15 @@ class Rig:
         return self.cameras + self.lidars + self.radars
 
 
-@dataclasses.dataclass(frozen=True)
-class Optics:
-    """Describes a pinhole camera as OpenCV and most tools do: the centre of the first pixel is at 0, 0.
-    greatx has it at 0.5, 0.5 (docs/camera.md), so that cx and cy are smaller here by 0.5.
-    """
-
-    fx: float
-    fy: float
-    cx: float
-    cy: float
-    width: int
-    height: int
-
-    def matrix(self) -> np.ndarray:
-        """Returns the intrinsic matrix [3, 3]."""
-        return np.array([[self.fx, 0.0, self.cx], [0.0, self.fy, self.cy], [0.0, 0.0, 1.0]])
-
-
-def optics(sensor: Sensor) -> Optics:
-    """Returns a camera's optics. Raises DatasetError for a camera with lens distortion, because the formats
-    that need this hold rectified pictures."""
-    field = Field(sensor.metadata.where, sensor.metadata)
-    if "distortion" in field:
+def optics(sensor: Sensor) -> Lens:
+    """Returns a camera's intrinsics. Raises DatasetError for a camera with lens distortion, because the
+    formats that need this hold rectified pictures."""
+    if "distortion" in sensor.metadata:
         raise DatasetError(
             f"{sensor.sequence.dataset.path}: {sensor.name}: expected a camera without distortion, because "
             "this format holds rectified pictures; found distortion"
         )
-    numbers = [field[key].number(-1e9, 1e9) for key in ("fx", "fy", "cx", "cy")]
-    centre = field["pixel_center"].number(0.0, 0.5)
-    return Optics(
-        numbers[0],
-        numbers[1],
-        numbers[2] - centre,
-        numbers[3] - centre,
-        field["width"].integer(1, 1 << 20),
-        field["height"].integer(1, 1 << 20),
-    )
+    return lens_of(sensor)
 
 
 class Track:
@@ -117,10 +89,8 @@ def sequences_of(dataset: Dataset, number: Optional[int]) -> List[Sequence]:
 def rig_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments that say what is exported: --node, --sequence, and those of files."""
     parser.add_argument("--node", help="node that carries the sensors; needed if several could be meant")
-    parser.add_argument("--sequence", type=int, help="number of the only sequence to write; default: all")
-    parser.add_argument(
-        "--link", action="store_true", help="make hard links to pictures where possible instead of copies"
-    )
+    sequence_argument(parser)
+    link_argument(parser)
 
 
 def _kinds(dataset: Dataset, node: str, nodes: List[str], kind: str) -> List[str]:

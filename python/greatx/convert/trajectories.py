@@ -21,7 +21,7 @@ from ..dataset import Dataset, Sequence
 from ..errors import DatasetError
 from ..files import interpreting
 from ..links import rotation
-from .common import Command
+from .common import Command, link_argument, sequence_argument
 from .files import stacked
 from .folders import Progress, new_folder, place
 from .optics import lens_of
@@ -278,7 +278,7 @@ def write_euroc(
 
 
 def _tum_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--sequence", type=int, help="number of the only sequence to write; default: all")
+    sequence_argument(parser)
     parser.add_argument(
         "--frame",
         action="append",
@@ -288,13 +288,11 @@ def _tum_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _euroc_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--sequence", type=int, help="number of the only sequence to write; default: all")
+    sequence_argument(parser)
     parser.add_argument("--node", help="node that is the body; needed if several have cameras")
     parser.add_argument("--gravity", type=float, default=STANDARD_GRAVITY, help="m/s^2; default: 9.80665")
     parser.add_argument("--start-ns", type=int, default=0, help="time of tick 0, ns; default: 0")
-    parser.add_argument(
-        "--link", action="store_true", help="make hard links to pictures where possible instead of copies"
-    )
+    link_argument(parser)
 
 
 COMMANDS = (

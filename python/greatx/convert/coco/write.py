@@ -26,7 +26,7 @@ import numpy as np
 
 from ...dataset import Dataset, Record, Sequence
 from ...errors import DatasetError
-from ..common import Command
+from ..common import Command, link_argument, sequence_argument
 from ..folders import Progress, new_folder, place
 from ..png import write_rgb
 from ..rig import picture_file, sequences_of
@@ -261,14 +261,12 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--camera", action="append", help="camera NODE/NAME, once or more; default: all that have rgb and ids"
     )
-    parser.add_argument("--sequence", type=int, help="number of the only sequence to write; default: all")
+    sequence_argument(parser)
     parser.add_argument(
         "--things", help="classes of objects, with commas between; default: all but " + ", ".join(STUFF[1:])
     )
     parser.add_argument("--without-panoptic", action="store_true", help="write no panoptic pictures")
-    parser.add_argument(
-        "--link", action="store_true", help="make hard links to pictures where possible instead of copies"
-    )
+    link_argument(parser)
 
 
 COMMAND = Command(

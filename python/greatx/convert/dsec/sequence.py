@@ -15,7 +15,7 @@ import numpy as np
 
 from ...dataset import Dataset, Sensor, Sequence
 from ...files import interpreting
-from ..common import Command
+from ..common import Command, sequence_argument
 from ..files import need
 from ..folders import Progress, new_folder, place
 from ..png import encode_png
@@ -159,7 +159,7 @@ class _Writer:
 
 
 def _arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--sequence", type=int, help="number of the only sequence to write; default: all")
+    sequence_argument(parser)
     parser.add_argument(
         "--events-left", metavar="SENSOR", help="event camera cam0; needed if there are several"
     )

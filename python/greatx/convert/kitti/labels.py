@@ -24,7 +24,7 @@ from typing import Dict, List, Optional
 import numpy as np
 
 from ...dataset import Record
-from ..objects import Seen, seen
+from ..objects import Seen, class_argument, seen
 from ..poses import OPTICAL_FROM_BODY
 from .source import Calibration
 
@@ -36,14 +36,7 @@ OCCLUSION = (0.9, 0.5)
 
 def type_argument(parser: argparse.ArgumentParser) -> None:
     """Adds --type."""
-    parser.add_argument(
-        "--type",
-        action="append",
-        metavar="CLASS=TYPE",
-        help="KITTI's type of a class, for each class that differs from "
-        + ", ".join(f"{name}={kind}" for name, kind in TYPES.items())
-        + "; an empty type leaves a class out",
-    )
+    class_argument(parser, "type", "KITTI's type of a class", TYPES)
 
 
 def wrapped(angle: float) -> float:

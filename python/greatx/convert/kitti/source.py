@@ -20,11 +20,11 @@ import numpy as np
 
 from ...dataset import Dataset, Record, Sequence
 from ...errors import DatasetError
-from ..clouds import cloud, sweep_s, untwisted
+from ..clouds import cloud, sweep_s, untwist_argument, untwisted
 from ..folders import place
+from ..optics import Lens
 from ..poses import OPTICAL_FROM_BODY, Pose, mount
 from ..rig import (
-    Optics,
     Rig,
     Track,
     common_ticks,
@@ -44,7 +44,7 @@ PAIR_TOLERANCE = 1e-6
 class Calibration:
     """Holds the geometry of the carrier, which never changes."""
 
-    left: Optics
+    left: Lens
     baseline: Optional[float]  #: m from the left to the right camera; None without a right camera
     camera_from_lidar: Pose  #: to the left camera's optical frame (x right, y down, z forward)
     lidar_from_body: Pose
@@ -171,9 +171,7 @@ def source_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--right", help="camera to its right that becomes camera 3; default: none")
     parser.add_argument("--lidar", help="LiDAR; needed if there are several")
     parser.add_argument("--without-lidar", action="store_true", help="write pictures without points")
-    parser.add_argument(
-        "--untwist", action="store_true", help="undo the motion of the LiDAR during each sweep"
-    )
+    untwist_argument(parser)
 
 
 def choice(given: argparse.Namespace) -> Dict[str, object]:

@@ -14,7 +14,7 @@ from ...dataset import Dataset, Record, Sequence
 from ...errors import DatasetError
 from ...files import interpreting, read_bytes
 from ..common import Command, pick_sequence
-from ..files import Records, new_file, pick_sensors, record_rows
+from ..files import Records, new_file, pick_sensors, record_rows, selection_arguments
 from ..folders import Progress, new_folder
 from ..rig import sequences_of
 from .messages import (
@@ -155,10 +155,7 @@ class _Run:
 
 
 def _arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--sequence", type=int, help="number of the only sequence to write; default: all")
-    parser.add_argument(
-        "--sensor", action="append", metavar="NAME", help="a sensor to write; may be repeated; default: all"
-    )
+    selection_arguments(parser)
     parser.add_argument(
         "--most-paths",
         type=int,

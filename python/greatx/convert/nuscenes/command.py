@@ -6,7 +6,9 @@ from __future__ import annotations
 
 import argparse
 
+from ..clouds import untwist_argument
 from ..common import Command
+from ..objects import class_argument
 from ..rig import rig_arguments
 from .categories import ANNOTATED
 from .write import write_nuscenes
@@ -33,14 +35,7 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--channel", action="append", metavar="SENSOR=CHANNEL", help="nuScenes' channel of a sensor"
     )
-    parser.add_argument(
-        "--category",
-        action="append",
-        metavar="CLASS=CATEGORY",
-        help="category of annotations of a class, for each class that differs from "
-        + ", ".join(f"{name}={category}" for name, category in ANNOTATED.items())
-        + "; an empty category leaves a class out",
-    )
+    class_argument(parser, "category", "category of annotations of a class", ANNOTATED)
     parser.add_argument(
         "--scene-name",
         action="append",
@@ -50,9 +45,7 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--without-annotations", action="store_true", help="write sensors alone")
     parser.add_argument("--version", default="v1.0-mini", help="name of the tables' folder (%(default)s)")
-    parser.add_argument(
-        "--untwist", action="store_true", help="undo the motion of the LiDAR during each sweep"
-    )
+    untwist_argument(parser)
 
 
 COMMAND = Command(

@@ -14,6 +14,7 @@ import numpy as np
 
 from ...dataset import Dataset, Record
 from ...errors import DatasetError
+from ..common import sequence_argument
 from ..files import need
 from ..objects import class_name
 from ..poses import node_of, nodes_of
@@ -110,7 +111,7 @@ class Pictures:
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--sequence", type=int, help="number of the only sequence to write; default: all")
+    sequence_argument(parser)
     parser.add_argument("--radar", metavar="SENSOR", help="needed if there are several radars")
     parser.add_argument("--camera", metavar="SENSOR", help="needed if the radar's node has several cameras")
     parser.add_argument("--no-pictures", action="store_true", help="write no pictures, which need Pillow")
