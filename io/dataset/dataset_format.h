@@ -33,9 +33,9 @@ inline constexpr const char* calibration_file = "calibration.json";
 inline constexpr const char* run_file = "run.json";
 /// Lists the files that `greatx generate` and `greatx inspect` may leave beside the data. They are not part
 /// of the manifest.
-inline constexpr const char* companion_files[] = {"contact_sheet.png", "animation.webp", "animation.mp4",
-                                                  "report.html",       consistency_file, calibration_file,
-                                                  run_file};
+inline constexpr const char* companion_files[] = {
+    "contact_sheet.png", "animation.webp", "animation.mp4", "report.html",
+    consistency_file,    calibration_file, run_file};
 
 // A data set may state no numbers beyond these bounds, so that false numbers cost neither time nor memory.
 inline constexpr int64_t most_sequences = 1'000'000, most_ticks = 1'000'000'000'000;

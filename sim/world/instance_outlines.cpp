@@ -92,14 +92,15 @@ std::vector<std::optional<InstanceOutline>> instance_outlines(const World& world
       dvec3 corner[3];
       for (uint32_t c = 0; c < 3; ++c)
         corner[c] = dvec3(scene.positions[scene.indices[primitive.first_index + t + c]]);
-      std::vector<dvec2> ends;
+      std::array<dvec2, 2> ends{};  // a plane cuts none or two of a triangle's edges
+      size_t count = 0;
       for (int c = 0; c < 3; ++c) {
         const dvec3 &a = corner[c], &b = corner[(c + 1) % 3];
         // A corner on the plane counts as above, so that an edge is cut once or not at all.
         if ((a.z >= outline->height_m) != (b.z >= outline->height_m))
-          ends.push_back(rounded(cut(a, b, outline->height_m) + dvec2(scene.origin)));
+          ends[count++] = rounded(cut(a, b, outline->height_m) + dvec2(scene.origin));
       }
-      if (ends.size() == 2 && glm::length(ends[1] - ends[0]) >= shortest_m)
+      if (count == 2 && glm::length(ends[1] - ends[0]) >= shortest_m)
         outline->lines.push_back({ends[0], ends[1]});
     }
   }

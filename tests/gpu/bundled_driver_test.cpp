@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_folder.h"

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "io/formats/webp.h"
-#include "tests/io/sample_run.h"
+#include "tests/io/sample_set.h"
 #include "tests/support/temporary_folder.h"
 
 namespace greatx::io {
@@ -106,15 +106,7 @@ TEST(Animation, PlaysAtTheWishedRate) {
   EXPECT_THAT(playback_of(moments, 0.5).start_ms, ElementsAre(0, 2000, 4000, 6000));
 }
 
-class AnimationOfSample : public testing::Test {
- protected:
-  void SetUp() override {
-    DatasetWriter writer(set_, sample_info());
-    ASSERT_TRUE(write_sample_run(writer, sample_info()));
-  }
-  const test::TemporaryFolder folder_;
-  const std::filesystem::path set_ = folder_.path() / "set";
-};
+class AnimationOfSample : public SampleSet {};
 
 /// The camera at 30 Hz has three frames in 70 ms, and the animation shows all of them: four pictures, the
 /// trajectories and the channel, three by two.

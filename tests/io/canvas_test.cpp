@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The canvas's themes, factors, texts, labels and keys.
+// The canvas's shapes, themes, factors, texts, labels and keys, and the axes and colours of plots.
 #include "draw/canvas/canvas.h"
 
 #include <array>
 #include <cmath>
+#include <set>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,6 +18,8 @@
 
 namespace greatx::io {
 namespace {
+
+using testing::ElementsAre;
 
 using Linear = std::array<double, 3>;
 
@@ -259,6 +263,65 @@ TEST(Key, StaysInItsArea) {
       if (!area.contains({x, y, 1, 1})) {
         ASSERT_EQ(image.as<uint8_t>()[(y * 300 + x) * 3 + 1], 255) << x << ' ' << y;
       }
+}
+
+TEST(Canvas, DrawsInsideItsClipOnly) {
+  Canvas canvas(20, 10, Color{0, 0, 0});
+  canvas.clip({5, 2, 4, 4});
+  canvas.fill({0, 0, 20, 10}, {255, 0, 0});
+  const Array image = canvas.image();
+  int red = 0;
+  for (size_t i = 0; i < image.bytes.size(); i += 3) red += image.as<uint8_t>()[i] == 255;
+  EXPECT_EQ(red, 16);
+}
+
+TEST(Canvas, TextHasTheGlyphsDots) {
+  Canvas canvas(20, 20, Color{0, 0, 0});
+  canvas.text(0, 0, "!", 2,
+              {255, 255, 255});  // the glyph is one column of seven rows, of which the sixth is empty
+  const Array image = canvas.image();
+  int white = 0;
+  for (size_t i = 0; i < image.bytes.size(); i += 3) white += image.as<uint8_t>()[i] == 255;
+  EXPECT_EQ(white, 6 * 4);
+}
+
+TEST(Canvas, PictureKeepsTheMeanWhenItShrinks) {
+  Array rgb(DType::u8, {4, 4, 3});
+  for (size_t i = 0; i < 48; ++i) rgb.as<uint8_t>()[i] = i / 3 % 2 == 0 ? 200 : 100;
+  Canvas canvas(2, 2, Color{0, 0, 0});
+  canvas.picture({0, 0, 2, 2}, rgb);
+  const Array image = canvas.image();
+  for (const uint8_t value : image.as<uint8_t>()) EXPECT_EQ(value, 150);
+}
+
+TEST(Plot, TicksAreRoundAndInside) {
+  EXPECT_THAT((Scale{0.0, 1.0}.ticks(5)),
+              testing::Pointwise(testing::DoubleNear(1e-12), {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}));
+  EXPECT_THAT((Scale{-32.0, 41.0}.ticks(4)), ElementsAre(-20.0, 0.0, 20.0, 40.0));
+  EXPECT_THAT((Scale{0.5, 60.0, true}.ticks(5)),
+              testing::Pointwise(testing::DoubleNear(1e-9), {0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0}));
+  EXPECT_EQ(round_down(73.0), 50.0);
+  EXPECT_EQ(tick_text(0.0), "0");
+}
+
+TEST(Colors, NeighbouringIdsDiffer) {
+  std::set<std::tuple<int, int, int>> colors;
+  for (uint32_t id = 0; id < 100; ++id) {
+    const Color c = color_of_id(id);
+    colors.insert({c.r, c.g, c.b});
+  }
+  EXPECT_GT(colors.size(), 95u);
+}
+
+TEST(Colors, FlowHasDirectionsAndLengths) {
+  const auto rgb = [](Color c) { return std::array<int, 3>{c.r, c.g, c.b}; };
+  EXPECT_THAT(rgb(flow_color(0, 0)), ElementsAre(255, 255, 255));
+  EXPECT_THAT(rgb(flow_color(1, 0)), ElementsAre(255, 0, 0));
+  EXPECT_THAT(rgb(flow_color(-1, 0)), ElementsAre(0, 255, 255));
+  EXPECT_THAT(rgb(flow_color(0, 1)), ElementsAre(128, 255, 0));
+  EXPECT_THAT(rgb(flow_color(0, -1)), ElementsAre(128, 0, 255));
+  EXPECT_THAT(rgb(flow_color(0.5, 0)), ElementsAre(255, 128, 128));
+  EXPECT_THAT(rgb(flow_color(std::nan(""), 0)), ElementsAre(0, 0, 0));
 }
 
 }  // namespace

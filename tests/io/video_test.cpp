@@ -11,8 +11,7 @@
 #include "draw/sheet/animation.h"
 #include "io/formats/png.h"
 #include "io/video/frame_file.h"
-#include "tests/io/sample_run.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/io/sample_set.h"
 
 #ifdef GREATX_LIBAV
 extern "C" {
@@ -27,15 +26,7 @@ namespace {
 
 using testing::HasSubstr;
 
-class VideoOfSample : public testing::Test {
- protected:
-  void SetUp() override {
-    DatasetWriter writer(set_, sample_info());
-    ASSERT_TRUE(write_sample_run(writer, sample_info()));
-  }
-  const test::TemporaryFolder folder_;
-  const std::filesystem::path set_ = folder_.path() / "set";
-};
+class VideoOfSample : public SampleSet {};
 
 std::string fault_of_animation(const DatasetReader& reader, const std::filesystem::path& file) {
   try {
