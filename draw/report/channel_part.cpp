@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The part of channels: H(f) of each link, the strongest paths with their vertices, statistics, and the maps
-// and detections of a channel that senses.
+// The part of channels: H(f) of each link, and the strongest paths with their vertices. sensing_part.cpp has
+// what a channel senses.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -25,25 +25,15 @@ struct End {
   int64_t ports = 1;
 };
 
-std::vector<End> ends_of(const PanelSource& source, const char* key) {
-  const JsonDocument metadata = metadata_of(source);
+std::vector<End> ends_of(const JsonValue& metadata, const char* key) {
   std::vector<End> ends;
-  if (!metadata.root().has(key)) return ends;
-  for (const JsonValue& json : metadata.root().at(key).list(most_antennas)) {
+  if (!metadata.has(key)) return ends;
+  for (const JsonValue& json : metadata.at(key).list(most_antennas)) {
     End& end = ends.emplace_back();
     if (json.has("name")) end.name = json.at("name").text();
     end.node = end.name.substr(0, end.name.find('/'));
     if (json.has("ports")) end.ports = json.at("ports").integer(1, 1'000'000);
-    if (!json.has("body_from_antenna")) continue;
-    const JsonValue mount = json.at("body_from_antenna");
-    if (mount.has("position_m"))
-      for (int i = 0; i < 3; ++i)
-        end.mount.position[i] = mount.at("position_m").tuple(3)[static_cast<size_t>(i)].number(-1e12, 1e12);
-    if (mount.has("orientation_wxyz")) {
-      const std::vector<JsonValue> q = mount.at("orientation_wxyz").tuple(4);
-      const auto part = [&](size_t i) { return q[i].number(-1.01, 1.01); };
-      end.mount.orientation = dquat(part(0), part(1), part(2), part(3));
-    }
+    if (json.has("body_from_antenna")) end.mount = pose_of(json.at("body_from_antenna"));
   }
   return ends;
 }
@@ -188,90 +178,10 @@ Json encode_paths(const Context& context, const PanelSource& source, const Index
   return {{"blob", context.blobs.add(packed_text(list.dump()))}, {"all", count}};
 }
 
-/// Throws UserError unless the array [rx, tx, ...] has this link.
-void expect_link(const PanelSource& source, const Array& array, size_t rx, size_t tx) {
-  if (rx >= static_cast<size_t>(array.shape[0]) || tx >= static_cast<size_t>(array.shape[1]))
-    throw_user_error("{}: expected links of all receivers and transmitters, found {} x {}", source.place(),
-                     array.shape[0], array.shape[1]);
-}
-
-/// Returns the maps, detections and targets of link (rx, tx).
-Json encode_sensing(const Context& context, const PanelSource& source, const IndexRow& row, size_t rx,
-                    size_t tx, size_t targets) {
-  Json json = {{"rx", rx}, {"tx", tx}};
-  size_t link = 0;
-  for (const char* const name : {"range_doppler", "range_azimuth"}) {
-    if (!source.has(name)) continue;
-    const Array map = source.load(row, name, {DType::f32}, {0, 0, 0, 0});
-    const auto cells = static_cast<size_t>(map.shape[2] * map.shape[3]);
-    expect_link(source, map, rx, tx);
-    link = rx * static_cast<size_t>(map.shape[1]) + tx;
-    json[name] =
-        encode_power(context, map.as<float>().subspan(link * cells, cells), map.shape[2], map.shape[3]);
-  }
-  if (source.has("target_range") && targets > 0) {
-    Json list = Json::array();
-    const auto truth = [&](const char* name) {
-      return source.load(row, name, {DType::f64}, {0, 0, static_cast<int64_t>(targets)});
-    };
-    const Array range = truth("target_range"), velocity = truth("target_velocity"),
-                azimuth = truth("target_azimuth"), power = truth("target_power");
-    for (const Array* const array : {&range, &velocity, &azimuth, &power})
-      expect_link(source, *array, rx, tx);
-    link = rx * static_cast<size_t>(range.shape[1]) + tx;
-    for (size_t i = link * targets; i < (link + 1) * targets; ++i)
-      list.push_back({rounded(range.as<double>()[i], 3), rounded(velocity.as<double>()[i], 3),
-                      rounded(azimuth.as<double>()[i], 5), rounded(power.as<double>()[i], 2)});
-    json["targets"] = std::move(list);
-  }
-  if (source.has("detection_range")) {
-    const auto column = [&](const char* name, DType type) { return source.load(row, name, {type}, {-1}); };
-    const Array range = column("detection_range", DType::f32),
-                velocity = column("detection_velocity", DType::f32),
-                azimuth = column("detection_azimuth", DType::f32), of_rx = column("detection_rx", DType::i32),
-                of_tx = column("detection_tx", DType::i32),
-                instance = column("detection_instance", DType::u32);
-    expect_same_rows(source, {&range, &velocity, &azimuth, &of_rx, &of_tx, &instance});
-    const auto real = [&](const char* name, size_t axes) {
-      std::optional<Array> array;
-      if (source.has(name)) {
-        array = source.load(row, name, {DType::f32},
-                            axes == 1 ? std::vector<int64_t>{-1} : std::vector<int64_t>{-1, 3});
-        expect_same_rows(source, {&range, &*array});
-      }
-      return array;
-    };
-    const std::optional<Array> elevation = real("detection_elevation", 1), snr = real("detection_snr", 1),
-                               power = real("detection_power", 1), place = real("detection_position", 2);
-    const auto one = [](const std::optional<Array>& array, size_t i, int digits) {
-      return array ? rounded(array->as<float>()[i], digits) : Json(nullptr);
-    };
-    Json list = Json::array();
-    size_t all = 0;
-    for (size_t i = 0; i < range.as<float>().size(); ++i) {
-      if (of_rx.as<int32_t>()[i] != static_cast<int32_t>(rx) ||
-          of_tx.as<int32_t>()[i] != static_cast<int32_t>(tx) || ++all > most_detections)
-        continue;
-      const uint32_t id = instance.as<uint32_t>()[i];
-      context.collected.instances.insert(id);
-      list.push_back({one(place, 3 * i, 3), one(place, 3 * i + 1, 3), one(place, 3 * i + 2, 3),
-                      rounded(range.as<float>()[i], 3), rounded(velocity.as<float>()[i], 3),
-                      rounded(azimuth.as<float>()[i], 5), one(elevation, i, 5), one(snr, i, 2),
-                      one(power, i, 2), nullptr, id});
-    }
-    if (all > most_detections)
-      context.collected.notes.insert(fmt::format("{}: the first {} detections of each link and record.",
-                                                 printable(source.spec().name), most_detections));
-    json["detections"] = {{"blob", context.blobs.add(packed_text(list.dump()))}, {"all", all}};
-  }
-  return json;
-}
-
-std::vector<std::string> targets_of(const PanelSource& source) {
-  const JsonDocument metadata = metadata_of(source);
+std::vector<std::string> targets_of(const JsonValue& metadata) {
   std::vector<std::string> names;
-  if (metadata.root().has("targets"))
-    for (const JsonValue& target : metadata.root().at("targets").list(most_targets))
+  if (metadata.has("targets"))
+    for (const JsonValue& target : metadata.at("targets").list(most_targets))
       names.push_back(target.has("node") ? target.at("node").text() : "");
   return names;
 }
@@ -293,7 +203,7 @@ Json describe_channel(const PanelSource& source) {
     if (root.has(key)) json[key] = root.at(key).number(-1e15, 1e15);
   for (const auto& [key, list] : {std::pair{"tx", "transmitters"}, std::pair{"rx", "receivers"}}) {
     json[key] = Json::array();
-    for (const End& end : ends_of(source, list))
+    for (const End& end : ends_of(root, list))
       json[key].push_back({{"name", shown_name(end.name)}, {"ports", end.ports}});
   }
   if (root.has("sensing")) {
@@ -303,35 +213,37 @@ Json describe_channel(const PanelSource& source) {
       if (sensing.has(key)) json["sensing"][key] = sensing.at(key).number(-1e12, 1e12);
   }
   json["targets"] = Json::array();
-  for (const std::string& name : targets_of(source)) json["targets"].push_back(shown_name(name));
+  for (const std::string& name : targets_of(root)) json["targets"].push_back(shown_name(name));
   return json;
 }
 
 Json encode_channel(const Context& context, const PanelSource& source, const IndexRow& row) {
-  const std::vector<End> tx = ends_of(source, "transmitters"), rx = ends_of(source, "receivers");
+  const JsonDocument metadata = metadata_of(source);
+  const std::vector<End> tx = ends_of(metadata.root(), "transmitters"),
+                         rx = ends_of(metadata.root(), "receivers");
   Json json = {{"tx", places_of(context, tx, row.tick)}, {"rx", places_of(context, rx, row.tick)}};
   size_t links = 0;
-  const auto each_link = [&](size_t receivers, size_t transmitters, const auto& add) {
+  const auto links_of = [&](size_t receivers, size_t transmitters) {
     links = std::max(links, receivers * transmitters);
+    std::vector<ChannelLink> shown;
     for (size_t i = 0; i < std::min(receivers * transmitters, most_links); ++i)
-      add(i / transmitters, i % transmitters);
+      shown.push_back({i / transmitters, i % transmitters});
+    return shown;
   };
   if (source.has("cfr")) {
     const Array cfr = source.load(row, "cfr", {DType::complex64}, {0, 0, 0, 0, 0, 0});
     json["links"] = Json::array();
-    each_link(static_cast<size_t>(cfr.shape[0]), static_cast<size_t>(cfr.shape[2]),
-              [&](size_t r, size_t t) { json["links"].push_back(encode_link(context, source, cfr, r, t)); });
+    for (const ChannelLink& link :
+         links_of(static_cast<size_t>(cfr.shape[0]), static_cast<size_t>(cfr.shape[2])))
+      json["links"].push_back(encode_link(context, source, cfr, link.rx, link.tx));
   }
   if (source.has("rx") && source.has("tx") && source.has("delay") && source.has("interaction") &&
       source.has("vertex"))
     json["paths"] = encode_paths(context, source, row);
-  if (source.has("range_doppler") || source.has("range_azimuth") || source.has("detection_range")) {
-    json["sensing"] = Json::array();
-    const size_t targets = targets_of(source).size();
-    each_link(std::max<size_t>(rx.size(), 1), std::max<size_t>(tx.size(), 1), [&](size_t r, size_t t) {
-      json["sensing"].push_back(encode_sensing(context, source, row, r, t, targets));
-    });
-  }
+  if (source.has("range_doppler") || source.has("range_azimuth") || source.has("detection_range"))
+    json["sensing"] =
+        encode_sensing(context, source, row, targets_of(metadata.root()).size(),
+                       links_of(std::max<size_t>(rx.size(), 1), std::max<size_t>(tx.size(), 1)));
   if (links > most_links)
     context.collected.notes.insert(
         fmt::format("{}: the first {} of {} links.", printable(source.spec().name), most_links, links));

@@ -113,6 +113,10 @@ Json encode_channel(const Context& context, const PanelSource& source, const Ind
 /// map has more cells than the detail allows, a cell of the page is the strongest of a block.
 Json encode_power(const Context& context, std::span<const float> watts, int64_t rows, int64_t columns);
 
+/// Returns the maps, true targets and detections of links of a channel that senses: sensing_part.cpp.
+Json encode_sensing(const Context& context, const PanelSource& source, const IndexRow& row, size_t targets,
+                    const std::vector<ChannelLink>& links);
+
 /// Packs a raster of ids, u8, u16 or u32, thinned to the detail's width, and collects the ids.
 Json encode_ids(const Context& context, const Array& ids, std::set<uint32_t>& seen);
 
