@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""Calibrates the hallway's materials by `greatx calibrate` on the cells of one half of a checkerboard, and
+scores them on the other half.
+"""
+
+import csv
+import subprocess
+
+import numpy as np
+
+from hallway import measured as m
+from hallway import pictures, predict, steps
+
+#: side of a field of the checkerboard, m
+BLOCK_M = 4.0
+#: positions in a cell whose powers the fit compares with that of the cell
+PLACES = 3
+#: subcarriers over the band at which the fit computes H; paths up to 0.6 us do not wrap
+SUBCARRIERS = 32
+
+#: what may change: property, start, bounds, and the relative deviation of what is known beforehand
+BOARD = ["east", "west", "side_rooms"]
+PARAMETERS = [
+    (BOARD, "thickness", 0.025, (0.008, 0.12)),
+    (BOARD, "permittivity", 2.73, (1.5, 8.0)),
+    (BOARD, "conductivity", 0.03, (0.001, 0.5)),
+    (["north"], "permittivity", 6.3, (1.5, 60.0)),
+    (["south"], "permittivity", 6.3, (1.5, 60.0)),
+    (["floor"], "permittivity", 5.24, (1.5, 12.0)),
+    (["ceiling"], "permittivity", 1.5, (1.05, 8.0)),
+]
+
+
+def medium(permittivity, conductivity, thickness_m=None):
+    wall = {"relative_permittivity": permittivity, "conductivity": conductivity}
+    return wall if thickness_m is None else {**wall, "thickness_m": thickness_m}
+
+
+#: ITU-R P.2040's media at 3.438 GHz as constants, since a fit changes them at the carrier
+START = {
+    "floor": medium(5.24, 0.12),
+    "ceiling": medium(1.48, 0.0042, 0.02),
+    "walls": medium(2.73, 0.03, 0.025),
+    "north": medium(6.31, 0.02, 0.004),
+    "south": medium(6.31, 0.02, 0.004),
+}
+
+
+def antenna(name, pattern, rows=1, columns=1):
+    return f"{{name: {name}, type: antenna, pattern: {pattern}, polarization: v, rows: {rows}, columns: {columns}}}"
+
+
+def write_scenario(world, hall, sidecar, folder):
+    nodes = ""
+    for number, place in enumerate(world.arrays, 1):
+        yaw = np.degrees(np.arctan2(place.along[1], place.along[0]))
+        nodes += (
+            f"  - name: array{number}\n"
+            f"    trajectory: {{type: static, position_m: {place.center.tolist()}, "
+            f"rotation_deg: [{yaw:g}, 0, 0]}}\n"
+            f"    sensors: [{antenna('panel', 'tr38901', 4, 8)}]\n"
+        )
+    nodes += (
+        f"  - name: robot\n    trajectory: {{type: static, position_m: [1, 5, {m.ROBOT_HEIGHT_M}]}}\n"
+        f"    sensors: [{antenna('dipole', 'short_dipole')}]\n"
+    )
+    path = folder / "hallway.yaml"
+    path.write_text(
+        f"greatx: 1\nname: hallway\nticks: 1\ntick_rate_hz: 10\n"
+        f"scene: {{file: {hall.glb.resolve()}, radio_materials: {sidecar.resolve()}}}\n"
+        f"effects: {{diffraction: off, scattering: off}}\nnodes:\n{nodes}"
+        f"channels:\n  - {{name: csi, tx: [array1/panel, array2/panel], rx: [robot/dipole], rate_hz: 10, "
+        f"carrier_hz: {m.CARRIER_HZ:g}, bandwidth_hz: {m.BANDWIDTH_HZ:g}, subcarriers: {m.SUBCARRIERS}, "
+        f"max_depth: 5, max_transmissions: 3}}\n"
+    )
+    return path
+
+
+def write_table(path, column, points, values):
+    with open(path, "w", newline="") as file:
+        rows = csv.writer(file)
+        rows.writerow(["x_m", "y_m", "z_m", column])
+        rows.writerows([*(f"{p:.17g}" for p in point), f"{v:.17g}"] for point, v in zip(points, values))
+
+
+def write_fit(world, cells, scenario, folder):
+    """Writes the description of the fit. The measured distribution of delay spreads names no places, so its
+    mean stands at every third cell: it decides the mean of the spreads alone."""
+    points = predict.places_in_cells(world.cells[cells], PLACES).reshape(-1, 3)
+    few = predict.places_in_cells(world.cells[cells[::3]], 1).reshape(-1, 3)
+    band = f"subcarriers: {SUBCARRIERS}, subcarrier_spacing_hz: {m.BANDWIDTH_HZ / SUBCARRIERS:g}"
+    lines = [f"greatx_fit: 1\nscenario: {scenario.resolve()}\nchannel: csi\nseed: 1\nstarts: 4\nmeasurements:\n"]
+    for number in range(len(world.arrays)):
+        write_table(
+            folder / f"power{number + 1}.csv",
+            "power_db",
+            points,
+            np.repeat(world.power_db[number, cells], PLACES),
+        )
+        write_table(
+            folder / f"spread{number + 1}.csv",
+            "delay_spread_ns",
+            few,
+            np.full(len(few), world.delay_spread_ns.mean()),
+        )
+        to = f"transmitter: array{number + 1}/panel, receiver: robot/dipole"
+        lines.append(
+            f"  - {{name: power{number + 1}, file: power{number + 1}.csv, quantity: power_db, {to}, "
+            f"average: coherent, {band}}}\n"
+            f"  - {{name: spread{number + 1}, file: spread{number + 1}.csv, quantity: delay_spread_ns, {to}, "
+            "spread_of: response, subcarriers: 64, "
+            f"subcarrier_spacing_hz: {m.BANDWIDTH_HZ / 64:g}}}\n"
+        )
+    lines.append("unknown:\n  scale_db: {bounds: [-20, 20], each: all}\nparameters:\n")
+    for materials, name, start, (low, high) in PARAMETERS:
+        lines.append(
+            f"  - {{material: [{', '.join(materials)}], property: {name}, start: {start}, "
+            f"bounds: [{low}, {high}], log: true}}\n"
+        )
+    lines.append("loss: {kind: huber, scale: 1.345}\nsplit: {held_out: 0}\n")
+    path = folder / "fit.yaml"
+    path.write_text("".join(lines))
+    return path
+
+
+def fit(options, world, hall_of, cells):
+    folder = options.output / "fit"
+    folder.mkdir(parents=True, exist_ok=True)
+    step = steps.Step("calibrated", "materials fitted to the other half of the cells", START, 5, 3)
+    hall = hall_of(step)
+    scenario = write_scenario(world, hall, hall.write_materials("start", START), folder)
+    side = world.blocks(BLOCK_M)[cells]
+    inside, held_out = cells[side == 0], cells[side == 1]
+    print(f"fit: {len(inside)} cells, held out: {len(held_out)}, fields of {BLOCK_M:g} m", flush=True)
+    description = write_fit(world, inside, scenario, folder)
+    program = options.build.resolve() / "greatx"
+    subprocess.run([program, "calibrate", description, "-o", folder / "result"], check=True)
+    from hallway import run
+
+    sim = run.simulation_of(world, hall, step, folder / "result/materials.yaml")
+    constant = None
+    for name, part in (("calibrated_fit", inside), ("calibrated", held_out)):
+        found = predict.predict(
+            world, sim, world.cells[part], places=options.places, subcarriers=run.SUBCARRIERS
+        )
+        score = predict.score(world, found, part, constant)
+        constant = score.constant_db
+        print(f"{name:21} {score}  {found.paths:5.0f} paths {found.wall_s:6.1f} s", flush=True)
+        run.record(options, name, step.words, score, found)
+        pictures.draw(options.output, name, world, found, part, score)
