@@ -105,7 +105,7 @@ def crossing(say, figures, quick):
             paths = world.paths(F_HZ, STATION, points, **channel)
         took = time.perf_counter() - started
         loss = -scenes.decibel(scenes.power(paths))
-        panel.line(way, loss, name, color, 1.5)
+        panel.line(way, loss, name, color, 5 if color == picture.SKY else 1.5)
         row = figures[name] = corner_figures(way, loss, side, uhf, shf)
         gaps = "".join(f"{mean:>9.1f} ± {deviation:>4.1f}" for mean, deviation in (row["uhf"], row["shf"]))
         say(
@@ -218,7 +218,6 @@ def corner_of_a_house(say, figures):
         (0, 40),
         (0, 55),
         down=True,
-        legend="bl",
     )
     colors = dict(zip(CORNER_MEDIA, (picture.BLACK, picture.RED, picture.SKY, picture.ORANGE)))
     for (medium, pol), loss in losses.items():

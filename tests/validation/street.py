@@ -135,7 +135,7 @@ def run_street(say, draw):
         itu = published.p1411_site_general("LOS", f_hz, space)
         sigma = published.P1411_TABLE_4["LOS"]["sigma"]
         panel.band(space, itu - sigma, itu + sigma, "P.1411-12, 4.1.1: median ± σ", picture.SKY)
-        panel.line(space, -20 * np.log10(h), "greatx, H at the carrier", picture.GREY, 0.8)
+        panel.line(space, -20 * np.log10(h), "greatx, H at 120 places", picture.GREY, 0.8)
         panel.line(space, loss, "greatx, mean power", picture.BLUE, 2)
         umi = published.umi_loss("LOS", f_hz, space, STATION[2], 1.5)
         panel.line(space, umi, "TR 38.901, UMi in sight", picture.ORANGE, 1.8, "6 3")
@@ -150,8 +150,8 @@ GENERATED = [
     ("canyon", {"kind": "canyon", "seed": 9, "size_m": 400}, [6.3, -21.7, 9.4], (30.0, 195.0)),
     ("city", {"kind": "city", "seed": 3, "size_m": 300}, [13.0, 13.0, 10.0], (145.0, 145.0)),
 ]
-# One edge without reflections beside it, or one scattering. Reflections beside the edge, and the ends of edges,
-# take many times as long here.
+# One edge without reflections beside it, or one scattering. Reflections beside the edge, and the ends of
+# edges, take many times as long here.
 EFFECTS = {"diffraction": "on", "corner_diffraction": "off", "scattering": "on", "transmission": "on"}
 CHANNEL = {"max_depth": 3, "max_reflections_beside_diffraction": 0}
 FLOOR_DB = 140.0  # receivers with more loss count as uncovered

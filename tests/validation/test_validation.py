@@ -27,7 +27,7 @@ def blocks(text):
     found = {}
     for body in re.findall(r"^```\n(.*?)^```$", text, re.DOTALL | re.MULTILINE):
         command, *lines = body.splitlines()
-        section = re.fullmatch(r"\$ python3 tests/validation/validation\.py --section (\w+)", command)
+        section = re.fullmatch(r"python3 tests/validation/validation\.py --section (\w+)", command)
         if section:
             found[section[1]] = lines
     return found
@@ -94,7 +94,7 @@ class Page(unittest.TestCase):
             self.assertLess(row["least"], -3.7)
             # The ground's reflection is not quite -1, so the last maximum is a little further out.
             self.assertLess(abs(row["maximum"] / row["clearance"] - 1), 0.05)
-            self.assertTrue(1 < row["exponents"][0] < 2 < 3 < row["exponents"][1] < 4)
+            self.assertTrue(1.8 < row["exponents"][0] < 2 < row["exponents"][1] < 4)
 
     def test_street(self):
         for figures in self.run_section("street").values():

@@ -29,13 +29,13 @@ def closed_form(f_hz, medium, h1, h2, d, vertical):
     return sum(r * np.exp(-2j * np.pi * (l / wavelength % 1)) / l for r, l in rays) * wavelength / (4 * np.pi)
 
 
-def two_slopes(loss, d, bend):
+def two_slopes(f_hz, loss, d, bend):
     """Returns the exponents before and behind `bend` and the deviation of the least-squares fit of two lines
-    that meet there."""
-    x = 10 * np.log10(d / bend)
-    base = np.stack([np.ones_like(x), np.minimum(x, 0), np.maximum(x, 0)], axis=1)
-    weights, *_ = np.linalg.lstsq(base, loss, rcond=None)
-    return weights[1], weights[2], float(np.std(loss - base @ weights))
+    that meet there, of which the first begins with the loss of free space at 1 m (Feuerstein's model)."""
+    base = 10 * np.log10(np.stack([np.minimum(d, bend), np.maximum(d / bend, 1)], axis=1))
+    excess = loss - published.free_space(f_hz, 1.0)
+    (near, far), *_ = np.linalg.lstsq(base, excess, rcond=None)
+    return near, far, float(np.std(excess - base @ [near, far]))
 
 
 def last_maximum(ratio, d):
@@ -99,15 +99,14 @@ def run(say, draw):
             figures["error"] = max(figures["error"], float(error.max()))
         h = fields[STREET, True]
         loss = -20 * np.log10(np.abs(h))
-        bend = published.breakpoint(F_HZ, h1, USER_M)
-        far_enough = d >= 20
-        near, far, deviation = two_slopes(loss[far_enough], np.hypot(d, h1 - USER_M)[far_enough], bend)
+        clearance = published.fresnel_clearance(F_HZ, h1, USER_M)
+        near, far, deviation = two_slopes(F_HZ, loss, np.hypot(d, h1 - USER_M), clearance)
         _, low, _ = published.p1411_street(F_HZ, h1, USER_M, d)
         rows.append(
             {
                 "h1": h1,
-                "breakpoint": bend,
-                "clearance": published.fresnel_clearance(F_HZ, h1, USER_M),
+                "breakpoint": published.breakpoint(F_HZ, h1, USER_M),
+                "clearance": clearance,
                 "maximum": last_maximum(np.abs(h) / direct, d),
                 "exponents": (near, far),
                 "deviation": deviation,

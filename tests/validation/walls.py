@@ -28,8 +28,8 @@ BANDS_GHZ = [(1, 2), (2, 4), (4, 8), (8, 16), (16, 32), (32, 64), (64, 100)]
 
 def losses(materials, frequencies_hz):
     """Returns the loss in dB of each wall at each frequency, [wall, frequency], at normal incidence. Each
-    wall is a sheet of 100 m x 100 m between a transmitter and a receiver of its own. The frequencies are evenly
-    spaced: they are the subcarriers of one channel with dispersion."""
+    wall is a sheet of 100 m x 100 m between a transmitter and a receiver of its own. The frequencies are
+    evenly spaced: they are the subcarriers of one channel with dispersion."""
     parts, tx, rx = [], [], []
     for i, material in enumerate(materials):
         y = 256.0 * i
@@ -138,7 +138,7 @@ def run(say, draw):
 
 def measured_panel(computed):
     panel = picture.Panel(
-        "Samples: measured and computed", "measured loss, dB", "greatx, dB", (0, 36), (0, 36), legend="br"
+        "Samples: measured and computed", "measured loss, dB", "greatx, dB", (0, 36), (0, 36), legend="tl"
     )
     colors = {
         "plasterboard": picture.PURPLE,
