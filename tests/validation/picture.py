@@ -4,7 +4,7 @@
 import dataclasses
 import html
 import math
-from typing import List, Optional, Tuple
+from typing import List, Tuple
 
 import numpy as np
 

@@ -150,8 +150,7 @@ GENERATED = [
     ("canyon", {"kind": "canyon", "seed": 9, "size_m": 400}, [6.3, -21.7, 9.4], (30.0, 195.0)),
     ("city", {"kind": "city", "seed": 3, "size_m": 300}, [13.0, 13.0, 10.0], (145.0, 145.0)),
 ]
-# One edge without reflections beside it, or one scattering. Reflections beside the edge, and the ends of
-# edges, take many times as long here.
+# One edge without reflections beside it, or one scattering. The section `effects` says what more brings.
 EFFECTS = {"diffraction": "on", "corner_diffraction": "off", "scattering": "on", "transmission": "on"}
 CHANNEL = {"max_depth": 3, "max_reflections_beside_diffraction": 0}
 FLOOR_DB = 140.0  # receivers with more loss count as uncovered
@@ -175,11 +174,14 @@ def places(scene, station, half_sides, count, seed=1):
     return np.stack([found.x[columns], found.y[rows], found.z[rows, columns]], axis=1)
 
 
-def drops(scene, station, points, f_hz):
-    """Returns (distance in space, loss of the mean power in dB, in sight, lg of the delay spread)."""
-    sim = scene_of(scene, effects=EFFECTS)
+def drops(scene, station, points, f_hz, effects={}, channel={}):
+    """Returns (distance in space, loss of the mean power in dB, in sight, lg of the delay spread). `effects`
+    and `channel` replace items of EFFECTS and CHANNEL."""
+    sim = scene_of(scene, effects={**EFFECTS, **effects})
     sim.place_transmitter("bs", station)
-    sim.add_channel("csi", receivers=[], carrier_hz=f_hz, bandwidth_hz=100e6, subcarriers=1, **CHANNEL)
+    sim.add_channel(
+        "csi", receivers=[], carrier_hz=f_hz, bandwidth_hz=100e6, subcarriers=1, **{**CHANNEL, **channel}
+    )
     paths = sim.paths("csi", receivers=points)
     statistics = paths.statistics()
     sight = np.zeros(len(points), bool)
@@ -215,8 +217,7 @@ def run_city(say, draw, count=200):
     figures, panels = {}, []
     say("loss of the mean power minus the model's, dB, and lg of the delay spread in s; mean ± deviation")
     say(
-        f"{'':<24}{'number':>7}{'covered':>9}{'- P.1411':>15}{'- UMi':>15}{'lg DS':>16}"
-        f"{'UMi: lg DS':>16}"
+        f"{'':<24}{'number':>7}{'covered':>9}{'- P.1411':>15}{'- UMi':>15}{'lg DS':>16}" f"{'UMi: lg DS':>16}"
     )
     for name, scene, station, half_sides in GENERATED:
         points = places(scene, station, half_sides, count)
@@ -244,6 +245,36 @@ def run_city(say, draw, count=200):
             say(f"{'':<7} paths of {len(points)} receivers  {took:.1f} s")
             panels.append(picture_of(name, f_hz, distance, loss, seen, station[2]))
     draw("city.svg", picture.svg(panels, columns=2, width=470, height=360))
+    return figures
+
+
+MORE = [
+    ("one edge or scattering, as above", {}, {}),
+    ("reflections beside the edge", {}, {"max_reflections_beside_diffraction": 1}),
+    ("ends of edges", {"corner_diffraction": "on"}, {}),
+    ("depth 4", {}, {"max_depth": 4}),
+]
+
+
+def run_effects(say, draw, count=20):
+    """Prints what more effects bring to receivers out of sight, and what they cost; returns it by name."""
+    figures = {}
+    say(f"power that receivers out of sight gain, dB, of {count} receivers at 3.5 GHz")
+    say(f"{'':<42}{'median':>8}{'90 %':>8}{'most':>8}{'lg DS':>8}")
+    for name, scene, station, half_sides in GENERATED:
+        points = places(scene, station, half_sides, count)
+        first = None
+        for label, effects, channel in MORE:
+            started = time.perf_counter()
+            _, loss, seen, spread = drops(scene, np.array(station), points, 3.5e9, effects, channel)
+            took = time.perf_counter() - started
+            first = loss if first is None else first
+            dark = ~seen & np.isfinite(first)
+            gain = (first - loss)[dark]
+            row = (np.median(gain), np.percentile(gain, 90), np.max(gain), np.mean(spread[dark]))
+            figures[name, label] = row
+            cells = "".join(f"{value + 0.0:>8.2f}" for value in row)
+            say(f"{name:<8}{label:<34}{cells}  {took:.1f} s")
     return figures
 
 

@@ -23,6 +23,7 @@ SECTIONS = {
     "two_ray": two_ray.run,
     "street": street.run_street,
     "city": street.run_city,
+    "effects": street.run_effects,
     "corner": corner.run_corner,
     "edge": corner.run_edge,
     "walls": walls.run,
@@ -33,7 +34,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--section", choices=SECTIONS, help="one section (default: all)")
     parser.add_argument("--pictures", type=pathlib.Path, help="folder for the pictures (default: none)")
-    parser.add_argument("--quick", action="store_true", help="without `city` and the slowest row of `corner`")
+    parser.add_argument(
+        "--quick", action="store_true", help="without `city`, `effects` and the slowest row of `corner`"
+    )
     options = parser.parse_args()
 
     def draw(name, text):
@@ -42,7 +45,7 @@ def main():
             (options.pictures / f"validation_{name}").write_text(text)
 
     for name in [options.section] if options.section else SECTIONS:
-        if options.quick and name == "city":
+        if options.quick and name in ("city", "effects"):
             continue
         more = {"quick": True} if options.quick and name == "corner" else {}
         started = time.perf_counter()
