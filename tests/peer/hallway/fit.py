@@ -15,35 +15,42 @@ from hallway import pictures, predict, steps
 #: side of a field of the checkerboard, m
 BLOCK_M = 4.0
 #: positions in a cell whose powers the fit compares with that of the cell
-PLACES = 3
-#: subcarriers over the band at which the fit computes H; paths up to 0.6 us do not wrap
-SUBCARRIERS = 32
+PLACES = 2
+#: subcarriers over the band at which the fit computes H; paths up to 0.3 us do not wrap
+SUBCARRIERS = 16
 
-#: what may change: property, start, bounds, and the relative deviation of what is known beforehand
-BOARD = ["east", "west", "side_rooms"]
+#: what may change: materials, property, layer, bounds
+SIDES = ["east", "west", "side_rooms"]
+ENDS = ["north", "south"]
 PARAMETERS = [
-    (BOARD, "thickness", 0.025, (0.008, 0.12)),
-    (BOARD, "permittivity", 2.73, (1.5, 8.0)),
-    (BOARD, "conductivity", 0.03, (0.001, 0.5)),
-    (["north"], "permittivity", 6.3, (1.5, 60.0)),
-    (["south"], "permittivity", 6.3, (1.5, 60.0)),
-    (["floor"], "permittivity", 5.24, (1.5, 12.0)),
-    (["ceiling"], "permittivity", 1.5, (1.05, 8.0)),
+    (SIDES, "thickness", 0, (0.008, 0.04)),
+    (SIDES, "thickness", 1, (0.03, 0.2)),
+    (ENDS, "thickness", 0, (0.001, 0.012)),
+    (["floor"], "permittivity", 0, (1.5, 12.0)),
+    (["floor"], "thickness", 0, (0.005, 0.08)),
+    (["ceiling"], "permittivity", 0, (1.1, 4.0)),
+    (["ceiling"], "thickness", 1, (0.05, 0.6)),
 ]
 
 
-def medium(permittivity, conductivity, thickness_m=None):
-    wall = {"relative_permittivity": permittivity, "conductivity": conductivity}
-    return wall if thickness_m is None else {**wall, "thickness_m": thickness_m}
+def layer(permittivity, conductivity, thickness_m):
+    return {
+        "relative_permittivity": permittivity,
+        "conductivity": conductivity,
+        "thickness_m": thickness_m,
+    }
 
 
-#: ITU-R P.2040's media at 3.438 GHz as constants, since a fit changes them at the carrier
+BOARD, GLASS = layer(2.73, 0.027, 0.0125), layer(6.31, 0.019, 0.004)
+CONCRETE = layer(5.24, 0.121, 0.2)
+#: where the fit begins: partitions of boards with a cavity, a covered floor and a suspended ceiling below
+#: slabs of concrete, and panes at the ends of the corridor. The media are those of ITU-R P.2040 at the carrier.
 START = {
-    "floor": medium(5.24, 0.12),
-    "ceiling": medium(1.48, 0.0042, 0.02),
-    "walls": medium(2.73, 0.03, 0.025),
-    "north": medium(6.31, 0.02, 0.004),
-    "south": medium(6.31, 0.02, 0.004),
+    "walls": {"layers": [BOARD, layer(1.0, 0.0, 0.075), layer(2.73, 0.027, 0.0125)]},
+    "north": {"layers": [GLASS]},
+    "south": {"layers": [GLASS]},
+    "floor": {"layers": [layer(2.6, 0.02, 0.03), CONCRETE]},
+    "ceiling": {"layers": [layer(1.48, 0.0042, 0.02), layer(1.0, 0.0, 0.3), CONCRETE]},
 }
 
 
@@ -86,11 +93,13 @@ def write_table(path, column, points, values):
 
 def write_fit(world, cells, scenario, folder):
     """Writes the description of the fit. The measured distribution of delay spreads names no places, so its
-    mean stands at every third cell: it decides the mean of the spreads alone."""
+    mean stands at every fourth cell: it decides the mean of the spreads alone."""
     points = predict.places_in_cells(world.cells[cells], PLACES).reshape(-1, 3)
-    few = predict.places_in_cells(world.cells[cells[::3]], 1).reshape(-1, 3)
+    few = predict.places_in_cells(world.cells[cells[::4]], 1).reshape(-1, 3)
     band = f"subcarriers: {SUBCARRIERS}, subcarrier_spacing_hz: {m.BANDWIDTH_HZ / SUBCARRIERS:g}"
-    lines = [f"greatx_fit: 1\nscenario: {scenario.resolve()}\nchannel: csi\nseed: 1\nstarts: 4\nmeasurements:\n"]
+    lines = [
+        f"greatx_fit: 1\nscenario: {scenario.resolve()}\nchannel: csi\nseed: 1\nstarts: 2\nmeasurements:\n"
+    ]
     for number in range(len(world.arrays)):
         write_table(
             folder / f"power{number + 1}.csv",
@@ -113,9 +122,9 @@ def write_fit(world, cells, scenario, folder):
             f"subcarrier_spacing_hz: {m.BANDWIDTH_HZ / 64:g}}}\n"
         )
     lines.append("unknown:\n  scale_db: {bounds: [-20, 20], each: all}\nparameters:\n")
-    for materials, name, start, (low, high) in PARAMETERS:
+    for materials, name, number, (low, high) in PARAMETERS:
         lines.append(
-            f"  - {{material: [{', '.join(materials)}], property: {name}, start: {start}, "
+            f"  - {{material: [{', '.join(materials)}], property: {name}, layer: {number}, "
             f"bounds: [{low}, {high}], log: true}}\n"
         )
     lines.append("loss: {kind: huber, scale: 1.345}\nsplit: {held_out: 0}\n")

@@ -4,31 +4,43 @@
 
 import dataclasses
 
-#: names of the media are ITU-R P.2040's. A board is 12.5 mm thick, and a partition has one on each side of
-#: a cavity; as a single slab of 25 mm it is half a wavelength thick at 3.438 GHz and reflects hardly at all
-#: at normal incidence.
+#: names of the media are ITU-R P.2040's
 CONCRETE = {"itu": "concrete"}
 CEILING = {"itu": "ceiling_board", "thickness_m": 0.02}
 HALF_SPACES = {"floor": CONCRETE, "ceiling": {"itu": "ceiling_board"}, "walls": {"itu": "plasterboard"}}
 
 
-def boards(thickness_m, **fields):
+def boards(thickness_m):
     return {
         "floor": CONCRETE,
         "ceiling": CEILING,
-        "walls": {"itu": "plasterboard", "thickness_m": thickness_m, **fields},
+        "walls": {"itu": "plasterboard", "thickness_m": thickness_m},
     }
 
 
-def ends(medium, thickness_m=None):
-    wall = {"itu": medium, **({} if thickness_m is None else {"thickness_m": thickness_m})}
-    return {"north": wall, "south": wall}
+def air(thickness_m):
+    return {"relative_permittivity": 1.0, "conductivity": 0.0, "thickness_m": thickness_m}
+
+
+#: what such houses are built of: partitions of two boards with a cavity, and a ceiling that hangs below a
+#: slab. A single board of 25 mm is half a wavelength thick at 3.438 GHz and hardly reflects at normal
+#: incidence.
+LAYERS = {
+    "floor": CONCRETE,
+    "ceiling": {"layers": [CEILING, air(0.3), {"itu": "concrete", "thickness_m": 0.2}]},
+    "walls": {"layers": [boards(0.0125)["walls"], air(0.075), boards(0.0125)["walls"]]},
+}
+PANE = {"itu": "glass", "thickness_m": 0.004}
+ENDS = {"north": PANE, "south": PANE}
 
 
 def scattering(materials, coefficient, floor):
     """Returns the materials with a scattering coefficient; smooth floors and ends scatter less."""
     return {
-        name: {**wall, "scattering_coefficient": floor if name in ("floor", "north", "south") else coefficient}
+        name: {
+            **wall,
+            "scattering_coefficient": floor if name in ("floor", "north", "south") else coefficient,
+        }
         for name, wall in materials.items()
     }
 
@@ -45,44 +57,39 @@ class Step:
     channel: dict = dataclasses.field(default_factory=dict)
 
 
-ROOM = {"scattering_patch_m": 0.5, "scattering_budget": 1000, "max_reflections_before_scattering": 1}
-BOARDS, PARTITION = boards(0.0125), boards(0.025)
-GLAZED = {**PARTITION, **ends("glass", 0.004)}
+ON_BUDGET = {"scattering_patch_m": 0.5, "scattering_budget": 1000, "max_reflections_before_scattering": 1}
+BOARDS, GLAZED = boards(0.0125), {**LAYERS, **ENDS}
+LATER = {**ON_BUDGET, "max_reflections_before_scattering": 2, "max_reflections_after": 1}
+SCATTERING = {"effects": {"scattering": "on"}, "channel": ON_BUDGET, "walls_passed": 3}
 
 STEPS = [
     Step("model", "the model as it is, half-spaces, 3 interactions", HALF_SPACES, 3, floor_m=0.1),
     Step("floor", "the floor at its surveyed height", HALF_SPACES, 3),
     Step("order_5", "5 interactions", HALF_SPACES, 5),
     Step("order_8", "8 interactions", HALF_SPACES, 8),
-    Step("itu", "boards of 12.5 mm, walls passed", BOARDS, walls_passed=3),
-    Step("itu_25", "partitions of 25 mm, walls passed", PARTITION, walls_passed=3),
-    Step("itu_100", "walls of 100 mm, walls passed", boards(0.1), walls_passed=3),
-    Step("itu_diffraction", "itu_25 and diffraction", PARTITION, 4, 2, effects={"diffraction": "on"}),
+    Step("itu", "order_5, boards of 12.5 mm that waves pass", BOARDS, walls_passed=3),
+    Step("itu_25", "the same, boards of 25 mm", boards(0.025), walls_passed=3),
+    Step("itu_100", "the same, boards of 100 mm", boards(0.1), walls_passed=3),
     Step(
-        "itu_scattering",
-        "itu_25 and scattering, S = 0.3 (floor and ends 0.1)",
-        scattering(PARTITION, 0.3, 0.1),
-        walls_passed=3,
-        effects={"scattering": "on"},
-        channel=ROOM,
+        "itu_diffraction", "itu and diffraction, 4 interactions", BOARDS, 4, 2, effects={"diffraction": "on"}
     ),
-    Step(
-        "itu_scattering_later",
-        "the same, two reflections before and one behind a scattering",
-        scattering(PARTITION, 0.3, 0.1),
-        walls_passed=3,
-        effects={"scattering": "on"},
-        channel={**ROOM, "max_reflections_before_scattering": 2, "max_reflections_after": 1},
-    ),
-    Step("ends", "itu_25 and glass of 4 mm at both ends of the corridor", GLAZED, walls_passed=3),
+    Step("itu_scattering", "itu and scattering, S = 0.3", scattering(BOARDS, 0.3, 0.1), **SCATTERING),
+    Step("layers", "itu, partitions and ceiling in layers", LAYERS, walls_passed=3),
+    Step("ends", "layers, panes of 4 mm at both ends of the corridor", GLAZED, walls_passed=3),
     Step("ends_8", "the same, 8 interactions", GLAZED, 8, 3),
-    Step("ends_diffraction", "ends and diffraction", GLAZED, 4, 2, effects={"diffraction": "on"}),
     Step(
-        "ends_scattering",
-        "ends and scattering",
+        "ends_diffraction",
+        "ends and diffraction, 4 interactions",
+        GLAZED,
+        4,
+        2,
+        effects={"diffraction": "on"},
+    ),
+    Step("ends_scattering", "ends and scattering, S = 0.3", scattering(GLAZED, 0.3, 0.1), **SCATTERING),
+    Step(
+        "ends_scattering_later",
+        "the same, 2 reflections before and 1 behind a scattering",
         scattering(GLAZED, 0.3, 0.1),
-        walls_passed=3,
-        effects={"scattering": "on"},
-        channel=ROOM,
+        **{**SCATTERING, "channel": LATER},
     ),
 ]
