@@ -272,9 +272,17 @@ ComplexOf<R> reflection_weight(const Places<R>& places, const FieldModelOf<R>& m
   if (model.reflectors == nullptr) return 1.0;
   const GeometricPath& path = places.path;
   const ReflectionSightOf<R> sight{places.vertices[i + 1], in, out, before_m, part_m - before_m};
-  return model.reflectors->template weight<R>(*model.world, path.interactions[i].element, sight,
-                                              2.0 * pi / model.surfaces->wavelength_m(),
-                                              path.edges_diffract >> i & 1u);
+  const R wave_number = 2.0 * pi / model.surfaces->wavelength_m();
+  const uint32_t facet = path.interactions[i].element;
+  const bool edges_diffract = path.edges_diffract >> i & 1u;
+  if constexpr (!std::is_same_v<R, double>) {
+    if (all_constant(sight.point, in, out, before_m, sight.after_m, wave_number))
+      return model.reflectors->weight(
+          *model.world, facet,
+          {value_of(sight.point), value_of(in), value_of(out), before_m.value, sight.after_m.value},
+          wave_number.value, edges_diffract);
+  }
+  return model.reflectors->template weight<R>(*model.world, facet, sight, wave_number, edges_diffract);
 }
 
 /// Takes the field along a diffraction, the bend `bend` of the path.
