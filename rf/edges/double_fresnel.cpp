@@ -43,7 +43,8 @@ struct RadialIntegral {
   ComplexOf<R> value, moment;
 };
 
-RadialIntegral<double> radial_integral(double w) {
+/// Inlined, because it is the inner loop of half_of<double>().
+[[gnu::always_inline]] inline RadialIntegral<double> radial_integral(double w) {
   static const Complex diagonal = std::polar(1.0, 0.25 * pi);
   constexpr double far = 8.0;
   if (w < far) {
