@@ -67,8 +67,7 @@ template <typename Width>
 void set_path_phasors(const ChannelGrid& grid, double delay_s, BlockedRow& phasors) {
   Complex places[sum_lanes];
   for (size_t lane = 0; lane < sum_lanes; ++lane)
-    places[lane] =
-        unit_phasor(-turns_of(static_cast<double>(lane), grid.subcarrier_spacing_hz, delay_s));
+    places[lane] = unit_phasor(-turns_of(static_cast<double>(lane), grid.subcarrier_spacing_hz, delay_s));
   for (uint32_t first = 0; first < grid.subcarriers; first += sum_lanes) {
     const Complex start =
         unit_phasor(-turns_of(grid.subcarrier_number(first), grid.subcarrier_spacing_hz, delay_s));

@@ -40,8 +40,7 @@ UnslantedSlopes half_wave_slopes(const Angles& at) {
   const double to_pole = 1.0 + std::abs(at.cos_theta);
   const double angle = 0.5 * pi * at.sin_theta * at.sin_theta / to_pole;
   // cos(pi/2 cos theta) / sin^2 theta = sin(angle) / sin^2 theta, whose limit at the poles is pi/4.
-  const double ratio =
-      at.sin_theta == 0.0 ? 0.25 * pi : std::sin(angle) / (at.sin_theta * at.sin_theta);
+  const double ratio = at.sin_theta == 0.0 ? 0.25 * pi : std::sin(angle) / (at.sin_theta * at.sin_theta);
   const double slope = 0.5 * pi * std::sin(0.5 * pi * at.cos_theta) - at.cos_theta * ratio;
   return real_field(root * ratio * at.sin_theta, root * slope, 0.0);
 }
@@ -113,9 +112,7 @@ SlantTurn slant_turn(PolarizationModel model, const dvec2& slant, const Angles& 
   const dvec2 turn{slant.x * at.sin_theta + slant.y * at.sin_phi * at.cos_theta, slant.y * at.cos_phi};
   const double squared = glm::dot(turn, turn);
   if (squared == 0.0) return {{1.0, 0.0}};
-  const auto angle = [&](const dvec2& change) {
-    return (turn.x * change.y - turn.y * change.x) / squared;
-  };
+  const auto angle = [&](const dvec2& change) { return (turn.x * change.y - turn.y * change.x) / squared; };
   const dvec2 by_theta{slant.x * at.cos_theta - slant.y * at.sin_phi * at.sin_theta, 0.0};
   const dvec2 by_phi{slant.y * at.cos_phi * at.cos_theta, -slant.y * at.sin_phi};
   const dvec2 by_slant{-slant.y * at.sin_theta + slant.x * at.sin_phi * at.cos_theta, slant.x * at.cos_phi};
@@ -136,7 +133,8 @@ ElementSlopes::ElementSlopes(ElementPattern pattern, std::span<const double> sla
 void ElementSlopes::at(const dvec3& k, std::span<FieldSlopes> out) const {
   GREATX_CHECK(out.size() >= count_, "room for {} of {} polarizations", out.size(), count_);
   const Angles own = angles_of(k * world_from_antenna_), world = angles_of(k);
-  const dvec3 own_theta = world_from_antenna_ * own.theta_hat(), own_phi = world_from_antenna_ * own.phi_hat();
+  const dvec3 own_theta = world_from_antenna_ * own.theta_hat(),
+              own_phi = world_from_antenna_ * own.phi_hat();
   const dvec2 basis{glm::dot(world.theta_hat(), own_theta), glm::dot(world.phi_hat(), own_theta)};
   const dvec3 world_phi = world.phi_hat();
   const double per_own_sine = per_sine(own), per_world_sine = per_sine(world);
@@ -151,8 +149,7 @@ void ElementSlopes::at(const dvec3& k, std::span<FieldSlopes> out) const {
     const Jones turn = turning(result.field);
     // By the angles of the antenna's frame and by phi of the world's.
     const Jones by_theta = sum(to_world(slopes.by_theta, slant), scaled(turn, slant.by_theta));
-    const Jones by_phi =
-        sum(to_world(slopes.by_phi, slant), scaled(turn, own.cos_theta + slant.by_phi));
+    const Jones by_phi = sum(to_world(slopes.by_phi, slant), scaled(turn, own.cos_theta + slant.by_phi));
     const Jones by_world_phi = scaled(turn, -world.cos_theta);
     for (int x = 0; x < 3; ++x) {
       const auto axis = static_cast<size_t>(x);

@@ -139,7 +139,8 @@ double PathLeads::slope_m(size_t rx, size_t tx, const PathTangent& path, const L
                           path.transmitter_radius_m, d_sent);
 }
 
-void PathLeads::pull_back(size_t rx, size_t tx, double weight, PathCotangent& path, LinkCotangent& link) const {
+void PathLeads::pull_back(size_t rx, size_t tx, double weight, PathCotangent& path,
+                          LinkCotangent& link) const {
   const dvec3 &received = received_m_[rx], &sent = sent_m_[tx];
   dvec3 by_received, by_sent;
   if (shape_.image) {

@@ -208,14 +208,15 @@ std::vector<Complex> ResponseGradient::response() const {
   if (selection_ != PathSelection::all)
     for (const Path& path : link_.paths)
       if (is_selected(path, selection_)) selected.push_back(path);
-  std::vector<Complex> values =
-      frequency_response_fp64(selection_ == PathSelection::all ? link_.paths : std::span<const Path>(selected),
-                              link_.transmitter, link_.receiver, grid_);
+  std::vector<Complex> values = frequency_response_fp64(
+      selection_ == PathSelection::all ? link_.paths : std::span<const Path>(selected), link_.transmitter,
+      link_.receiver, grid_);
   if (link_.transmitter_gains.empty() && link_.receiver_gains.empty()) return values;
   const size_t tx_ports = link_.transmitter.array.port_count(), per_pair = grid_.size_per_pair();
   for (size_t i = 0; i < values.size(); ++i) {
     const size_t pair = i / per_pair;
-    values[i] *= gain_of(link_.receiver_gains, pair / tx_ports) * gain_of(link_.transmitter_gains, pair % tx_ports);
+    values[i] *=
+        gain_of(link_.receiver_gains, pair / tx_ports) * gain_of(link_.transmitter_gains, pair % tx_ports);
   }
   return values;
 }
@@ -255,8 +256,8 @@ PowerSlopes power_slopes(const ResponseLink& link, double carrier_hz, std::span<
     for (size_t port = p; port < ports; port += pols) sum += std::norm(gain_of(gains, port));
     return sum;
   };
-  const auto gain_slope = [](const std::vector<Complex>& gains, const std::vector<Complex>& changes, size_t pols,
-                             size_t p) {
+  const auto gain_slope = [](const std::vector<Complex>& gains, const std::vector<Complex>& changes,
+                             size_t pols, size_t p) {
     double sum = 0.0;
     for (size_t port = p; port < changes.size(); port += pols)
       sum += real_product(std::conj(gain_of(gains, port)), changes[port]);

@@ -41,7 +41,8 @@ class TangentSum {
         offsets_hz_(offsets_hz(grid)),
         phasors_(grid.subcarriers) {}
 
-  void add_chunk(std::span<const uint32_t> chunk, std::span<const LinkTangent> tangents, std::span<Complex> out);
+  void add_chunk(std::span<const uint32_t> chunk, std::span<const LinkTangent> tangents,
+                 std::span<Complex> out);
 
  private:
   void set_factor(double delay_s, size_t place, ColumnFactors& factors);
@@ -92,8 +93,8 @@ PairSlopes TangentSum::slopes_of(const LoadedPath& loaded, size_t rx_port, size_
   const Complex d_gain = change_of(tangent.receiver.gains, rx_port) * tx_gain +
                          rx_gain * change_of(tangent.transmitter.gains, tx_port);
   const Complex gain = rx_gain * tx_gain, turn = unit_phasor(turns_of(grid_.carrier_hz, lead_s));
-  const Complex d_amplitude = loaded.amplitudes.slope(r, t, change.slope, tangent) +
-                              amplitude * Complex(0.0, 2.0 * pi * d_turns);
+  const Complex d_amplitude =
+      loaded.amplitudes.slope(r, t, change.slope, tangent) + amplitude * Complex(0.0, 2.0 * pi * d_turns);
   return {(gain * d_amplitude + d_gain * amplitude) * turn,
           gain * amplitude * Complex(0.0, 2.0 * pi * ((squints_ ? d_lead_s : 0.0) - d_delay_s)) * turn};
 }
@@ -133,8 +134,7 @@ void TangentSum::add_chunk(std::span<const uint32_t> chunk, std::span<const Link
   std::vector<LoadedPath> loaded;
   for (const uint32_t index : chunk) {
     const Path& path = link_.paths[index];
-    LoadedPath one{index, {link_, grid_.carrier_hz},
-                   {link_.transmitter, link_.receiver}, {}};
+    LoadedPath one{index, {link_, grid_.carrier_hz}, {link_.transmitter, link_.receiver}, {}};
     one.amplitudes.load(path);
     one.leads.load(path);
     const Complex carrier = unit_phasor(-turns_of(grid_.carrier_hz, path.delay_s));
@@ -161,12 +161,12 @@ void TangentSum::add_chunk(std::span<const uint32_t> chunk, std::span<const Link
   for (size_t u = 0; u < rx_ports_ / rx_pols; ++u)
     for (size_t s = 0; s < tx_ports_ / tx_pols; ++s) {
       for (size_t place = 0; place < loaded.size(); ++place)
-        set_factor(link_.paths[loaded[place].index].delay_s - loaded[place].leads.lead_m(u, s) / speed_of_light,
-                   place, factors);
+        set_factor(
+            link_.paths[loaded[place].index].delay_s - loaded[place].leads.lead_m(u, s) / speed_of_light,
+            place, factors);
       pairs.clear();
       for (size_t r = 0; r < rx_pols; ++r)
-        for (size_t t = 0; t < tx_pols; ++t)
-          pairs.push_back((u * rx_pols + r) * tx_ports_ + s * tx_pols + t);
+        for (size_t t = 0; t < tx_pols; ++t) pairs.push_back((u * rx_pols + r) * tx_ports_ + s * tx_pols + t);
       add_all(pairs);
     }
 }
@@ -184,8 +184,8 @@ void ResponseGradient::push_forward(std::span<const LinkTangent> tangents, std::
     if (is_selected(link_.paths[i], selection_)) selected.push_back(i);
   TangentSum sum(link_, grid_);
   for (size_t first = 0; first < selected.size(); first += paths_at_once)
-    sum.add_chunk(std::span(selected).subspan(first, std::min(paths_at_once, selected.size() - first)), tangents,
-                  out);
+    sum.add_chunk(std::span(selected).subspan(first, std::min(paths_at_once, selected.size() - first)),
+                  tangents, out);
 }
 
 }  // namespace greatx::rf

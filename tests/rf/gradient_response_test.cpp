@@ -135,7 +135,9 @@ std::vector<std::pair<const char*, LinkTangent>> tangents_of(const TestLink& tes
     for (size_t i = 0; i < test.paths.size(); ++i)
       tangent.paths[i].slope.arrival = across(test.paths[i].arrival);
   });
-  add("transmitter's attitude", [&](LinkTangent& tangent) { tangent.transmitter.attitude = {0.3, -1.0, 0.5}; });
+  add("transmitter's attitude", [&](LinkTangent& tangent) {
+    tangent.transmitter.attitude = {0.3, -1.0, 0.5};
+  });
   add("receiver's attitude", [&](LinkTangent& tangent) { tangent.receiver.attitude = {-0.6, 0.2, 0.9}; });
   add("receiver's slant", [&](LinkTangent& tangent) { tangent.receiver.slants[0] = 1.0; });
   add("transmitter's gains", [&](LinkTangent& tangent) {
@@ -263,9 +265,9 @@ TEST(ResponseGradient, SpheresAboutPatchesAgreeWithDifferences) {
 
 TEST(ResponseGradient, AnImageTurnsWithItsAntenna) {
   TestLink test(0, Wavefront::curved, false);
-  test.paths = {bent_path({InteractionType::reflection, InteractionType::transmission,
-                           InteractionType::reflection}),
-                bent_path({InteractionType::diffraction})};
+  test.paths = {
+      bent_path({InteractionType::reflection, InteractionType::transmission, InteractionType::reflection}),
+      bent_path({InteractionType::diffraction})};
   LinkTangent tangent = test.no_change();
   tangent.transmitter.attitude = {0.4, 0.9, -0.3};
   tangent.receiver.attitude = {-0.5, 0.1, 0.8};
@@ -361,8 +363,8 @@ TEST(ResponseGradient, PowersAndSpreadsAgreeWithDifferences) {
     const DelaySlopes slopes = delay_slopes(found.powers, found.slopes, delays, delay_changes);
     const auto statistics = [&](double by) {
       const TestLink moved = test.moved(tangent, by);
-      const LinkStatistics of = link_statistics(
-          moved.paths, power_slopes(moved.link(), moved.grid.carrier_hz, {}).powers);
+      const LinkStatistics of =
+          link_statistics(moved.paths, power_slopes(moved.link(), moved.grid.carrier_hz, {}).powers);
       return Values{of.path_gain, of.mean_delay_s, of.delay_spread_s};
     };
     const Values numeric = numeric_slope(statistics, 2e-3), value = statistics(0.0);
@@ -406,12 +408,13 @@ TEST(ElementSlopes, AgreeWithDifferencesForEveryPattern) {
         return Values{jones[0].theta, jones[0].phi, jones[1].theta, jones[1].phi};
       };
       for (int n = 0; n < 12; ++n) {
-        const dvec3 k = glm::normalize(dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
+        const dvec3 k =
+            glm::normalize(dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
         std::array<FieldSlopes, 2> found;
         ElementSlopes(pattern, slants, orientation).at(k, found);
-        EXPECT_LT(relative_error({found[0].field.theta, found[0].field.phi, found[1].field.theta,
-                                  found[1].field.phi},
-                                 fields(k, orientation, 0.0)),
+        EXPECT_LT(relative_error(
+                      {found[0].field.theta, found[0].field.phi, found[1].field.theta, found[1].field.phi},
+                      fields(k, orientation, 0.0)),
                   1e-15);
         const auto check = [&](const char* what, const auto& slope_of, const auto& moved) {
           Values slopes;
@@ -426,20 +429,23 @@ TEST(ElementSlopes, AgreeWithDifferencesForEveryPattern) {
           dvec3 axis(0.0);
           axis[x] = 1.0;
           const dvec3 along = axis - k[x] * k;
-          check("direction",
-                [&](const FieldSlopes& of) {
-                  Jones sum;
-                  for (int y = 0; y < 3; ++y)
-                    sum.theta += of.by_direction[static_cast<size_t>(y)].theta * along[y],
-                        sum.phi += of.by_direction[static_cast<size_t>(y)].phi * along[y];
-                  return sum;
-                },
-                [&](double by) { return fields(glm::normalize(k + by * along), orientation, 0.0); });
-          check("attitude", [&](const FieldSlopes& of) { return of.by_attitude[static_cast<size_t>(x)]; },
-                [&](double by) { return fields(k, turned(orientation, by * axis), 0.0); });
+          check(
+              "direction",
+              [&](const FieldSlopes& of) {
+                Jones sum;
+                for (int y = 0; y < 3; ++y)
+                  sum.theta += of.by_direction[static_cast<size_t>(y)].theta * along[y],
+                      sum.phi += of.by_direction[static_cast<size_t>(y)].phi * along[y];
+                return sum;
+              },
+              [&](double by) { return fields(glm::normalize(k + by * along), orientation, 0.0); });
+          check(
+              "attitude", [&](const FieldSlopes& of) { return of.by_attitude[static_cast<size_t>(x)]; },
+              [&](double by) { return fields(k, turned(orientation, by * axis), 0.0); });
         }
-        check("slant", [](const FieldSlopes& of) { return of.by_slant; },
-              [&](double by) { return fields(k, orientation, by); });
+        check(
+            "slant", [](const FieldSlopes& of) { return of.by_slant; },
+            [&](double by) { return fields(k, orientation, by); });
       }
     }
 }
