@@ -4,6 +4,7 @@
 
 The engine differentiates; this module checks names and shapes, and connects the engine with PyTorch, which it
 imports only if a value is a tensor."""
+
 from __future__ import annotations
 
 import functools
@@ -126,7 +127,9 @@ def _shapes(native: Any, parameters: Mapping[str, Any]) -> Dict[str, Tuple[int, 
     known = parameters_of(native)
     for name in parameters:
         if name not in known:
-            raise Error(f"parameters: expected a parameter of the paths, found {name!r}{nearest(name, known)}")
+            raise Error(
+                f"parameters: expected a parameter of the paths, found {name!r}{nearest(name, known)}"
+            )
     return {name: known[name].shape for name in parameters}
 
 
@@ -181,9 +184,7 @@ def _response_function() -> Any:
         @staticmethod
         def forward(ctx: Any, call: Any, *tensors: Any) -> Any:
             paths, request, constants, names, dtype = call
-            values = {
-                name: t.detach().resolve_conj().cpu().numpy() for name, t in zip(names, tensors)
-            }
+            values = {name: t.detach().resolve_conj().cpu().numpy() for name, t in zip(names, tensors)}
             ctx.variation = Variation(paths._native, {**constants, **values}, paths.channel)
             ctx.call = call
             ctx.kinds = [(t.dtype, t.device) for t in tensors]

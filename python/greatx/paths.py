@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Holds the paths of a channel at a tick, and computes channel quantities from them."""
+
 from __future__ import annotations
 
 import json
