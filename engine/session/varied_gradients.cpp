@@ -58,7 +58,11 @@ VariedPaths::Columns VariedPaths::columns_of(const std::vector<std::string>& nam
   const std::vector<PathParameter>& parameters = set_->parameters();
   for (const std::string& name : names) {
     const PathParameter& parameter = find_parameter(parameters, name);
-    if (parameter.role == Role::carrier) check_carrier();
+    if (parameter.role == Role::carrier) {
+      check_carrier();
+      const rf::RadioModel& model = set_->radio_->model();
+      out.carrier = rf::carrier_slopes(*model.scene, model.effects.weather, weather_effects(), carrier_hz_);
+    }
     for (size_t axis = 0; axis < parameter.columns(); ++axis) {
       Columns::Column column{out.parameters.size(), axis, std::nullopt};
       if (acts_on_paths(parameter.role)) {
@@ -87,8 +91,9 @@ std::vector<std::vector<rf::PathSlope>> VariedPaths::slopes_of(const Link& link,
   for (size_t i = 0; i < slopes.size(); ++i) {
     const rf::Path& path = link.paths()[i];
     if (moves) check_foliage(path);
-    slopes[i] = rf::path_slopes(rf::geometry_of(path), model, link.transmitter_velocity,
-                                link.receiver_velocity, columns.of_paths);
+    slopes[i] =
+        rf::path_slopes(rf::geometry_of(path), model, link.transmitter_velocity, link.receiver_velocity,
+                        columns.of_paths, columns.carrier ? &*columns.carrier : nullptr);
   }
   return slopes;
 }

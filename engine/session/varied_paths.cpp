@@ -142,12 +142,7 @@ void VariedPaths::set_surfaces() {
       throw_user_error("carrier: expected a frequency above 0 Hz, found {}", carrier_hz_);
     check_carrier();
     surfaces_.emplace(*model.scene, carrier_hz_);
-    const rf::FieldEffects& on = model.effects.field;
-    // As in RadioModel::field_model: an effect is left out where its model does not hold.
-    attenuation_ = rf::path_attenuation(
-        model.effects.weather, carrier_hz_,
-        {on.gas && rf::gas_model_covers(carrier_hz_), on.rain && rf::rain_model_covers(carrier_hz_),
-         on.fog && rf::fog_model_covers(carrier_hz_)});
+    attenuation_ = rf::path_attenuation(model.effects.weather, carrier_hz_, weather_effects());
   }
   if (values.empty()) return;
   const auto name_of = [&](const rf::ChannelParameter& wanted) {
@@ -161,6 +156,13 @@ void VariedPaths::set_surfaces() {
   };
   const rf::RadioSurfaces& surfaces = surfaces_ ? *surfaces_ : model.surfaces;
   surfaces_ = rf::changed_surfaces(surfaces, model.scene->materials.size(), values, name_of);
+}
+
+/// As in RadioModel::field_model, an effect is left out where its model does not hold.
+rf::WeatherEffects VariedPaths::weather_effects() const {
+  const rf::FieldEffects& on = set_->radio_->model().effects.field;
+  return {on.gas && rf::gas_model_covers(carrier_hz_), on.rain && rf::rain_model_covers(carrier_hz_),
+          on.fog && rf::fog_model_covers(carrier_hz_)};
 }
 
 rf::FieldModel VariedPaths::field_model(const Link& link) const {

@@ -77,6 +77,7 @@ class VariedPaths {
     std::vector<const PathParameter*> parameters;
     std::vector<Column> columns;
     std::vector<rf::ChannelParameter> of_paths;
+    std::optional<rf::CarrierSlopes> carrier;  ///< if the carrier is among them
   };
   void set_values(const std::vector<ParameterValues>& values);
   void set_surfaces();
@@ -87,6 +88,7 @@ class VariedPaths {
   void solve();
   void solve_link(Link& link) const;
   bool is_clear(const rf::GeometricPath& path, const Link& link) const;
+  rf::WeatherEffects weather_effects() const;
   rf::FieldModel field_model(const Link& link) const;
   Columns columns_of(const std::vector<std::string>& names) const;
   std::vector<std::vector<rf::PathSlope>> slopes_of(const Link& link, const Columns& columns) const;
