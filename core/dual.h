@@ -32,25 +32,36 @@ namespace greatx {
 
 template <int N>
 struct DualNumber {
+  /// Two derivatives, which one instruction treats at once.
+  using Pair = double __attribute__((vector_size(16)));
+  static constexpr int count = N, pairs = N / 2;
+  static_assert(N % 2 == 0, "the derivatives go in pairs");
+
   double value = 0.0;
-  double slope[N] = {};  ///< derivatives by the N parameters
+  Pair slopes[pairs] = {};  ///< derivatives by the N parameters
 
   constexpr DualNumber() = default;
   constexpr DualNumber(double constant) : value(constant) {}  // NOLINT: a number is a dual number
+
+  double slope(int i) const { return slopes[i / 2][i % 2]; }
+  void set_slope(int i, double to) { slopes[i / 2][i % 2] = to; }
+  bool constant() const {
+    return std::all_of(slopes, slopes + pairs, [](const Pair& p) { return p[0] == 0.0 && p[1] == 0.0; });
+  }
 
   /// Returns f of this number, given f and f' at its value.
   DualNumber mapped(double f, double derivative) const {
     DualNumber result(f);
     if (std::isfinite(derivative))
-      for (int i = 0; i < N; ++i) result.slope[i] = derivative * slope[i];
+      for (int i = 0; i < pairs; ++i) result.slopes[i] = derivative * slopes[i];
     else
-      for (int i = 0; i < N; ++i) result.slope[i] = slope[i] == 0.0 ? 0.0 : derivative * slope[i];
+      for (int i = 0; i < N; ++i) result.set_slope(i, slope(i) == 0.0 ? 0.0 : derivative * slope(i));
     return result;
   }
   /// Returns f of a and b, given f and its partial derivatives.
   static DualNumber joined(double f, const DualNumber& a, double by_a, const DualNumber& b, double by_b) {
     DualNumber result(f);
-    for (int i = 0; i < N; ++i) result.slope[i] = by_a * a.slope[i] + by_b * b.slope[i];
+    for (int i = 0; i < pairs; ++i) result.slopes[i] = by_a * a.slopes[i] + by_b * b.slopes[i];
     return result;
   }
 
@@ -62,7 +73,7 @@ struct DualNumber {
 
   friend DualNumber operator+(const DualNumber& a, const DualNumber& b) {
     DualNumber result(a.value + b.value);
-    for (int i = 0; i < N; ++i) result.slope[i] = a.slope[i] + b.slope[i];
+    for (int i = 0; i < pairs; ++i) result.slopes[i] = a.slopes[i] + b.slopes[i];
     return result;
   }
   friend DualNumber operator+(const DualNumber& a, double b) {
@@ -77,7 +88,7 @@ struct DualNumber {
   }
   friend DualNumber operator-(const DualNumber& a, const DualNumber& b) {
     DualNumber result(a.value - b.value);
-    for (int i = 0; i < N; ++i) result.slope[i] = a.slope[i] - b.slope[i];
+    for (int i = 0; i < pairs; ++i) result.slopes[i] = a.slopes[i] - b.slopes[i];
     return result;
   }
   friend DualNumber operator-(const DualNumber& a, double b) {
@@ -87,7 +98,7 @@ struct DualNumber {
   }
   friend DualNumber operator-(double a, const DualNumber& b) {
     DualNumber result(a - b.value);
-    for (int i = 0; i < N; ++i) result.slope[i] = -b.slope[i];
+    for (int i = 0; i < pairs; ++i) result.slopes[i] = -b.slopes[i];
     return result;
   }
   friend DualNumber operator*(const DualNumber& a, const DualNumber& b) {
@@ -155,7 +166,7 @@ struct DualNumber {
  private:
   static DualNumber scaled(const DualNumber& x, double value, double by) {
     DualNumber result(value);
-    for (int i = 0; i < N; ++i) result.slope[i] = by * x.slope[i];
+    for (int i = 0; i < pairs; ++i) result.slopes[i] = by * x.slopes[i];
     return result;
   }
 };
@@ -259,9 +270,9 @@ struct DualComplexNumber {
   /// Adds the derivatives of z, times a constant, to those of the result.
   static void add_product(const DualComplexNumber& z, const Value& by, DualComplexNumber& result) {
     const double real = by.real(), imag = by.imag();
-    for (int i = 0; i < N; ++i) {
-      result.re.slope[i] += real * z.re.slope[i] - imag * z.im.slope[i];
-      result.im.slope[i] += real * z.im.slope[i] + imag * z.re.slope[i];
+    for (int i = 0; i < Real::pairs; ++i) {
+      result.re.slopes[i] += real * z.re.slopes[i] - imag * z.im.slopes[i];
+      result.im.slopes[i] += real * z.im.slopes[i] + imag * z.re.slopes[i];
     }
   }
 };
@@ -390,7 +401,7 @@ inline bool always_zero(double x) { return x == 0.0; }
 inline bool always_zero(const std::complex<double>& z) { return z == 0.0; }
 template <int N>
 bool always_zero(const DualNumber<N>& x) {
-  return x.value == 0.0 && std::all_of(x.slope, x.slope + N, [](double slope) { return slope == 0.0; });
+  return x.value == 0.0 && x.constant();
 }
 template <int N>
 bool always_zero(const DualComplexNumber<N>& z) {

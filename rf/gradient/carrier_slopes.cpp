@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "scene/material/material.h"
+
 namespace greatx::rf {
 namespace {
 
@@ -33,7 +35,7 @@ CarrierSlopes carrier_slopes(const scene::Scene& scene, const Weather& weather, 
       layers.windows = eta_slopes(material.radio->windows->layers, carrier_hz, material.name + " (windows)");
   }
   Dual frequency = carrier_hz;
-  frequency.slope[0] = 1.0;
+  frequency.set_slope(0, 1.0);
   slopes.attenuation = path_attenuation<Dual>(weather, frequency, effects);
   return slopes;
 }

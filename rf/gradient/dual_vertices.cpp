@@ -13,8 +13,6 @@ namespace {
 
 using V = Vec3Of<Dual>;
 
-constexpr int slope_count = static_cast<int>(std::size(Dual().slope));
-
 /// Returns the value with the slopes of another number.
 Dual with_slopes(double value, const Dual& of) {
   Dual result = of;
@@ -58,10 +56,10 @@ void set_keller_places(const scene::Wedge& first, const scene::Wedge& second, co
                h_01 = -(glm::dot(t[0], t[1]) - c_01 * c_11) / r[1];
   const double determinant = h_00 * h_11 - h_01 * h_01;
   GREATX_CHECK(determinant > 0.0, "edges in line with their path");
-  for (int i = 0; i < slope_count; ++i) {
-    const double g_0 = c_00.slope[i], g_1 = -c_12.slope[i];
-    place[0].slope[i] = (h_01 * g_1 - h_11 * g_0) / determinant;
-    place[1].slope[i] = (h_01 * g_0 - h_00 * g_1) / determinant;
+  for (int i = 0; i < Dual::count; ++i) {
+    const double g_0 = c_00.slope(i), g_1 = -c_12.slope(i);
+    place[0].set_slope(i, (h_01 * g_1 - h_11 * g_0) / determinant);
+    place[1].set_slope(i, (h_01 * g_0 - h_00 * g_1) / determinant);
   }
 }
 

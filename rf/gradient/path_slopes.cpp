@@ -10,13 +10,14 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "rf/gradient/dual_vertices.h"
+#include "rf/surface/surfaces.h"
 
 namespace greatx::rf {
 namespace {
 
 using Kind = ChannelParameter::Kind;
 
-constexpr size_t slots = std::size(Dual().slope);
+constexpr size_t slots = Dual::count;
 
 bool of_material(Kind kind) { return kind <= Kind::backscatter_share; }
 bool of_position(Kind kind) { return kind == Kind::transmitter_position || kind == Kind::receiver_position; }
@@ -51,9 +52,9 @@ void change_layer(std::vector<DielectricLayerOf<Dual>>& front, std::vector<Diele
   if (behind < back.size()) add(back[behind]);
 }
 
-void add_slope(DualComplex& z, size_t slot, const Complex& slope) {
-  z.re.slope[slot] += slope.real();
-  z.im.slope[slot] += slope.imag();
+void add_slope(DualComplex& z, int slot, const Complex& slope) {
+  z.re.set_slope(slot, z.re.slope(slot) + slope.real());
+  z.im.set_slope(slot, z.im.slope(slot) + slope.imag());
 }
 
 /// Returns the surface of a material with its slopes by the parameters of a chunk.
@@ -75,8 +76,8 @@ RadioSurfaceOf<Dual> dual_surface(const RadioSurface& surface, uint32_t material
             : change_layer(result.front, result.back, layer, add);
   };
   const Complex by_conductivity(0.0, -1.0 / (2.0 * pi * carrier_hz * vacuum_permittivity));
-  for (size_t slot = 0; slot < chunk.size(); ++slot) {
-    const ChannelParameter& p = chunk[slot];
+  for (int slot = 0; slot < static_cast<int>(chunk.size()); ++slot) {
+    const ChannelParameter& p = chunk[static_cast<size_t>(slot)];
     if (p.kind == Kind::carrier) {
       const CarrierSlopes::Layers& of = carrier->materials.at(material);
       for (size_t i = 0; i < of.wall.size() && i < result.front.size(); ++i)
@@ -91,11 +92,11 @@ RadioSurfaceOf<Dual> dual_surface(const RadioSurface& surface, uint32_t material
     if (p.kind == Kind::permittivity) eta(1.0);
     if (p.kind == Kind::conductivity) eta(by_conductivity);
     if (p.kind == Kind::thickness)
-      layers(p.windows, p.layer, [&](auto& layer) { layer.thickness_m.slope[slot] = 1.0; });
-    if (p.kind == Kind::roughness) result.roughness_m.slope[slot] = 1.0;
-    if (p.kind == Kind::scattering) result.scattering.coefficient.slope[slot] = 1.0;
-    if (p.kind == Kind::cross_polarization) result.scattering.cross_polarization.slope[slot] = 1.0;
-    if (p.kind == Kind::backscatter_share) result.scattering.backscatter_share.slope[slot] = 1.0;
+      layers(p.windows, p.layer, [&](auto& layer) { layer.thickness_m.set_slope(slot, 1.0); });
+    if (p.kind == Kind::roughness) result.roughness_m.set_slope(slot, 1.0);
+    if (p.kind == Kind::scattering) result.scattering.coefficient.set_slope(slot, 1.0);
+    if (p.kind == Kind::cross_polarization) result.scattering.cross_polarization.set_slope(slot, 1.0);
+    if (p.kind == Kind::backscatter_share) result.scattering.backscatter_share.set_slope(slot, 1.0);
   }
   return result;
 }
@@ -183,9 +184,9 @@ void check_finite(const ChannelParameter& p, const GeometricPath& path, const Fi
         name_of(p.kind), p.index, value);
 }
 
-Dual moved_to(const Dual& of, size_t slot) {
+Dual moved_to(const Dual& of, int slot) {
   Dual result = of.value;
-  result.slope[slot] = of.slope[0];
+  result.set_slope(slot, of.slope(0));
   return result;
 }
 
@@ -201,7 +202,7 @@ PathAttenuationOf<Dual> dual_attenuation(const PathAttenuation& attenuation, Chu
     result.rain = {rain.k_h, rain.alpha_h, rain.k_v, rain.alpha_v};
     return result;
   }
-  const auto slot = static_cast<size_t>(by_carrier - chunk.begin());
+  const auto slot = static_cast<int>(by_carrier - chunk.begin());
   const PathAttenuationOf<Dual>& of = carrier->attenuation;
   GREATX_CHECK(of.gas == attenuation.gas && of.fog == attenuation.fog &&
                    of.rain_mm_h == attenuation.rain_mm_h && of.rain_h == attenuation.rain_h,
@@ -227,11 +228,11 @@ class ChunkSlopes {
   void compute(Chunk chunk, std::span<PathSlope* const> slopes) const {
     Dual carrier_hz = model_.surfaces->carrier_hz();
     Vec3Of<Dual> ends[2] = {path_.vertices.front(), path_.vertices.back()};
-    for (size_t slot = 0; slot < chunk.size(); ++slot) {
-      const ChannelParameter& p = chunk[slot];
-      if (p.kind == Kind::carrier) carrier_hz.slope[slot] = 1.0;
+    for (int slot = 0; slot < static_cast<int>(chunk.size()); ++slot) {
+      const ChannelParameter& p = chunk[static_cast<size_t>(slot)];
+      if (p.kind == Kind::carrier) carrier_hz.set_slope(slot, 1.0);
       if (of_position(p.kind))
-        ends[p.kind == Kind::receiver_position][static_cast<int>(p.axis)].slope[slot] = 1.0;
+        ends[p.kind == Kind::receiver_position][static_cast<int>(p.axis)].set_slope(slot, 1.0);
     }
     std::vector<RadioSurfaceOf<Dual>> of_materials;
     for (const uint32_t material : materials_)
@@ -248,14 +249,14 @@ class ChunkSlopes {
                                    model_.reflectors};
     const PathValuesOf<Dual> values =
         path_values<Dual>(path_, {places.vertices, places.length_m, velocities_[0], velocities_[1]}, model);
-    for (size_t slot = 0; slot < chunk.size(); ++slot) {
-      PathSlope& slope = *slopes[slot];
+    for (int slot = 0; slot < static_cast<int>(chunk.size()); ++slot) {
+      PathSlope& slope = *slopes[static_cast<size_t>(slot)];
       for (int i = 0; i < 4; ++i)
-        slope.transfer[i] = {values.transfer[i].re.slope[slot], values.transfer[i].im.slope[slot]};
-      slope.length_m = places.length_m.slope[slot];
-      slope.doppler_hz = values.doppler_hz.slope[slot];
+        slope.transfer[i] = {values.transfer[i].re.slope(slot), values.transfer[i].im.slope(slot)};
+      slope.length_m = places.length_m.slope(slot);
+      slope.doppler_hz = values.doppler_hz.slope(slot);
       const auto of = [&](const Vec3Of<Dual>& v) {
-        return dvec3(v.x.slope[slot], v.y.slope[slot], v.z.slope[slot]);
+        return dvec3(v.x.slope(slot), v.y.slope(slot), v.z.slope(slot));
       };
       slope.departure = of(values.departure);
       slope.arrival = of(values.arrival);

@@ -71,12 +71,12 @@ struct PathSlope {
   dvec3 departure{0.0}, arrival{0.0};
 };
 
-/// Returns [parameters] the slopes of path_field() for a path that `model` and its world admit. `carrier` says
-/// how the model changes with the carrier, and must be given if the carrier is a parameter.
+/// Returns [parameters] the slopes of path_field() for a path that `model` and its world admit. `carrier`
+/// says how the model changes with the carrier, and must be given if the carrier is a parameter.
 ///
-/// Throws UserError naming the parameter if its material, layer or axis does not exist, if a thickness is that
-/// of a half-space, if a derivative is infinite (see above), or if `carrier` is missing; and ContractError for
-/// what path_field() refuses, such as a path over a target, whose legs are two paths.
+/// Throws UserError naming the parameter if its material, layer or axis does not exist, if a thickness is
+/// that of a half-space, if a derivative is infinite (see above), or if `carrier` is missing; and
+/// ContractError for what path_field() refuses, such as a path over a target, whose legs are two paths.
 std::vector<PathSlope> path_slopes(const GeometricPath& geometry, const FieldModel& model,
                                    const dvec3& transmitter_velocity, const dvec3& receiver_velocity,
                                    std::span<const ChannelParameter> parameters,

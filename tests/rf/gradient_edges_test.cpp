@@ -3,8 +3,10 @@
 //
 // Tests the slopes of paths over edges and their ends, and of reflections by small facets.
 #include <cmath>
+#include <iostream>
 #include <stdexcept>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/units.h"
@@ -92,14 +94,18 @@ TEST(PathSlopes, OverAnEdgeOfAConductor) {
 TEST(PathSlopes, ReflectionsBesideAnEdge) {
   Link link = house_link();
   const uint32_t edge = edge_of(link, 0, 2);
-  link.transmitter = {-5, 4, 2}, link.receiver = {4, -6, 3};
-  for (const FacetSequence& before : {FacetSequence{}, FacetSequence{5}})
-    for (const FacetSequence& after : {FacetSequence{6}, FacetSequence{5, 6}}) {
-      link.solve = over_edge(edge, before, after);
-      expect_true_slopes(link, 0.3);
-      link.solve = backwards(over_edge(edge, before, after));
-      expect_true_slopes(link, 0.3);
-    }
+  struct Reflections {
+    FacetSequence before, after;
+    double transmitter_z, receiver_z;
+  };
+  const Reflections all[] = {{{}, {6}, 2, 3}, {{5}, {6}, 2, 10}, {{}, {5}, 4, 1.5}, {{}, {5, 6}, 3, 1.5}};
+  for (const Reflections& at : all) {
+    link.transmitter = {-5, 4, at.transmitter_z}, link.receiver = {4, -6, at.receiver_z};
+    link.solve = over_edge(edge, at.before, at.after);
+    expect_true_slopes(link, 0.05);
+    link.solve = backwards(link.solve);
+    expect_true_slopes(link, 0.05);
+  }
 }
 
 TEST(PathSlopes, OverTheEndOfAnEdge) {
@@ -209,6 +215,46 @@ TEST(PathSlopes, PiecesOfOneSurface) {
     SCOPED_TRACE(bend_deg);
     expect_true_slopes(plate_link(0.6, 1.5, bend_deg), 0.02);
   }
+}
+
+/// Prints what the slopes of a path cost, beside its field.
+void print_cost(const char* what, const Link& link) {
+  const std::vector<ChannelParameter> all = testing::every_parameter(link);
+  std::vector<ChannelParameter> ends, materials;
+  for (const ChannelParameter& p : all) {
+    if (p.kind == Kind::transmitter_position || p.kind == Kind::receiver_position) ends.push_back(p);
+    if (p.kind <= Kind::backscatter_share) materials.push_back(p);
+  }
+  const std::vector<ChannelParameter> four(all.end() - 13, all.end() - 9);
+  std::cout << fmt::format("{:24} field {:7.2f} us", what, 1e6 * testing::cost_of(link, ends).field_s);
+  for (const auto& [name, list] :
+       {std::pair("4 of the ends'", four), {"6 positions", ends}, {"materials", materials}, {"all", all}}) {
+    const testing::Cost cost = testing::cost_of(link, list);
+    std::cout << fmt::format("; {} ({}): {:.1f} x", name, list.size(), cost.slopes_s / cost.field_s);
+  }
+  std::cout << "\n";
+}
+
+TEST(PathSlopes, CostIsPrinted) {
+  Link link = house_link();
+  link.transmitter = {-5, 4, 2}, link.receiver = {4, -16 + 2, 3};
+  link.solve = over({}, {}, 0.0);
+  print_cost("line of sight", link);
+  link.solve = reflecting({5});
+  print_cost("reflection", link);
+  link.solve = reflecting({6});
+  print_cost("reflection, slab", link);
+  link.solve = reflecting({5, 6});
+  print_cost("two reflections", link);
+  link.receiver = {4, -6, 3};
+  link.solve = over_edge(edge_of(link, 0, 2));
+  print_cost("edge", link);
+  link.solve = over({{InteractionType::scattering, 5, 1}}, {{1, -8, 0}});
+  print_cost("patch", link);
+  link.transmitter = {-8, 3, 3}, link.receiver = {19, 5, 2};
+  link.solve = over_edges(edge_of(link, 0, 4), edge_of(link, 1, 4));
+  print_cost("two edges", link);
+  print_cost("finite reflector", plate_link(0.6, 1.5, 0.0));
 }
 
 }  // namespace

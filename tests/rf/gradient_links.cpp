@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
@@ -279,6 +280,36 @@ void expect_true_slopes(const Link& link, double position_m) {
           << ", error of the difference " << expected.error[part] << ", value " << norm_of(value, part);
     }
   }
+}
+
+Cost cost_of(const Link& link, const std::vector<ChannelParameter>& parameters) {
+  const Made made(link, {Kind::carrier}, 0.0);
+  const CarrierSlopes carrier =
+      carrier_slopes(link.hand.scene, link.weather, made.weather_effects, link.carrier_hz);
+  double sum = 0.0;
+  const auto time = [&](const auto& call) {
+    double least = 1e300;
+    for (int batch = 0; batch < 15; ++batch) {
+      constexpr int calls = 200;
+      const auto start = std::chrono::steady_clock::now();
+      for (int i = 0; i < calls; ++i) sum += call();
+      const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+      least = std::min(least, passed.count() / calls);
+    }
+    return least;
+  };
+  Cost cost;
+  cost.field_s = time([&] {
+    return path_field(made.geometry, made.model, made.velocities[0], made.velocities[1]).transfer[0].real();
+  });
+  cost.slopes_s = time([&] {
+    return path_slopes(made.geometry, made.model, made.velocities[0], made.velocities[1], parameters,
+                       &carrier)
+        .back()
+        .length_m;
+  });
+  if (std::isnan(sum)) throw std::logic_error("a field is no number");
+  return cost;
 }
 
 SolveLink reflecting(FacetSequence facets) {

@@ -48,6 +48,12 @@ std::string text_of(const ChannelParameter& parameter);
 /// path changes with its ends, metres.
 void expect_true_slopes(const Link& link, double position_m = 1.0);
 
+/// Times of one path, seconds: of its field, and of its slopes by a list of parameters.
+struct Cost {
+  double field_s = 0.0, slopes_s = 0.0;
+};
+Cost cost_of(const Link& link, const std::vector<ChannelParameter>& parameters);
+
 /// Solves paths that reflect at these facets in this order.
 SolveLink reflecting(FacetSequence facets);
 /// Adds to a path the walls through which it passes, in ascending order of their facets on each segment.

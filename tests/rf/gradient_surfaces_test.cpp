@@ -187,7 +187,7 @@ TEST(PathSlopes, SeveralReflections) {
     SCOPED_TRACE(i);
     link.solve = reflecting(paths[i].facets());
     if (i % 2 == 1) link.solve = testing::backwards(link.solve);
-    expect_true_slopes(link, 0.005);
+    expect_true_slopes(link, 0.001);
   }
 }
 
