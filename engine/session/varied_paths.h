@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Computes responses of the paths of a PathSet at other values of its parameters, and their derivatives there.
-// The set of paths stays: the same sequences of interactions are solved again.
+// Computes responses of the paths of a PathSet at other values of its parameters, and their derivatives
+// there. The set of paths stays: the same sequences of interactions are solved again.
 #pragma once
 
 #include <memory>
@@ -43,8 +43,8 @@ class VariedPaths {
   Array jacobian(const ResponseRequest& request, const std::vector<std::string>& names,
                  const GoOn& go_on) const;
   /// Returns the derivatives of `power` and `delay` [path, column], and of `path_gain`, `mean_delay` and
-  /// `delay_spread` [rx, tx, column]. The paths are those of the PathSet. A column of a complex gain holds the
-  /// derivative by its real part.
+  /// `delay_spread` [rx, tx, column]. The paths are those of the PathSet. A column of a complex gain holds
+  /// the derivative by its real part.
   NamedArrays quantities(const std::vector<std::string>& names) const;
   /// Returns for each name the gradient of a real loss, in the shape of the parameter. `cotangent` is dL/d Re
   /// H + j dL/d Im H in the shape of the response; the gradient of a complex gain is dL/d Re g + j dL/d Im g.

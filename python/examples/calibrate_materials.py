@@ -4,11 +4,12 @@
 
     PYTHONPATH=build/release/python python3 python/examples/calibrate_materials.py
 
-The measurement is synthetic: the channel with the true materials. The search starts from the scenario's own,
-a third away. A wall of 30 cm echoes within itself, so that the misfit ripples with the permittivity: a coarse
-scan of both permittivities leads into the right basin. From there Gauss-Newton goes on with exact derivatives,
-and torch.optim does if torch is installed.
+The measurement is synthetic: the channel with the true materials. The search starts from the scenario's
+own, a third away. A wall of 30 cm echoes within itself, so that the misfit ripples with the permittivity: a
+coarse scan of both permittivities leads into the right basin. From there Gauss-Newton goes on with exact
+derivatives, and torch.optim does if torch is installed.
 """
+
 import itertools
 
 import numpy as np
@@ -51,7 +52,8 @@ def report(way, x):
 
 
 print(
-    f"start: misfit {np.linalg.norm(residual(start)):.2f}, largest error {np.expm1(np.abs(start - truth)).max():.2f}"
+    f"start: misfit {np.linalg.norm(residual(start)):.2f}, "
+    f"largest error {np.expm1(np.abs(start - truth)).max():.2f}"
 )
 
 # %% The scan: 13 values of each permittivity within a factor of 1.5

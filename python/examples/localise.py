@@ -84,7 +84,8 @@ for steps in range(20):
     if np.linalg.norm(step) < 1e-4:
         break
 print(
-    f"delays: {steps + 1} steps, {error_mm(place):.1f} mm away; a quarter of the wavelength is {C / CARRIER_HZ / 4e-3:.0f} mm"
+    f"delays: {steps + 1} steps, {error_mm(place):.1f} mm away; "
+    f"a quarter of the wavelength is {C / CARRIER_HZ / 4e-3:.0f} mm"
 )
 
 # %% Second stage: all of H, by Gauss-Newton on a fixed set of paths. Where paths were born or have died

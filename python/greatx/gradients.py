@@ -88,8 +88,8 @@ class Variation:
         return self._varied.response(request).view(np.complex128)[..., 0]
 
     def gradient(self, request: Request, names: Sequence[str], cotangent: np.ndarray) -> List[np.ndarray]:
-        """Returns the gradient of a real loss L by each parameter, in its shape, from `cotangent`, dL/d Re H +
-        j dL/d Im H in the shape of the response."""
+        """Returns the gradient of a real loss L by each parameter, in its shape. `cotangent` is dL/d Re H + j
+        dL/d Im H in the shape of the response."""
         named = self._varied.gradient(request, list(names), _doubles(np.asarray(cotangent, np.complex128)))
         return [a.view(np.complex128)[..., 0] if is_complex(name) else a for name, _, _, a in named]
 
@@ -167,7 +167,8 @@ def _torch_response(paths: "Paths", request: Request, parameters: Mapping[str, A
             tensors[name] = torch.broadcast_to(value, shapes[name])
         except RuntimeError:
             raise Error(
-                f"{name}: expected a tensor that broadcasts to {list(shapes[name])}, found {list(value.shape)}"
+                f"{name}: expected a tensor that broadcasts to {list(shapes[name])}, "
+                f"found {list(value.shape)}"
             ) from None
     single = all(t.dtype in (torch.float32, torch.complex64) for t in tensors.values())
     dtype = torch.complex64 if single else torch.complex128

@@ -182,8 +182,8 @@ class Paths:
         "delay_spread" (float64 [rx, tx, column]).
 
         A parameter of the ends has columns for the link's own end only: "receiver.position" has three, "x",
-        "y" and "z" of the receiver of each link. "receiver.slant" has one, of the port's own polarization, and
-        "receiver.gain" one, the complex derivative by the gain of the port itself.
+        "y" and "z" of the receiver of each link. "receiver.slant" has one, of the port's own polarization.
+        "receiver.gain" has one, the complex derivative by the gain of the port itself.
         """
         request = self._request(
             bandwidth_hz, subcarriers, subcarrier_spacing_hz, time_samples, time_spacing_s, select

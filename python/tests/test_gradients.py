@@ -15,7 +15,7 @@ try:
 except ImportError:
     torch = None
 
-#: A room with diffraction at pillars and a wall that waves pass, two transmitters with two polarizations each.
+#: A room with thin walls. Two transmitters get antennas of two polarizations.
 ROOM = {
     "greatx": 1,
     "name": "room",

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Runs the examples that compute, with those of their optional packages that are installed."""
+
 import os
 import pathlib
 import subprocess

@@ -15,7 +15,7 @@ namespace greatx::rf {
 /// Describes the spheres in which a wave leaves one array and reaches the other, for Wavefront::curved (see
 /// Leads).
 struct WaveShape {
-  /// The path has reflections and transmissions alone: the wave is a sphere about an image of the transmitter.
+  /// The path has reflections and transmissions alone: the wave is a sphere about the transmitter's image.
   bool image = false;
   /// Otherwise the distances from each end to the first and to the last patch; infinity: a plane wave.
   double transmitter_radius_m = std::numeric_limits<double>::infinity();

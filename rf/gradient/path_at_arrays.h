@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Evaluates what the two arrays of a link make of one path: fields, amplitudes and leads, and how these change
-// with the path and the ends.
+// Evaluates what the two arrays of a link make of one path: fields, amplitudes and leads, and how these
+// change with the path and the ends.
 #pragma once
 
 #include <array>

@@ -26,13 +26,12 @@ struct ContinuedPath {
   Continuation state = Continuation::exists;
 };
 
-/// Solves the sequence of `path` between other ends, exactly: reflections by images, a diffraction by Keller's
-/// point between images, two of them by the least length; scattering patches and ends of edges stay where
-/// they are. Walls are passed where the new segments meet their planes. What the geometry does not follow
-/// from stays: the area of patches, the length in foliage, which edges are in other paths. EdgeSides and
-/// KellerSide are left to the angles, since the path may have gone away from its boundary. With the ends that
-/// it has, the path is returned as it is. `world`: the facets for which the path was solved; `wedges`: those
-/// of the field model.
+/// Solves the sequence of `path` between other ends, exactly: reflections by images, a diffraction by
+/// Keller's point between images, two of them by the least length. Scattering patches and ends of edges stay
+/// where they are. Walls are passed where the new segments meet their planes. The area of patches, the length
+/// in foliage, and which edges are in other paths stay as they are. EdgeSides and KellerSide are left to the
+/// angles, since the path may have gone away from its boundary. With the ends that it has, the path is
+/// returned as it is. `world`: the facets for which the path was solved; `wedges`: those of the field model.
 ///
 /// Whether other facets block the path is not looked at.
 ContinuedPath continued_path(const GeometricPath& path, const FacetWorld& world,

@@ -3,7 +3,7 @@
 //
 // Differentiates the frequency response of a link (rf/channel/frequency_response.h) in both directions:
 //
-//   push_forward: slopes of paths and ends  ─► dH            (Jacobian-vector products, the Jacobian's columns)
+//   push_forward: slopes of paths and ends ─► dH (Jacobian-vector products, the Jacobian's columns)
 //   pull_back:    G = dL/d Re H + j dL/d Im H ─► dL by what the sum takes from each path and end
 //
 // Both differentiate

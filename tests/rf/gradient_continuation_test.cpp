@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Paths that are continued to other ends, against paths that are solved there; and surfaces with other values.
+// Paths that are continued to other ends, against paths that are solved there. Surfaces with other values.
 #include <map>
 
 #include <gtest/gtest.h>
