@@ -4,10 +4,12 @@
 // Computes the derivatives of VariedPaths.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "core/units.h"
 #include "engine/session/varied_paths.h"
+#include "rf/channel/statistics.h"
 #include "rf/gradient/path_continuation.h"
 
 namespace greatx::engine {
@@ -147,7 +149,34 @@ Array VariedPaths::jacobian(const ResponseRequest& request, const std::vector<st
                 });
 }
 
-NamedArrays VariedPaths::quantities(const std::vector<std::string>& names) const {
+NamedArrays VariedPaths::quantities() const {
+  std::vector<size_t> offsets{0};
+  for (const PathSet::Link& link : set_->links_) offsets.push_back(offsets.back() + link.solved.paths.size());
+  const auto rows = static_cast<int64_t>(offsets.back());
+  const std::vector<int64_t> links{static_cast<int64_t>(set_->receivers()),
+                                   static_cast<int64_t>(set_->transmitters())};
+  NamedArrays arrays{
+      {"power", "1", "[path] mean of |a|^2 over the pairs of ports", Array(DType::f64, {rows})},
+      {"delay", "s", "[path] NaN for a path that is lost", Array(DType::f64, {rows})},
+      {"path_gain", "1", "[rx, tx] sum of the powers", Array(DType::f64, links)},
+      {"mean_delay", "s", "[rx, tx] weighted by power", Array(DType::f64, links)},
+      {"delay_spread", "s", "[rx, tx] rms", Array(DType::f64, links)}};
+  std::ranges::fill(arrays[1].array.as<double>(), std::numeric_limits<double>::quiet_NaN());
+  for_links({}, [&](const Link& link, size_t number) {
+    const std::vector<double> powers = rf::power_slopes(response_link(link), carrier_hz_, {}).powers;
+    for (size_t i = 0; i < powers.size(); ++i) {
+      arrays[0].array.as<double>()[offsets[number] + link.number(i)] = powers[i];
+      arrays[1].array.as<double>()[offsets[number] + link.number(i)] = link.paths()[i].delay_s;
+    }
+    const rf::LinkStatistics statistics = rf::link_statistics(link.paths(), powers);
+    arrays[2].array.as<double>()[number] = statistics.path_gain;
+    arrays[3].array.as<double>()[number] = statistics.mean_delay_s;
+    arrays[4].array.as<double>()[number] = statistics.delay_spread_s;
+  });
+  return arrays;
+}
+
+NamedArrays VariedPaths::quantity_slopes(const std::vector<std::string>& names) const {
   const Columns columns = columns_of(names);
   const auto count = static_cast<int64_t>(columns.columns.size());
   std::vector<size_t> offsets{0};

@@ -45,7 +45,10 @@ class VariedPaths {
   /// Returns the derivatives of `power` and `delay` [path, column], and of `path_gain`, `mean_delay` and
   /// `delay_spread` [rx, tx, column]. The paths are those of the PathSet. A column of a complex gain holds
   /// the derivative by its real part.
-  NamedArrays quantities(const std::vector<std::string>& names) const;
+  NamedArrays quantity_slopes(const std::vector<std::string>& names) const;
+  /// Returns the values of these quantities, without the last axis. A path that is lost has power 0 and the
+  /// delay NaN.
+  NamedArrays quantities() const;
   /// Returns for each name the gradient of a real loss, in the shape of the parameter. `cotangent` is dL/d Re
   /// H + j dL/d Im H in the shape of the response; the gradient of a complex gain is dL/d Re g + j dL/d Im g.
   NamedArrays gradient(const ResponseRequest& request, const std::vector<std::string>& names,

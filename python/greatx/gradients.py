@@ -87,6 +87,11 @@ class Variation:
         """Returns H, complex128 [rx, rx_ant, tx, tx_ant, time, subcarrier]."""
         return self._varied.response(request).view(np.complex128)[..., 0]
 
+    def quantities(self) -> Arrays:
+        """Returns `power` and `delay` [path], and `path_gain`, `mean_delay` and `delay_spread` [rx, tx]: the
+        quantities that Paths.jacobian() differentiates."""
+        return Arrays(self._varied.quantities())
+
     def gradient(self, request: Request, names: Sequence[str], cotangent: np.ndarray) -> List[np.ndarray]:
         """Returns the gradient of a real loss L by each parameter, in its shape. `cotangent` is dL/d Re H + j
         dL/d Im H in the shape of the response."""
@@ -101,7 +106,7 @@ class Variation:
         if of == "cfr":
             values = self._varied.jacobian(request, names).view(np.complex128)[..., 0]
         else:
-            values = Arrays(self._varied.quantities(names))[of]
+            values = Arrays(self._varied.quantity_slopes(names))[of]
         return Jacobian(values, [name for name, _ in columns], [unit for _, unit in columns])
 
 

@@ -158,7 +158,7 @@ class Paths:
 
     def vary(self, parameters: Optional[Mapping[str, Any]] = None) -> Variation:
         """Returns the same paths at other values of parameters. Its `facts` count those that do not exist
-        there."""
+        there, and its quantities() are powers, delays and spreads."""
         return gradients.vary(self, parameters)
 
     def jacobian(
@@ -188,6 +188,8 @@ class Paths:
         request = self._request(
             bandwidth_hz, subcarriers, subcarrier_spacing_hz, time_samples, time_spacing_s, select
         )
+        if of == "cfr":
+            self._warn_of_near_links()
         return gradients.vary(self, parameters).jacobian(request, names, of)
 
     def gradient(
@@ -211,6 +213,7 @@ class Paths:
         request = self._request(
             bandwidth_hz, subcarriers, subcarrier_spacing_hz, time_samples, time_spacing_s, select
         )
+        self._warn_of_near_links()
         return dict(zip(names, gradients.vary(self, parameters).gradient(request, names, cotangent)))
 
     def changes_since(self, before: "Paths") -> Changes:

@@ -260,8 +260,12 @@ void bind_varied_paths(py::module_& module) {
                  [&](const GoOn& go_on) { return paths.jacobian(request_of(request), names, go_on); }));
            })
       .def("quantities",
+           [](const VariedPaths& paths) {
+             return numpy(watched([&](const GoOn&) { return paths.quantities(); }));
+           })
+      .def("quantity_slopes",
            [](const VariedPaths& paths, const std::vector<std::string>& names) {
-             return numpy(watched([&](const GoOn&) { return paths.quantities(names); }));
+             return numpy(watched([&](const GoOn&) { return paths.quantity_slopes(names); }));
            })
       .def("gradient", [](const VariedPaths& paths, const RequestTuple& request,
                           const std::vector<std::string>& names, const py::buffer& cotangent) {

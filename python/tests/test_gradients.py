@@ -115,19 +115,36 @@ class Derivatives(unittest.TestCase):
 
     def test_quantities_against_differences(self):
         names = ["material:concrete.permittivity", "receiver.position", "transmitter.gain", "receiver.slant"]
-        columns = self.paths.jacobian(names, "power", parameters=self.point).columns
-        vary = lambda changes: self.paths.vary({**self.point, **changes})
-        for of in ("path_gain", "mean_delay", "delay_spread"):
-            found = self.paths.jacobian(names, of, parameters=self.point).values
-            self.assertEqual(found.shape, (3, 2, len(columns)))
-        # The power of a path: the gain of a link of one path.
+        names += ["transmitter.attitude", "transmitter.position"]
+        for of in gradients.QUANTITIES[1:]:
+            found = self.paths.jacobian(names, of, parameters=self.point)
+            for column, name in enumerate(found.columns):
+                parameter, _, axis = (
+                    name.rpartition(".") if name[-2:] in (".x", ".y", ".z") else (name, "", "")
+                )
+                value = self.point[parameter]
+                direction = np.eye(3)["xyz".index(axis)] if axis else np.ones(value.shape)
+
+                def quantity(by):
+                    return self.paths.vary({**self.point, parameter: value + by * direction}).quantities()[of]
+
+                with self.subTest(of=of, name=name):
+                    expected = numeric(quantity, steps(parameter, np.abs(value).max()))
+                    error = np.abs(found.values[..., column] - expected).max()
+                    # Differences of a quantity that does not change are its roundings.
+                    least = 1e-11 * np.abs(quantity(0)).max()
+                    self.assertLessEqual(error, 1e-7 * np.abs(expected).max() + least)
+
+    def test_delays_and_quantities_are_those_of_the_paths(self):
+        towards = self.paths["arrival"]
+        zenith, azimuth = towards[:, 0], towards[:, 1]
+        direction = [np.sin(zenith) * np.cos(azimuth), np.sin(zenith) * np.sin(azimuth), np.cos(zenith)]
         delays = self.paths.jacobian(["receiver.position"], "delay").values
-        azimuth, zenith = self.paths["arrival"][:, 1], self.paths["arrival"][:, 0]
-        towards = np.stack(
-            [np.sin(zenith) * np.cos(azimuth), np.sin(zenith) * np.sin(azimuth), np.cos(zenith)], axis=1
-        )
-        np.testing.assert_allclose(delays, -towards / 299792458.0, atol=1e-22)
-        vary({})
+        np.testing.assert_allclose(delays, -np.stack(direction, axis=1) / 299792458.0, atol=1e-22)
+        values, statistics = self.paths.vary().quantities(), self.paths.statistics()
+        np.testing.assert_array_equal(values.delay, self.paths.delay)
+        for name in ("path_gain", "mean_delay", "delay_spread"):
+            np.testing.assert_allclose(values[name], statistics[name], rtol=1e-12)
 
     def test_gradient_is_the_jacobian_contracted(self):
         rng = np.random.default_rng(2)
