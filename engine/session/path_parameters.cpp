@@ -176,11 +176,10 @@ std::vector<PathParameter> path_parameters(const rf::RadioModel& model, const Ch
 }
 
 const PathParameter& find_parameter(const std::vector<PathParameter>& parameters, const std::string& name) {
+  const auto at = std::ranges::find(parameters, name, &PathParameter::name);
+  if (at != parameters.end()) return *at;
   std::vector<std::string> names;
-  for (const PathParameter& parameter : parameters) {
-    if (parameter.name == name) return parameter;
-    names.push_back(parameter.name);
-  }
+  for (const PathParameter& parameter : parameters) names.push_back(parameter.name);
   throw_user_error("parameters: {}", expected_one_of(names, name));
 }
 

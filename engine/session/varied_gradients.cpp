@@ -215,25 +215,25 @@ NamedArrays VariedPaths::quantity_slopes(const std::vector<std::string>& names) 
   return arrays;
 }
 
-/// Adds the share of a link to the gradient, [parameters of the columns][values].
-void VariedPaths::add_gradient(const Link& link, const Columns& columns, const rf::LinkCotangent& cotangent,
-                               std::vector<std::vector<double>>& gradient) const {
+/// Returns the share of a link in the gradient: for each parameter the row of the link's end.
+std::vector<std::vector<double>> VariedPaths::gradient_rows(const Link& link, const Columns& columns,
+                                                            const rf::LinkCotangent& cotangent) const {
+  std::vector<std::vector<double>> rows;
+  for (const PathParameter* parameter : columns.parameters) rows.emplace_back(parameter->row());
   const std::vector<std::vector<rf::PathSlope>> slopes = slopes_of(link, columns);
   for (const Columns::Column& column : columns.columns) {
     const PathParameter& parameter = *columns.parameters[column.parameter];
     const rf::EndCotangent& end = parameter.of_receiver ? cotangent.receiver : cotangent.transmitter;
-    const size_t number = parameter.shape.empty() ? 0 : link.end(parameter.of_receiver);
-    const std::span<double> out =
-        std::span(gradient[column.parameter]).subspan(number * parameter.row(), parameter.row());
+    std::vector<double>& out = rows[column.parameter];
     if (column.slope)
       for (size_t i = 0; i < slopes.size(); ++i)
         out[column.axis] += cotangent.paths[i].along(
             path_tangent(slopes[i][*column.slope], columns.of_paths[*column.slope].kind));
     if (parameter.role == Role::carrier) out[0] += cotangent.carrier_hz;
     if (parameter.role == Role::attitude)
-      out[column.axis] +=
-          glm::dot(end.attitude,
-                   turns_of_components(vector_of(parameter.name, number))[static_cast<int>(column.axis)]);
+      out[column.axis] += glm::dot(
+          end.attitude, turns_of_components(vector_of(
+                            parameter.name, link.end(parameter.of_receiver)))[static_cast<int>(column.axis)]);
     if (parameter.role == Role::slant)
       for (size_t p = 0; p < out.size(); ++p) out[p] += end.slants[p];
     if (parameter.role == Role::gain)
@@ -242,17 +242,13 @@ void VariedPaths::add_gradient(const Link& link, const Columns& columns, const r
         out[2 * port + 1] -= end.gains[port].imag();
       }
   }
+  return rows;
 }
 
 NamedArrays VariedPaths::gradient(const ResponseRequest& request, const std::vector<std::string>& names,
                                   std::span<const double> cotangent, const GoOn& go_on) const {
   const rf::ChannelGrid grid = this->grid(request);
   const Columns columns = columns_of(names);
-  const auto zeros = [&] {
-    std::vector<std::vector<double>> values;
-    for (const PathParameter* parameter : columns.parameters) values.emplace_back(parameter->values.size());
-    return values;
-  };
   const size_t rx_ports = set_->receivers_[0].port_count(), tx_count = set_->transmitters();
   const size_t row = set_->transmitters_[0].port_count() * grid.size_per_pair();
   if (cotangent.size() != 2 * links_.size() * rx_ports * row)
@@ -266,19 +262,19 @@ NamedArrays VariedPaths::gradient(const ResponseRequest& request, const std::vec
       const size_t first = ((number / tx_count * rx_ports + port) * tx_count + number % tx_count) * row;
       for (size_t i = first; i < first + row; ++i) block.emplace_back(cotangent[2 * i], cotangent[2 * i + 1]);
     }
-    of_links[number] = zeros();
-    add_gradient(link, columns, response_gradient(link, grid, request).pull_back(block), of_links[number]);
+    of_links[number] = gradient_rows(link, columns, response_gradient(link, grid, request).pull_back(block));
   });
   // The sum over links does not depend on the threads.
-  std::vector<std::vector<double>> sum = zeros();
-  for (const std::vector<std::vector<double>>& one : of_links)
-    for (size_t p = 0; p < one.size(); ++p)
-      for (size_t i = 0; i < one[p].size(); ++i) sum[p][i] += one[p][i];
   NamedArrays arrays;
-  for (size_t p = 0; p < sum.size(); ++p) {
+  for (size_t p = 0; p < columns.parameters.size(); ++p) {
     const PathParameter& parameter = *columns.parameters[p];
-    arrays.push_back(
-        {parameter.name, parameter.unit, parameter.description, Array::of<double>(parameter.shape, sum[p])});
+    Array sum(DType::f64, parameter.shape);
+    for (size_t number = 0; number < links_.size(); ++number) {
+      const std::vector<double>& share = of_links[number][p];
+      const size_t end = parameter.shape.empty() ? 0 : links_[number].end(parameter.of_receiver);
+      for (size_t i = 0; i < share.size(); ++i) sum.as<double>()[end * share.size() + i] += share[i];
+    }
+    arrays.push_back({parameter.name, parameter.unit, parameter.description, std::move(sum)});
   }
   return arrays;
 }

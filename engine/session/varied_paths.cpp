@@ -96,31 +96,38 @@ void VariedPaths::check_carrier() const {
 
 void VariedPaths::set_values(const std::vector<ParameterValues>& values) {
   const std::vector<PathParameter>& parameters = set_->parameters();
-  for (const PathParameter& parameter : parameters) values_.push_back(parameter.values);
+  for (const PathParameter& parameter : parameters) {
+    indices_[parameter.name] = values_.size();
+    values_.push_back(parameter.values);
+  }
   changed_.assign(parameters.size(), false);
   for (const auto& [name, given] : values) {
     const PathParameter& parameter = find_parameter(parameters, name);
+    const size_t index = index_of(name);
     if (given.size() != parameter.values.size())
       throw_user_error("{}: expected {}, found {} of them", name, expected_values(parameter), given.size());
     for (const double value : given)
       if (!std::isfinite(value)) throw_user_error("{}: expected finite numbers, found {}", name, value);
-    const auto index = static_cast<size_t>(&parameter - parameters.data());
     values_[index] = given;
     changed_[index] = given != parameter.values;
   }
 }
 
+size_t VariedPaths::index_of(const std::string& name) const {
+  const auto at = indices_.find(name);
+  GREATX_CHECK(at != indices_.end(), "no parameter '{}'", name);
+  return at->second;
+}
+
+/// A parameter that is not listed, such as a slant where antennas differ, has no other value.
 bool VariedPaths::is_changed(const std::string& name) const {
-  const std::vector<PathParameter>& parameters = set_->parameters();
-  for (size_t i = 0; i < parameters.size(); ++i)
-    if (parameters[i].name == name) return changed_[i];
-  return false;
+  const auto at = indices_.find(name);
+  return at != indices_.end() && changed_[at->second];
 }
 
 std::span<const double> VariedPaths::row_of(const std::string& name, size_t end) const {
-  const PathParameter& parameter = find_parameter(set_->parameters(), name);
-  const std::vector<double>& values = values_[static_cast<size_t>(&parameter - set_->parameters().data())];
-  return std::span(values).subspan(end * parameter.row(), parameter.row());
+  const size_t index = index_of(name), row = set_->parameters()[index].row();
+  return std::span(values_[index]).subspan(end * row, row);
 }
 
 dvec3 VariedPaths::vector_of(const std::string& name, size_t end) const {

@@ -5,6 +5,7 @@
 // there. The set of paths stays: the same sequences of interactions are solved again.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -99,17 +100,19 @@ class VariedPaths {
   rf::ResponseLink response_link(const Link& link, double half_band_hz = 0.0) const;
   rf::ResponseGradient response_gradient(const Link& link, const rf::ChannelGrid& grid,
                                          const ResponseRequest& request) const;
-  void add_gradient(const Link& link, const Columns& columns, const rf::LinkCotangent& cotangent,
-                    std::vector<std::vector<double>>& gradient) const;
+  std::vector<std::vector<double>> gradient_rows(const Link& link, const Columns& columns,
+                                                 const rf::LinkCotangent& cotangent) const;
   bool for_links(const GoOn& go_on, const std::function<void(const Link&, size_t)>& of) const;
   Array blocks(std::vector<int64_t> columns, const GoOn& go_on,
                const std::function<void(const Link&, std::span<rf::Complex>)>& of) const;
+  size_t index_of(const std::string& name) const;
   /// The values of a parameter for an end: all of a number, one row of an array.
   std::span<const double> row_of(const std::string& name, size_t end) const;
   dvec3 vector_of(const std::string& name, size_t end) const;
   bool is_changed(const std::string& name) const;
 
   std::shared_ptr<const PathSet> set_;
+  std::map<std::string, size_t> indices_;    ///< of the parameters of the set, by name
   std::vector<std::vector<double>> values_;  ///< [parameters of the set]
   std::vector<bool> changed_;                ///< [parameters of the set]
   double carrier_hz_ = 0.0;

@@ -2,6 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests derivatives of channels: against differences, each direction against the other, and with torch."""
 
+import contextlib
+import io
+import pathlib
+import re
+import subprocess
+import sys
 import unittest
 import warnings
 
@@ -337,8 +343,26 @@ class Torch(unittest.TestCase):
             self.paths.cfr(parameters={"carrier": torch.tensor(1j)})
 
 
+class Page(unittest.TestCase):
+    def test_the_code_of_the_page_works(self):
+        page = pathlib.Path(__file__).resolve().parents[2] / "docs/gradients.md"
+        blocks = re.findall(r"```python\n(.*?)```", page.read_text(), re.DOTALL)
+        self.assertEqual(len(blocks), 3)
+        scope, printed = {}, io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            for block in blocks:
+                if torch is not None or "import torch" not in block:
+                    exec(compile(block, str(page), "exec"), scope)
+        self.assertEqual(scope["slopes"].values.shape, (2, 1, 1, 2, 1, 256, 4))
+        gain = scope["gain"]  # with diffraction: the table of the page
+        np.testing.assert_allclose(gain, [-79.59, -78.32, -78.30, -77.08], atol=0.01)
+        self.assertRegex(printed.getvalue(), r"off \[-600.   -600.    -73.16  -73.14\]")
+
+
 class WithoutTorch(unittest.TestCase):
-    def test_the_module_does_not_import_torch(self):
+    def test_torch_is_imported_for_tensors_only(self):
+        code = "import sys, greatx; assert 'torch' not in sys.modules"
+        subprocess.run([sys.executable, "-c", code], check=True)
         self.assertFalse(gradients.is_tensor(np.zeros(3)))
 
 
