@@ -214,8 +214,12 @@ struct DualComplexNumber {
   friend DualComplexNumber operator-(double a, const DualComplexNumber& b) { return {a - b.re, -b.im}; }
   friend DualComplexNumber operator*(const DualComplexNumber& a, const DualComplexNumber& b) {
     DualComplexNumber result(a.value() * b.value());
-    add_product(a, b.value(), result);
-    add_product(b, a.value(), result);
+    for (int i = 0; i < Real::pairs; ++i) {
+      result.re.slopes[i] = a.re.value * b.re.slopes[i] - a.im.value * b.im.slopes[i] +
+                            b.re.value * a.re.slopes[i] - b.im.value * a.im.slopes[i];
+      result.im.slopes[i] = a.re.value * b.im.slopes[i] + a.im.value * b.re.slopes[i] +
+                            b.re.value * a.im.slopes[i] + b.im.value * a.re.slopes[i];
+    }
     return result;
   }
   friend DualComplexNumber operator*(const DualComplexNumber& a, const Value& b) {
@@ -233,7 +237,7 @@ struct DualComplexNumber {
   friend DualComplexNumber operator*(const DualComplexNumber& a, double b) { return {a.re * b, a.im * b}; }
   friend DualComplexNumber operator*(double a, const DualComplexNumber& b) { return {a * b.re, a * b.im}; }
   friend DualComplexNumber operator/(const DualComplexNumber& a, const DualComplexNumber& b) {
-    const Value quotient = a.value() / b.value(), inverse = 1.0 / b.value();
+    const Value quotient = a.value() / b.value(), inverse = inverse_of(b.value());
     DualComplexNumber result(quotient);
     add_product(a, inverse, result);
     add_product(b, -quotient * inverse, result);
@@ -245,7 +249,7 @@ struct DualComplexNumber {
   friend DualComplexNumber operator/(const DualComplexNumber& a, double b) { return {a.re / b, a.im / b}; }
   friend DualComplexNumber operator/(double a, const DualComplexNumber& b) {
     const Value quotient = a / b.value();
-    return b.mapped(quotient, -quotient / b.value());
+    return b.mapped(quotient, -quotient * inverse_of(b.value()));
   }
 
   friend bool operator==(const DualComplexNumber& a, const DualComplexNumber& b) {
@@ -262,11 +266,17 @@ struct DualComplexNumber {
   /// At 0 the derivatives are infinite, as those of a real root.
   friend DualComplexNumber sqrt(const DualComplexNumber& z) {
     const Value root = std::sqrt(z.value());
-    if (root != 0.0) return z.mapped(root, 0.5 / root);
+    if (root != 0.0) return z.mapped(root, 0.5 * inverse_of(root));
     return {sqrt(z.re), sqrt(z.im)};
   }
 
  private:
+  /// Returns 1/z for derivatives.
+  static Value inverse_of(const Value& z) {
+    const double square = z.real() * z.real() + z.imag() * z.imag();
+    if (!std::isnormal(square)) return 1.0 / z;
+    return {z.real() / square, -z.imag() / square};
+  }
   /// Adds the derivatives of z, times a constant, to those of the result.
   static void add_product(const DualComplexNumber& z, const Value& by, DualComplexNumber& result) {
     const double real = by.real(), imag = by.imag();
@@ -396,6 +406,16 @@ dvec3 value_of(const Vector3<R>& v) {
   return {value_of(v.x), value_of(v.y), value_of(v.z)};
 }
 
+/// Tells whether no derivative differs from 0.
+template <int N>
+bool constant(const DualNumber<N>& x) {
+  return x.constant();
+}
+template <int N>
+bool constant(const Vector3<DualNumber<N>>& v) {
+  return v.x.constant() && v.y.constant() && v.z.constant();
+}
+
 /// Tells whether a number is 0 and stays 0 whatever the parameters.
 inline bool always_zero(double x) { return x == 0.0; }
 inline bool always_zero(const std::complex<double>& z) { return z == 0.0; }
@@ -406,6 +426,13 @@ bool always_zero(const DualNumber<N>& x) {
 template <int N>
 bool always_zero(const DualComplexNumber<N>& z) {
   return always_zero(z.re) && always_zero(z.im);
+}
+
+/// Tells whether none of the numbers depends on a parameter. What they alone decide may then be computed
+/// without derivatives.
+template <typename... Numbers>
+bool all_constant(const Numbers&... numbers) {
+  return (constant(numbers) && ...);
 }
 
 /// Returns r e^{j phi}.

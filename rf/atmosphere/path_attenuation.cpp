@@ -37,7 +37,8 @@ template <typename R>
 FieldVectorOf<R> PathAttenuationOf<R>::after(const FieldVectorOf<R>& field, const Vec3Of<R>& direction,
                                              const R& distance_m) const {
   const PolarizedAmplitudeOf<R> factor = of(direction, distance_m);
-  const Vec3Of<R> theta = theta_hat<R>(direction), phi = phi_hat<R>(direction);
+  const AnglesOf<R> at = angles_of<R>(direction);
+  const Vec3Of<R> theta = at.theta_hat(), phi = at.phi_hat();
   FieldVectorOf<R> result;
   result.add(factor.theta * field.along(theta), theta);
   result.add(factor.phi * field.along(phi), phi);

@@ -43,7 +43,8 @@ struct RadialIntegral {
   ComplexOf<R> value, moment;
 };
 
-RadialIntegral<double> radial_integral(double w) {
+/// Inlined, because it is the inner loop of half_of<double>().
+[[gnu::always_inline]] inline RadialIntegral<double> radial_integral(double w) {
   static const Complex diagonal = std::polar(1.0, 0.25 * pi);
   constexpr double far = 8.0;
   if (w < far) {
@@ -142,6 +143,12 @@ template <typename R>
 DoubleFresnelOf<R> double_fresnel(const Given<R>& w_1, const Given<R>& w_2, const Given<R>& rho,
                                   const Given<R>& sine) {
   using std::atan2;
+  if constexpr (!std::is_same_v<R, double>) {
+    if (all_constant(w_1, w_2, rho, sine)) {
+      const DoubleFresnel at = double_fresnel<double>(w_1.value, w_2.value, rho.value, sine.value);
+      return {at.value, at.moment_1, at.moment_2};
+    }
+  }
   GREATX_CHECK(w_1 >= 0.0 && w_2 >= 0.0 && sine > 0.0, "w {} and {}, sqrt(1 - rho^2) {}", value_of(w_1),
                value_of(w_2), value_of(sine));
   const R omega = atan2(sine, R(-rho));

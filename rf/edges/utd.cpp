@@ -141,6 +141,7 @@ template <>
 DualComplex erfcx_on_diagonal<Dual>(const Dual& w) {
   static const Complex diagonal = std::polar(1.0, 0.25 * pi);
   const Complex value = erfcx_on_diagonal<double>(w.value);
+  if (w.constant()) return value;
   const Complex derivative = diagonal * erfcx_slope(w.value, value);
   return {w.mapped(value.real(), derivative.real()), w.mapped(value.imag(), derivative.imag())};
 }

@@ -127,8 +127,9 @@ class Travelling {
   using V = Vec3Of<R>;
 
   Travelling(const FieldModelOf<R>& model, const V& departure) : model_(model) {
-    columns_[0].add(1.0, theta_hat<R>(departure));
-    columns_[1].add(1.0, phi_hat<R>(departure));
+    const AnglesOf<R> at = angles_of<R>(departure);
+    columns_[0].add(1.0, at.theta_hat());
+    columns_[1].add(1.0, at.phi_hat());
   }
   const FieldVectorOf<R>& column(int index) const { return columns_[index]; }
 
@@ -198,7 +199,8 @@ class Travelling {
   /// Arrives at the first of two edges. What lies between them acts on two unit fields until the second.
   void leave_first_edge(const V& between) {
     at_first_edge_[0] = columns_[0], at_first_edge_[1] = columns_[1];
-    axes_[0] = theta_hat<R>(between), axes_[1] = phi_hat<R>(between);
+    const AnglesOf<R> at = angles_of<R>(between);
+    axes_[0] = at.theta_hat(), axes_[1] = at.phi_hat();
     for (int i = 0; i < 2; ++i) {
       columns_[i] = {};
       columns_[i].add(1.0, axes_[i]);
@@ -272,9 +274,17 @@ ComplexOf<R> reflection_weight(const Places<R>& places, const FieldModelOf<R>& m
   if (model.reflectors == nullptr) return 1.0;
   const GeometricPath& path = places.path;
   const ReflectionSightOf<R> sight{places.vertices[i + 1], in, out, before_m, part_m - before_m};
-  return model.reflectors->template weight<R>(*model.world, path.interactions[i].element, sight,
-                                              2.0 * pi / model.surfaces->wavelength_m(),
-                                              path.edges_diffract >> i & 1u);
+  const R wave_number = 2.0 * pi / model.surfaces->wavelength_m();
+  const uint32_t facet = path.interactions[i].element;
+  const bool edges_diffract = path.edges_diffract >> i & 1u;
+  if constexpr (!std::is_same_v<R, double>) {
+    if (all_constant(sight.point, in, out, before_m, sight.after_m, wave_number))
+      return model.reflectors->weight(
+          *model.world, facet,
+          {value_of(sight.point), value_of(in), value_of(out), before_m.value, sight.after_m.value},
+          wave_number.value, edges_diffract);
+  }
+  return model.reflectors->template weight<R>(*model.world, facet, sight, wave_number, edges_diffract);
 }
 
 /// Takes the field along a diffraction, the bend `bend` of the path.
@@ -355,7 +365,8 @@ void set_transfer(const Places<R>& places, const FieldModelOf<R>& model, const R
     travel(places, model, runs, field);
     spreading *= foliage_amplitude(model, places.path.foliage_m);
   }
-  const Vec3Of<R> arrival = -runs.directions.back(), theta = theta_hat<R>(arrival), phi = phi_hat<R>(arrival);
+  const AnglesOf<R> arrival = angles_of<R>(-runs.directions.back());
+  const Vec3Of<R> theta = arrival.theta_hat(), phi = arrival.phi_hat();
   for (int column = 0; column < 2; ++column) {
     transfer[column] = field.column(column).along(theta) * spreading;
     transfer[2 + column] = field.column(column).along(phi) * spreading;

@@ -136,6 +136,8 @@ std::vector<uint32_t> materials_of(const GeometricPath& path, const FieldModel& 
     if (std::ranges::find(materials, material) == materials.end()) materials.push_back(material);
   };
   for (const Interaction& interaction : path.interactions) {
+    GREATX_CHECK(interaction.type != InteractionType::target,
+                 "slopes of a path over a target: expected its two legs, each by itself");
     if (interaction.type != InteractionType::diffraction) {
       add(interaction.element);
       continue;
@@ -169,19 +171,22 @@ ScatteringUse scattering_use(const GeometricPath& path, const FieldModel& model,
   return use;
 }
 
-/// Throws if the field of the path goes as a square root of the parameter.
-void check_finite(const ChannelParameter& p, const GeometricPath& path, const FieldModel& model) {
-  if (p.kind != Kind::cross_polarization && p.kind != Kind::scattering) return;
-  const DiffuseScattering& surface = model.surfaces->surface(p.index).scattering;
+/// Tells whether the field of a path depends on a parameter of a material that it meets. Throws if it goes as
+/// a square root of the parameter.
+bool depends_on(const ChannelParameter& p, const GeometricPath& path, const FieldModel& model) {
+  if (p.kind <= Kind::thickness) return true;
+  if (p.kind == Kind::roughness) return model.effects.roughness;
   const ScatteringUse use = scattering_use(path, model, p.index);
-  const bool crossed = p.kind == Kind::cross_polarization;
+  if (p.kind == Kind::backscatter_share) return use.scatters;
+  const DiffuseScattering& surface = model.surfaces->surface(p.index).scattering;
+  const bool crossed = p.kind == Kind::cross_polarization, loses = use.loses && model.effects.scattering;
   const double value = crossed ? surface.cross_polarization : surface.coefficient;
-  if (crossed ? use.scatters && (value == 0.0 || value == 1.0)
-              : use.loses && model.effects.scattering && value == 1.0)
+  if (crossed ? use.scatters && (value == 0.0 || value == 1.0) : loses && value == 1.0)
     throw_user_error(
         "parameter '{}' of material {}: the field has no finite derivative at {}; expected a value between 0 "
         "and 1",
         name_of(p.kind), p.index, value);
+  return use.scatters || (!crossed && loses);
 }
 
 Dual moved_to(const Dual& of, int slot) {
@@ -292,9 +297,9 @@ std::vector<PathSlope> path_slopes(const GeometricPath& geometry, const FieldMod
     const ChannelParameter& p = parameters[i];
     check(p, model, carrier);
     if (p.kind == Kind::transmitter_velocity || p.kind == Kind::receiver_velocity) by_velocity.push_back(i);
-    const bool touched = of_material(p.kind) && std::ranges::find(materials, p.index) != materials.end();
+    const bool touched = of_material(p.kind) && std::ranges::find(materials, p.index) != materials.end() &&
+                         depends_on(p, geometry, model);
     if (!touched && !of_position(p.kind) && p.kind != Kind::carrier) continue;
-    if (touched) check_finite(p, geometry, model);
     chunk[used] = p;
     to[used] = &result[i];
     if (++used == slots) flush();

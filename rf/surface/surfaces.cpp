@@ -119,14 +119,12 @@ RadioSurface radio_surface(const scene::RadioMaterial& material, double frequenc
   return surface;
 }
 
-template <typename R>
-RadioSurfacesOf<R>::RadioSurfacesOf(const scene::Scene& scene,
-                                    double carrier_hz) requires std::is_same_v<R, double>
-    : surfaces_(scene.materials.size()), carrier_hz_(carrier_hz), wavelength_m_(speed_of_light / carrier_hz) {
+std::vector<RadioSurface> radio_surfaces(const scene::Scene& scene, double carrier_hz) {
   GREATX_CHECK(carrier_hz > 0.0, "carrier {} Hz", carrier_hz);
+  std::vector<RadioSurface> surfaces(scene.materials.size());
   for (const scene::Facet& facet : scene.facets) {
-    GREATX_CHECK(facet.material < surfaces_.size(), "material {} of {}", facet.material, surfaces_.size());
-    RadioSurface& surface = surfaces_[facet.material];
+    GREATX_CHECK(facet.material < surfaces.size(), "material {} of {}", facet.material, surfaces.size());
+    RadioSurface& surface = surfaces[facet.material];
     if (!surface.front.empty() || surface.foliage) continue;
     const scene::Material& material = scene.materials[facet.material];
     if (!material.radio)
@@ -137,6 +135,7 @@ RadioSurfacesOf<R>::RadioSurfacesOf(const scene::Scene& scene,
     }
     surface = radio_surface(*material.radio, carrier_hz, material.name);
   }
+  return surfaces;
 }
 
 template <typename R>

@@ -87,15 +87,21 @@ using SheetTransmission = SheetTransmissionOf<double>;
 RadioSurface radio_surface(const scene::RadioMaterial& material, double frequency_hz,
                            const std::string& material_name);
 
+/// Returns the surfaces of a scene in the order of its materials. A material without a facet, and foliage,
+/// have no layers. Throws UserError naming the material if a material of a facet of `scene` has no radio
+/// properties or is not known at `carrier_hz`. In the second case the message also names the frequency and
+/// the ranges of the material.
+std::vector<RadioSurface> radio_surfaces(const scene::Scene& scene, double carrier_hz);
+
 /// Holds one surface per material, or those of a few materials. RadioSurfaces has doubles;
 /// RadioSurfacesOf<Dual> knows how they change with parameters.
 template <typename R>
 class RadioSurfacesOf {
  public:
-  /// The permittivities are computed once. Throws UserError naming the material if a material of a facet of
-  /// `scene` has no radio properties or is not known at `carrier_hz`. In the second case the message also
-  /// names the frequency and the ranges of the material.
-  RadioSurfacesOf(const scene::Scene& scene, double carrier_hz) requires std::is_same_v<R, double>;
+  /// Takes the surfaces of radio_surfaces(). A template, so that there is none for dual numbers.
+  template <typename S = R>
+  requires std::is_same_v<S, double> RadioSurfacesOf(const scene::Scene& scene, double carrier_hz)
+      : RadioSurfacesOf(radio_surfaces(scene, carrier_hz), carrier_hz) {}
   /// Takes `surfaces` in the order of material indices. If `materials` is not empty, they are the surfaces of
   /// these materials.
   RadioSurfacesOf(std::vector<RadioSurfaceOf<R>> surfaces, const R& carrier_hz,

@@ -82,6 +82,36 @@ TEST(PathSlopes, OverAnEdge) {
   }
 }
 
+TEST(PathSlopes, OnABoundaryTheSideThatCountsIsContinued) {
+  // In line with the edge, EdgeSides say on which side of the shadow's boundary the path counts. Its slopes
+  // are the limits from that side.
+  Link link = house_link();
+  const uint32_t edge = edge_of(link, 0, 2);
+  const std::vector<ChannelParameter> parameters = testing::every_parameter(link);
+  link.transmitter = {-5, 4, 2};
+  const dvec3 on(5, -4, 3), into_shadow = glm::normalize(dvec3(4, 5, 0));
+  for (const int side : {1, -1}) {
+    const auto at = [&](const dvec3& receiver) {
+      link.receiver = receiver;
+      link.solve = [=](const FacetWorld& world, const std::vector<scene::Wedge>& wedges, const dvec3& tx,
+                       const dvec3& rx) {
+        GeometricPath path = over_edge(edge)(world, wedges, tx, rx);
+        path.edge_sides[0].incident = static_cast<int8_t>(side);
+        return path;
+      };
+      return testing::slopes_of(link, parameters);
+    };
+    const auto limit = at(on - 1e-6 * side * into_shadow), there = at(on);
+    for (size_t i = 0; i < parameters.size(); ++i)
+      for (int k = 0; k < 4; ++k) {
+        double most = 0.0;
+        for (const Complex& t : limit[i].transfer) most = std::max(most, std::abs(t));
+        EXPECT_LE(std::abs(there[i].transfer[k] - limit[i].transfer[k]), 1e-4 * most)
+            << testing::text_of(parameters[i]);
+      }
+  }
+}
+
 TEST(PathSlopes, OverAnEdgeOfAConductor) {
   Link link = house_link();
   for (const uint32_t facet : {0u, 2u})

@@ -287,15 +287,16 @@ Cost cost_of(const Link& link, const std::vector<ChannelParameter>& parameters) 
   const CarrierSlopes carrier =
       carrier_slopes(link.hand.scene, link.weather, made.weather_effects, link.carrier_hz);
   double sum = 0.0;
+  const auto seconds = [&](const auto& call, int calls) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < calls; ++i) sum += call();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / calls;
+  };
+  // The least of short batches: few of them are interrupted.
   const auto time = [&](const auto& call) {
+    const int calls = std::max(1, static_cast<int>(2e-4 / seconds(call, 3)));
     double least = 1e300;
-    for (int batch = 0; batch < 15; ++batch) {
-      constexpr int calls = 200;
-      const auto start = std::chrono::steady_clock::now();
-      for (int i = 0; i < calls; ++i) sum += call();
-      const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-      least = std::min(least, passed.count() / calls);
-    }
+    for (int batch = 0; batch < 100; ++batch) least = std::min(least, seconds(call, calls));
     return least;
   };
   Cost cost;
