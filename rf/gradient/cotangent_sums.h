@@ -28,10 +28,6 @@ class BlockedRow {
     at[0] = value.real();
     at[sum_lanes] = value.imag();
   }
-  Complex get(size_t subcarrier) const {
-    const double* const at = const_cast<BlockedRow*>(this)->place(subcarrier);
-    return {at[0], at[sum_lanes]};
-  }
 
  private:
   double* place(size_t k) { return values_.data() + k / sum_lanes * 2 * sum_lanes + k % sum_lanes; }

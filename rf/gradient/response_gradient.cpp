@@ -51,11 +51,15 @@ class PathPuller {
         leads_(link.transmitter, link.receiver),
         phasors_(grid.subcarriers),
         offsets_hz_(offsets_hz(grid)) {
-    const size_t rows = cotangent.size() / grid.subcarriers;
-    rows_.assign(rows, BlockedRow(grid.subcarriers));
-    for (size_t row = 0; row < rows; ++row)
-      for (uint32_t k = 0; k < grid.subcarriers; ++k)
-        rows_[row].set(k, cotangent[row * grid.subcarriers + k]);
+    row_doubles_ = phasors_.blocks() * 2 * sum_lanes;
+    rows_.resize(cotangent.size() / grid.subcarriers * row_doubles_);
+    double* to = rows_.data();
+    for (const Complex* from = cotangent.data(); from != cotangent.data() + cotangent.size();)
+      for (size_t first = 0; first < grid.subcarriers; first += sum_lanes, to += 2 * sum_lanes) {
+        const size_t count = std::min<size_t>(sum_lanes, grid.subcarriers - first);
+        for (size_t lane = 0; lane < count; ++lane, ++from)
+          to[lane] = from->real(), to[sum_lanes + lane] = from->imag();
+      }
   }
 
   void pull(const Path& path, PathCotangent& out, LinkCotangent& all);
@@ -72,7 +76,8 @@ class PathPuller {
   PathLeads leads_;
   BlockedRow phasors_;
   std::vector<double> offsets_hz_;
-  std::vector<BlockedRow> rows_;  ///< [rx_ant, tx_ant, time] cotangents
+  size_t row_doubles_ = 0;
+  std::vector<double> rows_;  ///< [rx_ant, tx_ant, time] cotangents as BlockedRow has them
 };
 
 PairSums PathPuller::sums_of(size_t rx_port, size_t tx_port, const std::vector<Complex>& turns) const {
@@ -80,8 +85,8 @@ PairSums PathPuller::sums_of(size_t rx_port, size_t tx_port, const std::vector<C
   const size_t first = (rx_port * link_.transmitter.array.port_count() + tx_port) * turns.size();
   PairSums sums;
   for (size_t m = 0; m < turns.size(); ++m) {
-    const CotangentSums one =
-        sum(rows_[first + m].data(), phasors_.data(), offsets_hz_.data(), phasors_.blocks());
+    const CotangentSums one = sum(rows_.data() + (first + m) * row_doubles_, phasors_.data(),
+                                  offsets_hz_.data(), phasors_.blocks());
     const Complex plain = plain_product(one.plain, turns[m]);
     sums.plain += plain;
     sums.by_frequency += plain_product(one.by_frequency, turns[m]);
@@ -137,7 +142,9 @@ void PathPuller::pull(const Path& path, PathCotangent& out, LinkCotangent& all) 
                     unit_phasor(turns_of(static_cast<double>(m), grid_.time_spacing_s, path.doppler_hz)));
   if (!squints_) set_path_phasors(grid_, delay_s, phasors_);
   const size_t rx_pols = amplitudes_.rx_polarizations(), tx_pols = amplitudes_.tx_polarizations();
-  Complex weights[2][2] = {};
+  Complex weights[2][2] = {}, amplitudes[2][2];
+  for (size_t r = 0; r < rx_pols; ++r)
+    for (size_t t = 0; t < tx_pols; ++t) amplitudes[r][t] = amplitudes_.amplitude(r, t);
   for (size_t u = 0; u < leads_.rx_elements(); ++u)
     for (size_t s = 0; s < leads_.tx_elements(); ++s) {
       const double lead_m = leads_.lead_m(u, s), lead_s = lead_m / speed_of_light;
@@ -150,13 +157,15 @@ void PathPuller::pull(const Path& path, PathCotangent& out, LinkCotangent& all) 
           const PairSums sums = sums_of(rx_port, tx_port, turns);
           const Complex rx_gain = gain_of(link_.receiver_gains, rx_port),
                         tx_gain = gain_of(link_.transmitter_gains, tx_port);
-          const Complex amplitude = amplitudes_.amplitude(r, t) * turn, gained = rx_gain * tx_gain;
-          weights[r][t] += gained * turn * sums.plain;
-          all.receiver.gains[rx_port] += tx_gain * amplitude * sums.plain;
-          all.transmitter.gains[tx_port] += rx_gain * amplitude * sums.plain;
-          element.plain += gained * amplitude * sums.plain;
-          element.by_frequency += gained * amplitude * sums.by_frequency;
-          element.by_time += gained * amplitude * sums.by_time;
+          const Complex amplitude = plain_product(amplitudes[r][t], turn),
+                        gained = plain_product(rx_gain, tx_gain), both = plain_product(gained, amplitude),
+                        without_gains = plain_product(amplitude, sums.plain);
+          weights[r][t] += plain_product(gained, plain_product(turn, sums.plain));
+          all.receiver.gains[rx_port] += plain_product(tx_gain, without_gains);
+          all.transmitter.gains[tx_port] += plain_product(rx_gain, without_gains);
+          element.plain += plain_product(both, sums.plain);
+          element.by_frequency += plain_product(both, sums.by_frequency);
+          element.by_time += plain_product(both, sums.by_time);
         }
       // Re(2 pi j x) of the phases
       const double plain = (two_pi_j * element.plain).real(),
