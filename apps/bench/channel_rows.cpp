@@ -25,8 +25,8 @@ constexpr size_t response_paths = 20;
 
 const TickRow& plain_tick = tick_rows[0];
 
-/// Returns exactly `count` paths of links of the channel, repeated or cut as needed: the time of their sum
-/// does not depend on which paths they are. Throws UserError if no point has a path.
+}  // namespace
+
 std::vector<rf::Path> some_paths(sim::ChannelSnapshot& snapshot, std::span<const dvec3> points,
                                  size_t count) {
   std::vector<rf::Path> paths;
@@ -40,8 +40,6 @@ std::vector<rf::Path> some_paths(sim::ChannelSnapshot& snapshot, std::span<const
   paths.resize(count);
   return paths;
 }
-
-}  // namespace
 
 nlohmann::json response_row(const ScenarioOptions& scenario_options, const RunOptions& run) {
   const sim::Experiment experiment = sim::make_experiment(radio_only(scenario_options, plain_tick));

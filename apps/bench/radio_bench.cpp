@@ -44,6 +44,7 @@ nlohmann::json radio_bench(const ScenarioOptions& scenario, const RunOptions& ru
   for (const TickRow& row : tick_rows)
     result["ticks"][row.name] = in_own_process([&] { return tick_row(scenario, run, options, row); });
   result["response"] = in_own_process([&] { return response_row(scenario, run); });
+  result["gradient"] = in_own_process([&] { return gradient_row(scenario, run); });
   result["written_tick"] = in_own_process([&] { return written_tick_row(scenario, run, options); });
   result["many_responses"] =
       in_own_process([&] { return many_responses_row(scenario, run, options.receivers); });
@@ -83,6 +84,13 @@ std::string radio_bench_text(const nlohmann::json& result) {
                     result["map"]["solved"].get<size_t>()),
         result["map"]["ms"], result["map"]);
   row(fmt::format("one H, {} paths, one thread", response["paths"].get<size_t>()), response["ms"], response);
+  const nlohmann::json& gradient = result["gradient"];
+  row(fmt::format("its gradient by {} of materials, one thread", gradient["parameters"].get<size_t>()),
+      gradient["ms"], gradient);
+  text +=
+      fmt::format("    {:<40} {:10.2f}\n", "fields of its paths and H", gradient["forward_ms"].get<double>());
+  text += fmt::format("    {:<40} {:10.0e}\n", "relative error against differences",
+                      gradient["error"].get<double>());
   if (written["tick_ms"]["count"] > 0)
     row("tick with H and record, written", written["tick_ms"]["median"], written);
   for (const TickRow& which : tick_rows) {

@@ -9,6 +9,7 @@
 
 #include "apps/bench/measure.h"
 #include "apps/bench/radio_bench.h"
+#include "sim/channel/channel_snapshot.h"
 #include "sim/scenario/scenario.h"
 
 namespace greatx::apps {
@@ -38,6 +39,9 @@ nlohmann::json many_responses_row(const ScenarioOptions& scenario, const RunOpti
 nlohmann::json map_row(const ScenarioOptions& scenario, const RunOptions& run, uint32_t side_cells);
 /// Measures the frequency response H of the channel's ports and subcarriers from 20 paths, on one thread.
 nlohmann::json response_row(const ScenarioOptions& scenario, const RunOptions& run);
+/// Measures the gradient of a real loss of this H by 12 parameters of materials, on one thread: `ms`, beside
+/// `forward_ms`, the fields of the paths and H, and `error`, the largest difference from differences.
+nlohmann::json gradient_row(const ScenarioOptions& scenario, const RunOptions& run);
 /// Measures the whole tick of the channel, written to disk.
 nlohmann::json written_tick_row(const ScenarioOptions& scenario, const RunOptions& run,
                                 const RadioBenchOptions& options);
@@ -47,6 +51,9 @@ nlohmann::json written_tick_row(const ScenarioOptions& scenario, const RunOption
 /// Returns the scenario with its first channel only and no sensors but antennas, with diffraction and
 /// scattering switched as in `row`. Throws UserError if there is no channel.
 sim::Scenario radio_only(const ScenarioOptions& options, const TickRow& row);
+/// Returns exactly `count` paths of links of the channel, repeated or cut as needed: the time of their sum
+/// does not depend on which paths they are. Throws UserError if no point has a path.
+std::vector<rf::Path> some_paths(sim::ChannelSnapshot& snapshot, std::span<const dvec3> points, size_t count);
 /// Sets `target`, and `ratio` to `measured` / `target`.
 void set_target(nlohmann::json& row, double target, double measured);
 

@@ -85,7 +85,6 @@ PathSet::PathSet(std::shared_ptr<const sim::Experiment> experiment, uint32_t cha
 
 void PathSet::add(sim::ChannelSnapshot::Link solved) {
   Link link{std::move(solved), false};
-  if (!experiment_->plan.dispersion.on) link.solved.world.reset();  // only dispersion needs the facets later
   link.near = link.solved.distance_m < sim::every_element_within_m(experiment_->scenario, config_,
                                                                    transmitters_[link.solved.transmitter],
                                                                    receiver_array(link));
@@ -93,7 +92,7 @@ void PathSet::add(sim::ChannelSnapshot::Link solved) {
 }
 
 void PathSet::finish(const sim::ChannelSnapshot& snapshot, const std::map<std::string, uint64_t>& before) {
-  if (experiment_->plan.dispersion.on) radio_ = snapshot.radio();
+  radio_ = snapshot.radio();
   fill_arrays(snapshot);
   describe(snapshot, before);
 }
@@ -247,10 +246,14 @@ Array PathSet::blocks(std::vector<int64_t> columns, const GoOn& go_on,
   return array;
 }
 
+rf::ChannelGrid PathSet::grid(const ResponseRequest& request) const {
+  return grid_of(request, config_, experiment_->plan.doppler.on);
+}
+
 Array PathSet::response(const ResponseRequest& request, const GoOn& go_on) const {
-  const rf::ChannelGrid grid = grid_of(request, config_, experiment_->plan.doppler.on);
+  const rf::ChannelGrid grid = this->grid(request);
   std::optional<rf::Dispersion> dispersion;
-  if (radio_)
+  if (experiment_->plan.dispersion.on)
     dispersion.emplace(experiment_->scene(), radio_->model().field_model(), radio_->model().effects.weather,
                        grid);
   return blocks(
@@ -344,6 +347,34 @@ NamedArrays PathSet::received(const ReceivedRequest& request) const {
           {received.field_v_per_m.re[c], received.field_v_per_m.im[c]});
   });
   return arrays;
+}
+
+const std::vector<PathParameter>& PathSet::parameters() const {
+  std::call_once(parameters_made_, [this] {
+    const dvec3& origin = experiment_->scene().origin;
+    ChannelEndsAt ends;
+    for (size_t i = 0; i < links_.size(); ++i) {
+      const sim::ChannelSnapshot::Link& link = links_[i].solved;
+      if (i < transmitters()) {
+        ends.transmitter_positions.push_back(link.transmitter_state.position + origin);
+        ends.transmitter_velocities.push_back(link.transmitter_state.velocity);
+        ends.transmitter_arrays.push_back(transmitters_[i]);
+      }
+      if (i % transmitters() > 0) continue;
+      ends.receiver_positions.push_back(link.receiver_state.position + origin);
+      ends.receiver_velocities.push_back(link.receiver_state.velocity);
+      ends.receiver_arrays.push_back(receiver_array(links_[i]));
+    }
+    parameters_ = path_parameters(radio_->model(), ends);
+  });
+  return parameters_;
+}
+
+const rf::ExactCrossings& PathSet::crossings() const {
+  std::call_once(crossings_made_, [this] {
+    crossings_ = std::make_unique<const rf::ExactCrossings>(experiment_->scene(), radio_->model().kinds);
+  });
+  return *crossings_;
 }
 
 NamedArrays PathSet::coherence(double level) const {

@@ -8,13 +8,16 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include "core/record.h"
+#include "engine/session/path_parameters.h"
 #include "engine/session/session.h"
 #include "rf/channel/frequency_response.h"
 #include "rf/channel/statistics.h"
+#include "rf/paths/exact_crossings.h"
 #include "sim/channel/link_ends.h"
 
 namespace greatx::engine {
@@ -39,6 +42,10 @@ struct ReceivedRequest {
 
 class PathSet {
  public:
+  struct Link {
+    sim::ChannelSnapshot::Link solved;
+    bool near = false;  ///< a run solves every element of this link's arrays separately
+  };
   /// `receiver_arrays` holds one array per receiver, or one for all receivers. Throws UserError if the
   /// antennas of one side differ in their numbers of ports.
   PathSet(std::shared_ptr<const sim::Experiment> experiment, uint32_t channel,
@@ -68,14 +75,14 @@ class PathSet {
   NamedArrays statistics() const;
   /// Returns received powers, voltages and fields, [rx, tx, ...]. Complex values have a last axis of 2.
   NamedArrays received(const ReceivedRequest& request) const;
+  /// Returns the parameters by which the paths can be differentiated (engine/session/varied_paths.h). Links
+  /// must not be added any more.
+  const std::vector<PathParameter>& parameters() const;
   /// Returns the coherence bandwidth and time, [rx, tx], at which the correlation falls to `level`.
   NamedArrays coherence(double level) const;
 
  private:
-  struct Link {
-    sim::ChannelSnapshot::Link solved;
-    bool near = false;  ///< a run solves every element of this link's arrays separately
-  };
+  friend class VariedPaths;
   /// Calls of(link, number) for all links on all cores, and `go_on` after each group of links. Returns false
   /// if `go_on` stopped it.
   bool for_links(const GoOn& go_on, const std::function<void(const Link&, size_t)>& of) const;
@@ -86,9 +93,12 @@ class PathSet {
   /// Makes an f64 array [rx, tx, width...].
   NamedArray table(const char* name, const char* unit, const char* description,
                    std::vector<int64_t> width = {}) const;
+  /// Returns the exact crossings of the channel's scene, which are made when they are needed.
+  const rf::ExactCrossings& crossings() const;
   const rf::AntennaArray& receiver_array(const Link& link) const;
   /// Returns the ends of a link for the channel's band or a wider one.
   sim::LinkEnds ends(const Link& link, double half_band_hz = 0.0) const;
+  rf::ChannelGrid grid(const ResponseRequest& request) const;
   std::vector<double> powers(const Link& link) const;
   void fill_arrays(const sim::ChannelSnapshot& snapshot);
   void describe(const sim::ChannelSnapshot& snapshot, const std::map<std::string, uint64_t>& before);
@@ -97,10 +107,13 @@ class PathSet {
   uint32_t channel_;
   sim::ChannelConfig config_;
   std::vector<rf::AntennaArray> transmitters_, receivers_;
-  std::shared_ptr<const sim::RadioWorld> radio_;  ///< only with dispersion
+  std::shared_ptr<const sim::RadioWorld> radio_;
   std::vector<Link> links_;
   NamedArrays arrays_;
   std::string facts_;
+  mutable std::once_flag parameters_made_, crossings_made_;
+  mutable std::vector<PathParameter> parameters_;
+  mutable std::unique_ptr<const rf::ExactCrossings> crossings_;
 };
 
 }  // namespace greatx::engine

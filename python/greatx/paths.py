@@ -1,16 +1,19 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Holds the paths of a channel at a tick, and computes channel quantities from them."""
+
 from __future__ import annotations
 
 import json
 import math
 import warnings
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
+from . import gradients
 from .errors import Error
+from .gradients import Changes, Jacobian, Request, Variation
 from .tables import Arrays
 
 #: Number of taps beyond the longest delay, if the caller of taps() gives no number.
@@ -109,7 +112,8 @@ class Paths:
         time_spacing_s: Optional[float] = None,
         select: str = "all",
         normalize_delays: bool = False,
-    ) -> np.ndarray:
+        parameters: Optional[Mapping[str, Any]] = None,
+    ) -> Any:
         """Returns the frequency response H(f), complex64 [rx, rx_ant, tx, tx_ant, time, subcarrier], at the
         frequencies carrier + (k - floor(N/2)) * spacing. Delays are absolute, and nothing is normalised. If
         `normalize_delays` is set, subtracts first_delay() of each link from the delays:
@@ -123,7 +127,109 @@ class Paths:
 
         The response takes one path for all elements of an array. A warning gives the number of links that
         Simulation.run() solves element by element (`every_element` of the scenario's effects).
+
+        `parameters` maps names of parameters() to other values, at which the same paths are solved again
+        (docs/gradients.md). Then H is complex128, or, if a value is a torch tensor, a tensor that PyTorch can
+        differentiate by its own convention: complex64 if all tensors are single, else complex128. A warning
+        counts the paths that do not exist at these values.
         """
+        request = self._request(
+            bandwidth_hz, subcarriers, subcarrier_spacing_hz, time_samples, time_spacing_s, select
+        )
+        self._warn_of_near_links()
+        if parameters is not None:
+            if normalize_delays:
+                raise Error("normalize_delays: expected False with parameters, found True")
+            return gradients.response(self, request, parameters)
+        response = self._native.cfr(*request)
+        if not normalize_delays:
+            return response
+        spacing = self.facts["subcarrier_spacing_hz"] if request[0] is None else request[0]
+        offset = (np.arange(response.shape[-1]) - response.shape[-1] // 2) * spacing
+        turn = np.exp(2j * np.pi * self.first_delay()[:, :, None] * offset).astype(np.complex64)
+        return response * turn[:, None, :, None, None, :]
+
+    def parameters(self) -> Arrays:
+        """Returns the values of all parameters by which the paths can be differentiated, by name, with units:
+        "material:NAME.permittivity", "transmitter.position" [tx, 3], "receiver.gain" [rx, port], "carrier",
+        ... (docs/gradients.md). Orientations are those of the antennas at attitude 0.
+        """
+        return gradients.parameters_of(self._native)
+
+    def vary(self, parameters: Optional[Mapping[str, Any]] = None) -> Variation:
+        """Returns the same paths at other values of parameters. Its `facts` count those that do not exist
+        there, and its quantities() are powers, delays and spreads."""
+        return gradients.vary(self, parameters)
+
+    def jacobian(
+        self,
+        names: Sequence[str],
+        of: str = "cfr",
+        *,
+        parameters: Optional[Mapping[str, Any]] = None,
+        bandwidth_hz: Optional[float] = None,
+        subcarriers: Optional[int] = None,
+        subcarrier_spacing_hz: Optional[float] = None,
+        time_samples: Optional[int] = None,
+        time_spacing_s: Optional[float] = None,
+        select: str = "all",
+    ) -> Jacobian:
+        """Returns exact derivatives by the named parameters, at the values `parameters` (by default those of
+        the scenario): `values` [..., column], `columns` and `units`.
+
+        `of` is "cfr" (complex128 [rx, rx_ant, tx, tx_ant, time, subcarrier, column], on the grid of the other
+        arguments as in cfr()), "power" and "delay" (float64 [path, column]), or "path_gain", "mean_delay" and
+        "delay_spread" (float64 [rx, tx, column]).
+
+        A parameter of the ends has columns for the link's own end only: "receiver.position" has three, "x",
+        "y" and "z" of the receiver of each link. "receiver.slant" has one, of the port's own polarization.
+        "receiver.gain" has one, the complex derivative by the gain of the port itself.
+        """
+        request = self._request(
+            bandwidth_hz, subcarriers, subcarrier_spacing_hz, time_samples, time_spacing_s, select
+        )
+        if of == "cfr":
+            self._warn_of_near_links()
+        return gradients.vary(self, parameters).jacobian(request, names, of)
+
+    def gradient(
+        self,
+        names: Sequence[str],
+        cotangent: np.ndarray,
+        *,
+        parameters: Optional[Mapping[str, Any]] = None,
+        bandwidth_hz: Optional[float] = None,
+        subcarriers: Optional[int] = None,
+        subcarrier_spacing_hz: Optional[float] = None,
+        time_samples: Optional[int] = None,
+        time_spacing_s: Optional[float] = None,
+        select: str = "all",
+    ) -> Dict[str, np.ndarray]:
+        """Returns the gradient of a real loss L by the named parameters, each in the shape of the parameter,
+        from cotangent = dL/d Re H + j dL/d Im H in the shape of cfr(). It costs about as much as H, whatever
+        the number of parameters.
+        """
+        names = [names] if isinstance(names, str) else list(names)
+        request = self._request(
+            bandwidth_hz, subcarriers, subcarrier_spacing_hz, time_samples, time_spacing_s, select
+        )
+        self._warn_of_near_links()
+        return dict(zip(names, gradients.vary(self, parameters).gradient(request, names, cotangent)))
+
+    def changes_since(self, before: "Paths") -> Changes:
+        """Counts the paths of each link that were `born` since `before`, `died` or were `kept`, int64 [rx,
+        tx], by their identities: where a path is born or dies, the channel jumps."""
+        return gradients.changes(self, before)
+
+    def _request(
+        self,
+        bandwidth_hz: Optional[float],
+        subcarriers: Optional[int],
+        subcarrier_spacing_hz: Optional[float],
+        time_samples: Optional[int],
+        time_spacing_s: Optional[float],
+        select: str,
+    ) -> Request:
         if bandwidth_hz is not None:
             if subcarrier_spacing_hz is not None:
                 raise Error(
@@ -133,6 +239,9 @@ class Paths:
             subcarrier_spacing_hz = bandwidth_hz / (
                 self.facts["subcarriers"] if subcarriers is None else max(subcarriers, 1)
             )
+        return subcarrier_spacing_hz, subcarriers, time_samples, time_spacing_s, select
+
+    def _warn_of_near_links(self) -> None:
         if self.facts["near_links"]:
             why = (
                 "have arrays and every_element is on"
@@ -142,17 +251,8 @@ class Paths:
             warnings.warn(
                 f"{self.facts['near_links']} links of {self.channel} {why}: "
                 "cfr() takes one path for all elements of an array, Simulation.run() solves every element",
-                stacklevel=2,
+                stacklevel=3,
             )
-        response = self._native.cfr(subcarrier_spacing_hz, subcarriers, time_samples, time_spacing_s, select)
-        if not normalize_delays:
-            return response
-        spacing = (
-            self.facts["subcarrier_spacing_hz"] if subcarrier_spacing_hz is None else subcarrier_spacing_hz
-        )
-        offset = (np.arange(response.shape[-1]) - response.shape[-1] // 2) * spacing
-        turn = np.exp(2j * np.pi * self.first_delay()[:, :, None] * offset).astype(np.complex64)
-        return response * turn[:, None, :, None, None, :]
 
     def taps(
         self,

@@ -15,6 +15,7 @@
 #include "engine/session/path_set.h"
 #include "engine/session/session.h"
 #include "engine/session/stream.h"
+#include "engine/session/varied_paths.h"
 #include "python/src/log.h"
 #include "sim/scenario/parse/load_scenario.h"
 
@@ -197,6 +198,84 @@ rf::PathSelection selection_of(const std::string& name) {
   throw_user_error("select: expected one of all, line_of_sight, others, found '{}'", name);
 }
 
+/// Checks for a contiguous array of float64 and returns its values.
+std::span<const double> doubles_of(const py::buffer_info& info, const char* name) {
+  bool contiguous = info.format == "d";
+  py::ssize_t step = 8;
+  for (auto axis = static_cast<size_t>(info.ndim); axis-- > 0; step *= info.shape[axis])
+    contiguous = contiguous && (info.strides[axis] == step || info.shape[axis] <= 1);
+  if (!contiguous) throw_user_error("{}: expected a contiguous array of float64, found another", name);
+  return {static_cast<const double*>(info.ptr), static_cast<size_t>(info.size)};
+}
+
+std::shared_ptr<VariedPaths> vary(const std::shared_ptr<PathSet>& set,
+                                  const std::vector<std::pair<std::string, py::buffer>>& given) {
+  std::vector<ParameterValues> values;
+  for (const auto& [name, buffer] : given) {
+    const py::buffer_info info = buffer.request();
+    const std::span<const double> numbers = doubles_of(info, name.c_str());
+    values.push_back({name, {numbers.begin(), numbers.end()}});
+  }
+  return watched([&](const GoOn&) { return std::make_shared<VariedPaths>(set, values); });
+}
+
+using RequestTuple = std::tuple<std::optional<double>, std::optional<uint32_t>, std::optional<uint32_t>,
+                                std::optional<double>, std::string>;
+ResponseRequest request_of(const RequestTuple& tuple) {
+  const auto& [spacing_hz, subcarriers, time_samples, time_spacing_s, select] = tuple;
+  return {spacing_hz, subcarriers, time_samples, time_spacing_s, selection_of(select)};
+}
+
+/// Returns (name, unit, description, values), with values in the shape of the parameter.
+py::list parameters(const PathSet& set) {
+  NamedArrays arrays;
+  for (const PathParameter& parameter : set.parameters())
+    arrays.push_back({parameter.name, parameter.unit, parameter.description,
+                      Array::of<double>(parameter.shape, parameter.values)});
+  return numpy(std::move(arrays));
+}
+
+/// Returns [(name, unit)] of the columns of these parameters.
+py::list columns(const PathSet& set, const std::vector<std::string>& names) {
+  py::list list;
+  for (const std::string& name : names) {
+    const PathParameter& parameter = find_parameter(set.parameters(), name);
+    for (size_t column = 0; column < parameter.columns(); ++column)
+      list.append(py::make_tuple(column_name(parameter, column), parameter.unit));
+  }
+  return list;
+}
+
+void bind_varied_paths(py::module_& module) {
+  py::class_<VariedPaths, std::shared_ptr<VariedPaths>>(module, "VariedPaths")
+      .def("facts", &VariedPaths::facts)
+      .def("response",
+           [](const VariedPaths& paths, const RequestTuple& request) {
+             return numpy(
+                 watched([&](const GoOn& go_on) { return paths.response(request_of(request), go_on); }));
+           })
+      .def("jacobian",
+           [](const VariedPaths& paths, const RequestTuple& request, const std::vector<std::string>& names) {
+             return numpy(watched(
+                 [&](const GoOn& go_on) { return paths.jacobian(request_of(request), names, go_on); }));
+           })
+      .def("quantities",
+           [](const VariedPaths& paths) {
+             return numpy(watched([&](const GoOn&) { return paths.quantities(); }));
+           })
+      .def("quantity_slopes",
+           [](const VariedPaths& paths, const std::vector<std::string>& names) {
+             return numpy(watched([&](const GoOn&) { return paths.quantity_slopes(names); }));
+           })
+      .def("gradient", [](const VariedPaths& paths, const RequestTuple& request,
+                          const std::vector<std::string>& names, const py::buffer& cotangent) {
+        const py::buffer_info info = cotangent.request();
+        const std::span<const double> numbers = doubles_of(info, "cotangent");
+        return numpy(watched(
+            [&](const GoOn& go_on) { return paths.gradient(request_of(request), names, numbers, go_on); }));
+      });
+}
+
 /// Returns (tick, time_ns, [(sensor, sample, [arrays])]), or None at the end.
 py::object next(Stream& stream) {
   std::optional<Packet> packet = watched([&](const GoOn&) { return stream.next(); });
@@ -269,6 +348,9 @@ void bind_path_set(py::module_& module) {
   py::class_<PathSet, std::shared_ptr<PathSet>>(module, "PathSet")
       .def("facts", &PathSet::facts)
       .def("take_arrays", [](PathSet& set) { return numpy(set.take_arrays()); })
+      .def("parameters", &parameters)
+      .def("columns", &columns)
+      .def("vary", &vary)
       .def("cfr",
            [](const PathSet& set, std::optional<double> spacing_hz, std::optional<uint32_t> subcarriers,
               std::optional<uint32_t> time_samples, std::optional<double> time_spacing_s,
@@ -320,6 +402,7 @@ void bind(py::module_& module) {
   py::class_<Buffer>(module, "Buffer", py::buffer_protocol()).def_buffer(&describe);
   bind_session(module);
   bind_path_set(module);
+  bind_varied_paths(module);
   py::class_<Stream, std::shared_ptr<Stream>>(module, "Stream")
       .def("sensors", &Stream::sensors, Released())
       .def("next", &next)

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Runs the examples that compute, with those of their optional packages that are installed."""
+
 import os
 import pathlib
 import subprocess
@@ -42,6 +43,14 @@ class SimulationExamples(unittest.TestCase):
         self.run_example(
             "precoding.py", "64 ports", r"zero-forcing .* together \d+", "precoding.png|no matplotlib"
         )
+
+    def test_calibrate_materials(self):
+        self.run_example(
+            "calibrate_materials.py", r"Gauss-Newton, \d steps: misfit .*e-1", "torch.optim.LBFGS|no torch"
+        )
+
+    def test_localise(self):
+        self.run_example("localise.py", r"5\.9 m away", r"misfit .*e-1\d, 0\.00000\d mm away; 0 paths born")
 
     def test_stream(self):
         self.run_example("stream.py", r"1\.90 s: ", "a beam that is a tick old loses")

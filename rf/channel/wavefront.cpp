@@ -3,15 +3,13 @@
 #include "rf/channel/wavefront.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "core/error.h"
 #include "core/units.h"
 
 namespace greatx::rf {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::vector<dvec3> places_of(const ArrayPose& end) {
   std::vector<dvec3> places;
@@ -24,7 +22,7 @@ std::vector<dvec3> places_of(const ArrayPose& end) {
 /// keeps all digits.
 double lead_m(const dvec3& direction, double length_m, const dvec3& place) {
   const double along = glm::dot(direction, place);
-  if (length_m == infinity) return along;
+  if (std::isinf(length_m)) return along;
   const double from_element = glm::length(length_m * direction - place);
   return (2.0 * length_m * along - glm::dot(place, place)) / (length_m + from_element);
 }
@@ -53,6 +51,14 @@ std::vector<dvec3> segment_directions(const Path& path) {
   return directions;
 }
 
+/// Mirrors places as all reflections of the path do, one after the other.
+void mirror_at_all(const Path& path, std::vector<dvec3>& places) {
+  const std::vector<dvec3> directions = segment_directions(path);
+  for (size_t i = 0; i < path.interactions.size(); ++i)
+    if (path.interactions[i].type == InteractionType::reflection)
+      mirror(directions[i], directions[i + 1], places);
+}
+
 /// Returns the length of the path from its transmitter to vertex `vertex`.
 double length_to(const Path& path, size_t vertex) {
   double length_m = 0.0;
@@ -69,36 +75,45 @@ Leads::Leads(const ArrayPose& transmitter, const ArrayPose& receiver)
   GREATX_CHECK(transmitter.wavefront == receiver.wavefront, "the ends of a link take waves differently");
 }
 
-void Leads::operator()(const Path& path, double* out) {
-  if (!curved_) return of_ends(path, infinity, infinity, out);
+WaveShape wave_shape(const Path& path) {
   GREATX_CHECK(path.interactions.empty() || path.vertices.size() == path.interactions.size() + 2,
                "{} vertices of a path with {} interactions", path.vertices.size(), path.interactions.size());
   const auto other = std::ranges::find_if_not(path.interactions, is_plane, &Interaction::type);
-  if (other == path.interactions.end()) return of_image(path, out);
+  WaveShape shape;
+  if (other == path.interactions.end()) {
+    shape.image = true;
+    std::vector<dvec3> axes{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    mirror_at_all(path, axes);
+    shape.mirror = dmat3(axes[0], axes[1], axes[2]);
+    return shape;
+  }
   const auto diffracts = [](InteractionType type) { return type == InteractionType::diffraction; };
-  if (std::ranges::any_of(path.interactions, diffracts, &Interaction::type))
-    return of_ends(path, infinity, infinity, out);
+  if (std::ranges::any_of(path.interactions, diffracts, &Interaction::type)) return shape;
   const auto first = static_cast<size_t>(other - path.interactions.begin());
   size_t last = path.interactions.size() - 1;
   while (is_plane(path.interactions[last].type)) --last;
-  of_ends(path, length_to(path, first + 1),
-          length_to(path, path.vertices.size() - 1) - length_to(path, last + 1), out);
+  shape.transmitter_radius_m = length_to(path, first + 1);
+  shape.receiver_radius_m = length_to(path, path.vertices.size() - 1) - length_to(path, last + 1);
+  return shape;
 }
 
-void Leads::of_ends(const Path& path, double tx_radius_m, double rx_radius_m, double* out) {
+void Leads::operator()(const Path& path, double* out) {
+  if (!curved_) return of_ends(path, {}, out);
+  const WaveShape shape = wave_shape(path);
+  return shape.image ? of_image(path, out) : of_ends(path, shape, out);
+}
+
+void Leads::of_ends(const Path& path, const WaveShape& shape, double* out) {
   for (const dvec3& received : received_m_) {
-    const double lead = lead_m(path.arrival, rx_radius_m, received);
+    const double lead = lead_m(path.arrival, shape.receiver_radius_m, received);
     for (const dvec3& sent : sent_m_)
-      *out++ = (lead + lead_m(path.departure, tx_radius_m, sent)) / speed_of_light;
+      *out++ = (lead + lead_m(path.departure, shape.transmitter_radius_m, sent)) / speed_of_light;
   }
 }
 
 void Leads::of_image(const Path& path, double* out) {
   mirrored_m_ = sent_m_;
-  const std::vector<dvec3> directions = segment_directions(path);
-  for (size_t i = 0; i < path.interactions.size(); ++i)
-    if (path.interactions[i].type == InteractionType::reflection)
-      mirror(directions[i], directions[i + 1], mirrored_m_);
+  mirror_at_all(path, mirrored_m_);
   for (const dvec3& received : received_m_)
     for (const dvec3& mirrored : mirrored_m_)
       *out++ = lead_m(path.arrival, path.length_m, received - mirrored) / speed_of_light;

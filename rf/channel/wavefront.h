@@ -4,12 +4,26 @@
 // Computes by how much the way between two elements of two arrays is shorter than that between their origins.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "rf/channel/frequency_response.h"
 #include "rf/geometry/path.h"
 
 namespace greatx::rf {
+
+/// Describes the spheres in which a wave leaves one array and reaches the other, for Wavefront::curved (see
+/// Leads).
+struct WaveShape {
+  /// The path has reflections and transmissions alone: the wave is a sphere about the transmitter's image.
+  bool image = false;
+  /// Otherwise the distances from each end to the first and to the last patch; infinity: a plane wave.
+  double transmitter_radius_m = std::numeric_limits<double>::infinity();
+  double receiver_radius_m = std::numeric_limits<double>::infinity();
+  dmat3 mirror{1.0};  ///< M, for `image`
+};
+/// Returns the shape of a path with vertices.
+WaveShape wave_shape(const Path& path);
 
 /// Computes leads of one path after the other. With Wavefront::plane the lead is (r_R . d_u + r_T . d_s)/c,
 /// with the directions of arrival and departure and the positions of the elements.
@@ -32,7 +46,7 @@ class Leads {
 
  private:
   void of_image(const Path& path, double* out);
-  void of_ends(const Path& path, double tx_radius_m, double rx_radius_m, double* out);
+  void of_ends(const Path& path, const WaveShape& shape, double* out);
 
   bool curved_;
   std::vector<dvec3> sent_m_, received_m_;  ///< places of the elements, local axes

@@ -74,11 +74,14 @@ TEST_F(RadioBench, HasEveryRow) {
   EXPECT_GT(json["many"]["peak_rss_target_bytes"], 0);
   EXPECT_EQ(json["response"]["paths"], 20);
   EXPECT_GT(json["response"]["ports"], 0);
+  EXPECT_EQ(json["gradient"]["paths"], 20);
+  EXPECT_GT(json["gradient"]["parameters"], 0);
+  EXPECT_LT(json["gradient"]["error"], 1e-7);
   EXPECT_EQ(json["written_tick"]["tick_ms"]["count"], 2);
   EXPECT_EQ(json["map"]["cells"], 100);
   EXPECT_GT(json["map"]["paths"], 0);
   EXPECT_EQ(json["many_responses"]["receivers"], 7);
-  for (const char* row : {"first_cir", "search", "many", "response", "many_responses", "map"})
+  for (const char* row : {"first_cir", "search", "many", "response", "gradient", "many_responses", "map"})
     for (const char* key : {"ms", "target", "ratio", "cpu_s", "peak_rss_bytes"})
       EXPECT_TRUE(json[row].contains(key)) << row << ' ' << key;
 
