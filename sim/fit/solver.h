@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Fits the variables of a model by Levenberg's and Marquardt's method, within bounds, with priors and a
+// robust loss.
+//
+// The cost is sum over rows of loss(residual/sigma) + sum over priors of ((u - mean)/sigma)^2/2. An iteration
+// solves (H + lambda diag H) step = -g, with H = J^T W J and the loss's weights W (iterative reweighting: P. W.
+// Holland, R. E. Welsch, Commun. Stat. 6(9), 1977), for the variables that are not held at a bound by their
+// gradient, clamps the result to the bounds, and takes it if the cost falls (J. J. More, "The Levenberg-
+// Marquardt algorithm", LNM 630, 1978). A deviation that is not given is estimated, between rounds of
+// iterations, as 1.4826 times the median of the magnitudes of the set's residuals.
+//
+// Stage 0 fits the unknowns of the measurement with the materials of the scene; its end is what "before"
+// means. Stage 1 fits everything.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "sim/fit/model.h"
+
+namespace greatx::sim {
+
+/// Where a fit stands. A fit goes on from it with the same bits as if it had never been stopped.
+struct FitState {
+  uint32_t stage = 0, round = 0, iteration = 0;  ///< iteration: in this stage
+  double lambda = 0.0;
+  double cost = 0.0;
+  bool converged = false;           ///< of the stages so far
+  bool done = false;
+  std::vector<double> coordinates;  ///< [variables]
+  std::vector<double> sigmas;       ///< [sets]
+  std::vector<double> before;       ///< coordinates at the end of stage 0; empty until then
+};
+
+/// The sums that an iteration, and the uncertainties after the last one, are made of. All are in units of the
+/// deviations.
+struct FitSums {
+  double cost = 0.0;
+  Eigen::VectorXd gradient;                  ///< of the cost
+  Eigen::MatrixXd weighted;                  ///< sum of w J J^T + priors
+  Eigen::MatrixXd curved;                    ///< sum of psi' J J^T + priors
+  Eigen::MatrixXd priors;                    ///< their part: a diagonal
+  std::vector<Eigen::MatrixXd> plain;        ///< [sets] sum of J J^T
+  std::vector<double> squares;               ///< [sets] sum of psi^2
+  std::vector<double> rows;                  ///< [sets] rows less the unknowns of positions
+  std::vector<Eigen::VectorXd> of_position;  ///< [links] gradient of each position
+};
+
+class FitSolver {
+ public:
+  /// `model` outlives this. `links`: indices of usable links. Throws UserError if there is none.
+  FitSolver(const FitModel& model, std::vector<uint32_t> links);
+  const std::vector<uint32_t>& links() const { return links_; }
+
+  FitState begin() const;
+  /// Makes one iteration. Does nothing to a state that is done.
+  void step(FitState& state) const;
+  /// Returns an upper bound of the iterations of all stages.
+  uint32_t most_iterations() const { return 2 * model_.problem().iterations; }
+  FitSums sums(const FitState& state) const;
+
+ private:
+  double cost(std::span<const double> coordinates, std::span<const double> sigmas) const;
+  FitSums sums(std::span<const FitBlock> blocks, std::span<const double> coordinates,
+               std::span<const double> sigmas) const;
+  std::vector<double> estimated_sigmas(std::span<const FitBlock> blocks) const;
+  bool is_free(size_t variable, uint32_t stage) const;
+  void end_round(FitState& state, std::span<const FitBlock> blocks) const;
+  void begin_stage(FitState& state, uint32_t stage) const;
+
+  const FitModel& model_;
+  std::vector<uint32_t> links_;
+};
+
+}  // namespace greatx::sim
