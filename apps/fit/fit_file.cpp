@@ -289,7 +289,7 @@ FitFile read_fit_file(const std::filesystem::path& file) {
   std::string text = fit_text(file);
   Field root = Field::parse_yaml(text, {file.string(), folder, {}});
   const FieldMap map(root, {"greatx_fit", "scenario", "channel", "measurements", "unknown", "parameters",
-                            "loss", "split", "seed", "iterations"});
+                            "loss", "split", "seed", "starts", "iterations"});
   map.require("greatx_fit", "1 (the format's version)").choice({"1"});
   FitFile fit{file.string(), std::move(text), root, map.require("scenario", "a scenario").text(), ""};
   std::error_code unreadable;
@@ -303,7 +303,7 @@ FitFile read_fit_file(const std::filesystem::path& file) {
 
 FitInput read_fit_input(const FitFile& fit, const sim::Scenario& scenario, uint32_t channel) {
   const FieldMap map(fit.root, {"greatx_fit", "scenario", "channel", "measurements", "unknown", "parameters",
-                                "loss", "split", "seed", "iterations"});
+                                "loss", "split", "seed", "starts", "iterations"});
   FitInput input;
   sim::FitProblem& problem = input.problem;
   const sim::ChannelConfig& config = scenario.channels[channel];
@@ -319,8 +319,9 @@ FitInput read_fit_input(const FitFile& fit, const sim::Scenario& scenario, uint3
   if (const auto f = map.find("unknown")) problem.unknowns = read_unknowns(*f);
   if (const auto f = map.find("loss")) problem.loss = read_loss(*f);
   const auto seed = map.find("seed");
-  problem.split.seed = seed ? seed->integer(0) : 1;
+  problem.seed = problem.split.seed = seed ? seed->integer(0) : 1;
   if (const auto f = map.find("split")) problem.split = read_split(*f, problem.split.seed);
+  if (const auto f = map.find("starts")) problem.starts = f->integer32(1, 10'000);
   if (const auto f = map.find("iterations")) problem.iterations = f->integer32(1, 100'000);
   return input;
 }

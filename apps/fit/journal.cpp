@@ -57,7 +57,8 @@ FitJournal::FitJournal(const fs::path& folder, const Json& request, bool resume)
   const io::JsonValue state = document.root().at("state");
   sim::FitState read;
   const auto count = [&](const char* key) { return static_cast<uint32_t>(state.at(key).integer(0, most_count)); };
-  read.stage = count("stage"), read.round = count("round"), read.iteration = count("iteration");
+  read.stage = static_cast<sim::FitStage>(state.at("stage").integer(0, 2));
+  read.run = count("run"), read.round = count("round"), read.iteration = count("iteration");
   read.lambda = state.at("lambda").number(0.0, any_number);
   read.cost = state.at("cost").number(-any_number, any_number);
   read.converged = state.at("converged").boolean();
@@ -65,13 +66,16 @@ FitJournal::FitJournal(const fs::path& folder, const Json& request, bool resume)
   read.coordinates = numbers(state.at("coordinates"));
   read.sigmas = numbers(state.at("sigmas"));
   read.before = numbers(state.at("before"));
+  read.best_cost = state.at("best_cost").number(-any_number, any_number);
+  read.best = numbers(state.at("best"));
   state_ = std::move(read);
 }
 
 void FitJournal::write(const sim::FitState& state) {
   const Json json{{"request", request_},
                   {"state",
-                   {{"stage", state.stage},
+                   {{"stage", static_cast<int>(state.stage)},
+                    {"run", state.run},
                     {"round", state.round},
                     {"iteration", state.iteration},
                     {"lambda", state.lambda},
@@ -80,7 +84,9 @@ void FitJournal::write(const sim::FitState& state) {
                     {"done", state.done},
                     {"coordinates", state.coordinates},
                     {"sigmas", state.sigmas},
-                    {"before", state.before}}}};
+                    {"before", state.before},
+                    {"best_cost", state.best_cost},
+                    {"best", state.best}}}};
   io::write_file_atomically(folder_ / journal_file, json.dump(1) + "\n");
 }
 

@@ -75,10 +75,9 @@ std::vector<sim::FitLink> solve_paths(const FitOptions& options, gpu::Device& de
 
 void iterate(const FitOptions& options, const sim::FitSolver& solver, FitJournal& journal,
              sim::FitState& state) {
-  const auto most = static_cast<int64_t>(solver.most_iterations());
-  Progress progress("fit", most, options.quiet, "iterations");
-  const auto done = [&] { return most / 2 * state.stage + state.iteration; };
-  progress.update(done());
+  Progress progress("fit", static_cast<int64_t>(solver.runs()), options.quiet, "runs");
+  const auto show = [&] { progress.update(static_cast<int64_t>(solver.runs_done(state))); };
+  show();
   try {
     const TerminalWatch watch(options.quiet);
     while (!state.done) {
@@ -87,11 +86,11 @@ void iterate(const FitOptions& options, const sim::FitSolver& solver, FitJournal
       solver.step(next);
       state = std::move(next);
       journal.write(state);
-      progress.update(state.done ? most : done());
+      show();
     }
   } catch (const Interrupted&) {
-    throw Interrupted(fmt::format("{}: {} iterations of stage {} are kept; the same command with --resume goes on",
-                                  options.output, state.iteration, state.stage));
+    throw Interrupted(fmt::format("{}: {} of {} runs are kept; the same command with --resume goes on",
+                                  options.output, solver.runs_done(state), solver.runs()));
   }
 }
 

@@ -516,8 +516,13 @@ double FitModel::best_clock_s(uint32_t l, const TransferSlopes& fields,
 }
 
 std::vector<double> FitModel::start(std::span<const uint32_t> links) const {
-  std::vector<double> values;
-  for (const FitVariable& variable : variables_) values.push_back(variable.start);
+  std::vector<double> coordinates;
+  for (const FitVariable& variable : variables_) coordinates.push_back(variable.coordinate(variable.start));
+  return estimated(coordinates, links);
+}
+
+std::vector<double> FitModel::estimated(std::span<const double> from, std::span<const uint32_t> links) const {
+  std::vector<double> values = this->values(from);
   const TransferSlopes fields(materials_, properties_, std::span(values).first(properties_.size()), false);
   const auto estimate = [&](size_t v, int SetVariables::* which, auto&& best) {
     std::vector<uint32_t> of;
@@ -533,8 +538,9 @@ std::vector<double> FitModel::start(std::span<const uint32_t> links) const {
   for (size_t v = 0; v < variables_.size(); ++v)
     if (estimated_[v] == 1)
       estimate(v, &SetVariables::scale, [&](uint32_t l) { return best_scale_db(l, fields, values); });
-  std::vector<double> coordinates;
-  for (size_t v = 0; v < values.size(); ++v) coordinates.push_back(variables_[v].coordinate(values[v]));
+  std::vector<double> coordinates(from.begin(), from.end());
+  for (size_t v = 0; v < values.size(); ++v)
+    if (estimated_[v] != 0) coordinates[v] = variables_[v].coordinate(values[v]);
   return coordinates;
 }
 

@@ -54,6 +54,8 @@ class FitModel {
   /// Returns the coordinates before the fit. Scales and clocks without a start are estimated from the
   /// medians over the positions in `links`.
   std::vector<double> start(std::span<const uint32_t> links) const;
+  /// Does the same with the other variables as in `coordinates`.
+  std::vector<double> estimated(std::span<const double> coordinates, std::span<const uint32_t> links) const;
   std::vector<double> values(std::span<const double> coordinates) const;
 
   /// Returns the blocks of `links` (indices of usable ones), in their order. The result does not depend on

@@ -136,7 +136,9 @@ struct FitProblem {
   std::vector<FitUnknown> unknowns;
   FitLoss loss;
   FitSplit split;
-  uint32_t iterations = 100;  ///< at most, of each stage
+  uint64_t seed = 1;          ///< of the starts
+  uint32_t starts = 8;        ///< runs of the search for the best minimum; the first starts from the scene's values
+  uint32_t iterations = 100;  ///< at most, of each run
 };
 
 }  // namespace greatx::sim

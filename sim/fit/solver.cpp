@@ -8,20 +8,29 @@
 #include <Eigen/Cholesky>
 
 #include "core/error.h"
+#include "core/random.h"
 
 namespace greatx::sim {
 namespace {
 
 constexpr double first_lambda = 1e-2, least_lambda = 1e-12, most_lambda = 1e12;
-/// A step is small if it moves every variable by less than this part of its deviation, roughly.
-constexpr double small_step = 1e-6;
+/// A step is the last one if it moves every variable by less than this part of its own deviation, or promises
+/// less than this fall of the cost: variables are then within sqrt(2 * 1e-7) of a deviation of the minimum.
+constexpr double small_step = 1e-6, small_fall = 1e-7;
+/// The runs of a search only need to tell minima apart.
+constexpr double small_fall_of_search = 1e-3;
 /// Deviations that change by less than this part are settled.
-constexpr double settled = 1e-3;
-constexpr uint32_t most_rounds = 12;
+constexpr double settled = 1e-2;
+constexpr uint32_t most_rounds = 12, draws_of_start = 16, links_of_draw = 64, stream_of_starts = 0x66697473;
 /// Smallest deviations that are estimated: dB, ns, dB, dB, and relative for complex values.
 constexpr double least_sigma = 1e-4, least_relative_sigma = 1e-6;
 
 }  // namespace
+
+const char* name_of(FitStage stage) {
+  constexpr const char* names[] = {"unknowns", "search", "everything"};
+  return names[static_cast<size_t>(stage)];
+}
 
 FitSolver::FitSolver(const FitModel& model, std::vector<uint32_t> links)
     : model_(model), links_(std::move(links)) {
@@ -29,27 +38,59 @@ FitSolver::FitSolver(const FitModel& model, std::vector<uint32_t> links)
     throw_user_error("measurements: expected a position that paths reach, found none among those to fit");
 }
 
-bool FitSolver::is_free(size_t variable, uint32_t stage) const {
-  return stage == 1 || !model_.variables()[variable].of_material;
+bool FitSolver::is_free(size_t variable, FitStage stage) const {
+  return stage != FitStage::unknowns || !model_.variables()[variable].of_material;
 }
 
-void FitSolver::begin_stage(FitState& state, uint32_t stage) const {
+/// Begins a run at state.coordinates.
+void FitSolver::begin_run(FitState& state, FitStage stage, uint32_t run) const {
   state.stage = stage;
+  state.run = run;
   state.round = state.iteration = 0;
   state.lambda = first_lambda;
   const std::vector<FitBlock> blocks = model_.blocks(state.coordinates, links_, false);
-  state.sigmas = estimated_sigmas(blocks);
-  state.cost = sums(blocks, state.coordinates, state.sigmas).cost;
+  if (stage != FitStage::search) state.sigmas = estimated_sigmas(blocks);
+  state.cost = sums(blocks, links_, state.coordinates, state.sigmas).cost;
 }
 
 FitState FitSolver::begin() const {
   FitState state;
   state.coordinates = model_.start(links_);
   state.converged = true;
-  const bool unknowns = std::ranges::any_of(model_.variables(), [](const FitVariable& v) { return !v.of_material; });
-  if (!unknowns) state.before = state.coordinates;
-  begin_stage(state, unknowns ? 0 : 1);
+  begin_run(state, FitStage::unknowns, 0);
   return state;
+}
+
+uint32_t FitSolver::runs_done(const FitState& state) const {
+  if (state.done) return runs();
+  if (state.stage == FitStage::unknowns) return 0;
+  return state.stage == FitStage::search ? 1 + state.run : runs() - 1;
+}
+
+/// Returns the best of some draws of the materials within their bounds (and three deviations of a prior).
+std::vector<double> FitSolver::drawn_start(const FitState& state) const {
+  const std::vector<FitVariable>& variables = model_.variables();
+  RandomStream random(model_.problem().seed, stream_of_starts, state.run);
+  std::vector<uint32_t> some;  // enough to tell a good draw from a bad one
+  for (size_t l = 0; l < links_.size(); l += 1 + links_.size() / links_of_draw) some.push_back(links_[l]);
+  std::vector<double> best;
+  double least = INFINITY;
+  for (uint32_t draw = 0; draw < draws_of_start; ++draw) {
+    std::vector<double> tried = state.before;
+    for (size_t v = 0; v < variables.size(); ++v) {
+      if (!variables[v].of_material) continue;
+      double low = variables[v].coordinate(variables[v].low), high = variables[v].coordinate(variables[v].high);
+      if (const std::optional<FitPrior>& prior = variables[v].prior) {
+        low = std::clamp(prior->mean - 3.0 * prior->sigma, low, high);
+        high = std::clamp(prior->mean + 3.0 * prior->sigma, low, high);
+      }
+      tried[v] = random.uniform(low, high);
+    }
+    tried = model_.estimated(tried, some);
+    const double cost_there = sums(model_.blocks(tried, some, false), some, tried, state.sigmas).cost;
+    if (best.empty() || cost_there < least) least = cost_there, best = std::move(tried);
+  }
+  return best;
 }
 
 std::vector<double> FitSolver::estimated_sigmas(std::span<const FitBlock> blocks) const {
@@ -73,8 +114,8 @@ std::vector<double> FitSolver::estimated_sigmas(std::span<const FitBlock> blocks
   return sigmas;
 }
 
-FitSums FitSolver::sums(std::span<const FitBlock> blocks, std::span<const double> coordinates,
-                        std::span<const double> sigmas) const {
+FitSums FitSolver::sums(std::span<const FitBlock> blocks, std::span<const uint32_t> links,
+                        std::span<const double> coordinates, std::span<const double> sigmas) const {
   const auto variables = static_cast<Eigen::Index>(model_.variables().size());
   const FitLoss& loss = model_.problem().loss;
   const bool slopes = !blocks.empty() && blocks[0].slopes.size() > 0;
@@ -87,7 +128,7 @@ FitSums FitSolver::sums(std::span<const FitBlock> blocks, std::span<const double
   sums.rows.assign(sets, 0.0);
   for (size_t b = 0; b < blocks.size(); ++b) {
     const FitBlock& block = blocks[b];
-    const uint32_t set = model_.links()[links_[b]].set;
+    const uint32_t set = model_.links()[links[b]].set;
     const Eigen::VectorXd x = block.residuals / sigmas[set];
     for (const double one : x) {
       sums.cost += loss.cost(one);
@@ -130,39 +171,55 @@ FitSums FitSolver::sums(std::span<const FitBlock> blocks, std::span<const double
 }
 
 double FitSolver::cost(std::span<const double> coordinates, std::span<const double> sigmas) const {
-  return sums(model_.blocks(coordinates, links_, false), coordinates, sigmas).cost;
+  return sums(model_.blocks(coordinates, links_, false), links_, coordinates, sigmas).cost;
 }
 
 FitSums FitSolver::sums(const FitState& state) const {
-  return sums(model_.blocks(state.coordinates, links_, true), state.coordinates, state.sigmas);
+  return sums(model_.blocks(state.coordinates, links_, true), links_, state.coordinates, state.sigmas);
 }
 
-/// Ends a round of iterations: the deviations are estimated afresh, and the stage ends once they are settled.
-void FitSolver::end_round(FitState& state, std::span<const FitBlock> blocks) const {
-  const std::vector<double> sigmas = estimated_sigmas(blocks);
-  bool same = true;
-  for (size_t s = 0; s < sigmas.size(); ++s) same &= std::abs(sigmas[s] - state.sigmas[s]) <= settled * sigmas[s];
-  ++state.round;
-  const bool out_of_iterations = state.iteration >= model_.problem().iterations;
-  if (!same && state.round < most_rounds && !out_of_iterations) {
-    state.sigmas = sigmas;
-    state.cost = sums(blocks, state.coordinates, state.sigmas).cost;
-    state.lambda = first_lambda;
-    return;
-  }
-  if (state.stage == 1) {
+/// Ends a run, and begins the next one.
+void FitSolver::end_run(FitState& state) const {
+  const uint32_t starts = model_.problem().starts;
+  if (state.stage == FitStage::everything) {
     state.done = true;
     return;
   }
-  state.before = state.coordinates;
-  begin_stage(state, 1);
+  if (state.stage == FitStage::unknowns) {
+    state.before = state.coordinates;
+    return begin_run(state, starts > 1 ? FitStage::search : FitStage::everything, 0);
+  }
+  if (state.best.empty() || state.cost < state.best_cost)
+    state.best_cost = state.cost, state.best = state.coordinates;
+  if (state.run + 1 < starts) {
+    ++state.run;
+    state.coordinates = drawn_start(state);
+    return begin_run(state, FitStage::search, state.run);
+  }
+  state.coordinates = state.best;
+  begin_run(state, FitStage::everything, 0);
+}
+
+/// Ends a round of iterations: the deviations are estimated afresh, and the run ends once they are settled.
+void FitSolver::end_round(FitState& state, std::span<const FitBlock> blocks) const {
+  if (state.stage == FitStage::search) return end_run(state);
+  const std::vector<double> sigmas = estimated_sigmas(blocks);
+  bool same = true;
+  for (size_t s = 0; s < sigmas.size(); ++s)
+    same &= std::abs(sigmas[s] - state.sigmas[s]) <= settled * sigmas[s];
+  ++state.round;
+  if (same || state.round >= most_rounds || state.iteration >= model_.problem().iterations)
+    return end_run(state);
+  state.sigmas = sigmas;
+  state.cost = sums(blocks, links_, state.coordinates, state.sigmas).cost;
+  state.lambda = first_lambda;
 }
 
 void FitSolver::step(FitState& state) const {
   if (state.done) return;
   const std::vector<FitVariable>& variables = model_.variables();
   const std::vector<FitBlock> blocks = model_.blocks(state.coordinates, links_, true);
-  const FitSums now = sums(blocks, state.coordinates, state.sigmas);
+  const FitSums now = sums(blocks, links_, state.coordinates, state.sigmas);
   std::vector<Eigen::Index> free;
   std::vector<double> low, high;
   for (size_t v = 0; v < variables.size(); ++v) {
@@ -184,32 +241,36 @@ void FitSolver::step(FitState& state) const {
   }
   for (Eigen::Index a = 0; a < count; ++a)
     for (Eigen::Index b = 0; b < count; ++b) scaled(a, b) = now.weighted(free[a], free[b]) * unit[a] * unit[b];
-  bool moved = false;
-  double length = 0.0;
+  const double last_fall = state.stage == FitStage::search ? small_fall_of_search : small_fall;
+  bool moved = false, last = count == 0;
   for (; count > 0 && state.lambda <= most_lambda; state.lambda *= 10.0) {
     Eigen::MatrixXd damped = scaled;
     damped.diagonal() *= 1.0 + state.lambda;
     const Eigen::VectorXd step = damped.ldlt().solve(-gradient);
+    const double promised = -gradient.dot(step) - 0.5 * step.dot(scaled * step);
     std::vector<double> tried = state.coordinates;
-    length = 0.0;
+    double length = 0.0;
     for (Eigen::Index a = 0; a < count; ++a) {
       const auto v = static_cast<size_t>(free[a]);
       tried[v] = std::clamp(tried[v] + step[a] * unit[a], low[v], high[v]);
       length = std::max(length, std::abs(tried[v] - state.coordinates[v]) / unit[a]);
     }
-    if (length <= small_step) break;
+    last = length <= small_step || promised <= last_fall;
     const double cost_there = cost(tried, state.sigmas);
-    if (!(cost_there < state.cost)) continue;
+    if (!(cost_there < state.cost)) {
+      if (last) break;
+      continue;
+    }
     state.coordinates = std::move(tried);
     state.cost = cost_there;
     state.lambda = std::max(least_lambda, 0.1 * state.lambda);
     moved = true;
     break;
   }
-  const bool at_the_end = !moved || length <= small_step;
+  last |= !moved;
   const bool out_of_iterations = state.iteration >= model_.problem().iterations;
-  if (!at_the_end && !out_of_iterations) return;
-  if (!at_the_end) state.converged = false;
+  if (!last && !out_of_iterations) return;
+  if (!last && state.stage != FitStage::search) state.converged = false;
   end_round(state, moved ? model_.blocks(state.coordinates, links_, false) : blocks);
 }
 

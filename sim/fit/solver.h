@@ -11,8 +11,12 @@
 // Marquardt algorithm", LNM 630, 1978). A deviation that is not given is estimated, between rounds of
 // iterations, as 1.4826 times the median of the magnitudes of the set's residuals.
 //
-// Stage 0 fits the unknowns of the measurement with the materials of the scene; its end is what "before"
-// means. Stage 1 fits everything.
+// A fit has three stages.
+// - unknowns: only those of the measurement, with the materials of the scene. Its end is what "before" means.
+// - search: some runs over everything, with the deviations of the stage before, so that their costs compare.
+//   Walls of finite thickness give the cost many minima. The first run begins at the end of the stage before,
+//   each other one at the best of some random draws within the bounds.
+// - everything: from the best run on.
 #pragma once
 
 #include <cstdint>
@@ -25,16 +29,22 @@
 
 namespace greatx::sim {
 
+enum class FitStage : uint8_t { unknowns, search, everything };
+const char* name_of(FitStage stage);
+
 /// Where a fit stands. A fit goes on from it with the same bits as if it had never been stopped.
 struct FitState {
-  uint32_t stage = 0, round = 0, iteration = 0;  ///< iteration: in this stage
+  FitStage stage = FitStage::unknowns;
+  uint32_t run = 0, round = 0, iteration = 0;  ///< iteration: of this run
   double lambda = 0.0;
   double cost = 0.0;
   bool converged = false;           ///< of the stages so far
   bool done = false;
   std::vector<double> coordinates;  ///< [variables]
   std::vector<double> sigmas;       ///< [sets]
-  std::vector<double> before;       ///< coordinates at the end of stage 0; empty until then
+  std::vector<double> before;       ///< coordinates at the end of the first stage; empty until then
+  double best_cost = 0.0;           ///< of the runs of the search so far
+  std::vector<double> best;         ///< its coordinates; empty: no run has ended
 };
 
 /// The sums that an iteration, and the uncertainties after the last one, are made of. All are in units of the
@@ -60,18 +70,21 @@ class FitSolver {
   FitState begin() const;
   /// Makes one iteration. Does nothing to a state that is done.
   void step(FitState& state) const;
-  /// Returns an upper bound of the iterations of all stages.
-  uint32_t most_iterations() const { return 2 * model_.problem().iterations; }
+  /// Returns the number of runs, and of those that are done.
+  uint32_t runs() const { return 2 + (model_.problem().starts > 1 ? model_.problem().starts : 0); }
+  uint32_t runs_done(const FitState& state) const;
   FitSums sums(const FitState& state) const;
 
  private:
   double cost(std::span<const double> coordinates, std::span<const double> sigmas) const;
-  FitSums sums(std::span<const FitBlock> blocks, std::span<const double> coordinates,
-               std::span<const double> sigmas) const;
+  FitSums sums(std::span<const FitBlock> blocks, std::span<const uint32_t> links,
+               std::span<const double> coordinates, std::span<const double> sigmas) const;
   std::vector<double> estimated_sigmas(std::span<const FitBlock> blocks) const;
-  bool is_free(size_t variable, uint32_t stage) const;
+  bool is_free(size_t variable, FitStage stage) const;
+  std::vector<double> drawn_start(const FitState& state) const;
+  void begin_run(FitState& state, FitStage stage, uint32_t run) const;
+  void end_run(FitState& state) const;
   void end_round(FitState& state, std::span<const FitBlock> blocks) const;
-  void begin_stage(FitState& state, uint32_t stage) const;
 
   const FitModel& model_;
   std::vector<uint32_t> links_;
