@@ -13,6 +13,7 @@
 #include "core/fields/yaml.h"
 #include "core/input_file.h"
 #include "core/text.h"
+#include "sim/fit/model.h"
 #include "sim/plan/antennas.h"
 
 namespace greatx::apps {
@@ -99,6 +100,7 @@ std::pair<double, double> range_of_property(FitProperty property) {
     case FitProperty::thickness: return {1e-6, 1e3};
     case FitProperty::roughness: return {0.0, 1e3};
     case FitProperty::scattering: return {0.0, 0.9999};
+    case FitProperty::cross_polarization: return {1e-6, 0.999999};  // the field has the slope of a root at 0 and 1
     default: return {0.0, 1.0};
   }
 }
@@ -317,6 +319,7 @@ FitInput read_fit_input(const FitFile& fit, const sim::Scenario& scenario, uint3
   for (const Field& item : map.require("parameters", "a list of parameters").list("parameters", 1))
     problem.parameters.push_back(read_parameter(item));
   if (const auto f = map.find("unknown")) problem.unknowns = read_unknowns(*f);
+  sim::check_unknowns(problem);
   if (const auto f = map.find("loss")) problem.loss = read_loss(*f);
   const auto seed = map.find("seed");
   problem.seed = problem.split.seed = seed ? seed->integer(0) : 1;

@@ -85,6 +85,27 @@ struct FitModel::Columns {
   }
 };
 
+void check_unknowns(const FitProblem& problem) {
+  for (const FitUnknown& unknown : problem.unknowns) {
+    const char* name = name_of(unknown.kind);
+    bool dependent = false;
+    for (const FitSet& set : problem.sets) {
+      if (!depends(set, unknown.kind)) continue;
+      dependent = true;
+      if (unknown.each != FitUnknown::Each::position) continue;
+      if (!set.complex_values)
+        throw_user_error_at(unknown.where, "{}: each: expected file or all for '{}', found position", name,
+                            set.name);
+      if (clock_steps(set.band, unknown.range.low, unknown.range.high) > most_clock_steps)
+        throw_user_error_at(unknown.where, "{}: bounds: expected at most {:g} s in all, found {:g}", name,
+                            most_clock_steps * 0.25 / (set.band.subcarriers * set.band.spacing_hz),
+                            unknown.range.high - unknown.range.low);
+    }
+    if (!dependent)
+      throw_user_error_at(unknown.where, "{}: expected a measurement that depends on it, found none", name);
+  }
+}
+
 int FitModel::add_variable(const FitUnknown& unknown, const std::string& of, const char* axis) {
   constexpr const char* units[] = {"dB", "s", "deg", "m"};
   FitVariable variable;
@@ -94,6 +115,8 @@ int FitModel::add_variable(const FitUnknown& unknown, const std::string& of, con
   variable.high = unknown.range.high;
   variable.start = unknown.range.start.value_or(std::clamp(0.0, variable.low, variable.high));
   variable.prior = unknown.range.prior;
+  variable.estimated = !unknown.range.start && (unknown.kind == FitUnknownKind::scale_db ||
+                                                unknown.kind == FitUnknownKind::clock_s);
   variables_.push_back(std::move(variable));
   uint8_t estimated = 0;
   if (!unknown.range.start && unknown.kind == FitUnknownKind::scale_db) estimated = 1;
@@ -106,21 +129,10 @@ void FitModel::bind(const FitUnknown& unknown) {
   std::vector<uint32_t> dependent;
   for (uint32_t s = 0; s < problem_.sets.size(); ++s)
     if (depends(problem_.sets[s], unknown.kind)) dependent.push_back(s);
-  if (dependent.empty())
-    throw_user_error_at(unknown.where, "{}: expected a measurement that depends on it, found none",
-                        name_of(unknown.kind));
   int shared = -1;
   for (const uint32_t s : dependent) {
     const FitSet& set = problem_.sets[s];
     if (unknown.each == FitUnknown::Each::position) {
-      if (!set.complex_values)
-        throw_user_error_at(unknown.where, "{}: each: expected file or all for '{}', found position",
-                            name_of(unknown.kind), set.name);
-      if (clock_steps(set.band, unknown.range.low, unknown.range.high) > most_clock_steps)
-        throw_user_error_at(unknown.where, "{}: bounds: expected at most {:g} s in all, found {:g}",
-                            name_of(unknown.kind),
-                            most_clock_steps * 0.25 / (set.band.subcarriers * set.band.spacing_hz),
-                            unknown.range.high - unknown.range.low);
       sets_[s].own_clock = unknown.range;
       continue;
     }
@@ -168,6 +180,7 @@ FitModel::FitModel(const FitProblem& problem, const FitMaterials& materials, dou
     if (range.prior && range.logarithmic) variables_.back().prior->mean = std::log(range.prior->mean);
     estimated_.push_back(0);
   }
+  check_unknowns(problem);
   for (const FitUnknown& unknown : problem.unknowns) bind(unknown);
   parallel_for(links_.size(), 0, [&](size_t l) {
     const FitLink& link = links_[l];
@@ -495,23 +508,31 @@ double FitModel::best_clock_s(uint32_t l, const TransferSlopes& fields,
   if (set.complex_values && clock_steps(set.band, clock.low, clock.high) <= most_clock_steps)
     return best_clock(set.band, response.value, responses_at(set, link.position), clock.low, clock.high);
   if (set.complex_values) return clock.start;
-  // The whole number of taps by which the powers of the profiles agree best.
-  FitBand whole = set.band;
-  whole.first_tap = 0, whole.taps = whole.subcarriers;
-  const FitRows modelled = powers_of(taps_of(response, whole, terms.pairs), terms.pairs);
+  // The clock at which the magnitudes of the profiles agree best: whole taps first, then eighths about them.
   const std::span<const double> measured = values_at(set, link.position);
-  const double tap_s = 1.0 / (set.band.subcarriers * set.band.spacing_hz);
-  const auto count = static_cast<int64_t>(whole.subcarriers);
-  double best = clock.start, most = -1.0;
-  for (auto shift = static_cast<int64_t>(std::ceil(clock.low / tap_s));
-       static_cast<double>(shift) * tap_s <= clock.high; ++shift) {
-    double sum = 0.0;
+  const auto agreement = [&](double clock_s) {
+    Signal delayed = response;
+    const std::vector<Complex> turn = clock_turn(set.band, clock_s);
+    for (size_t k = 0; k < turn.size(); ++k) delayed.value[k] = plain_product(delayed.value[k], turn[k]);
+    const FitRows modelled = powers_of(taps_of(delayed, set.band, 1), 1);
+    double sum = 0.0, total = 0.0;
     for (uint32_t t = 0; t < set.band.taps; ++t) {
-      const int64_t tap = ((set.band.first_tap + t - shift) % count + count) % count;
-      if (std::isfinite(measured[t])) sum += std::sqrt(from_decibels(measured[t]) * modelled.value[tap]);
+      if (!std::isfinite(measured[t])) continue;
+      sum += std::sqrt(from_decibels(measured[t]) * modelled.value[t]);
+      total += modelled.value[t];
     }
-    if (sum > most) most = sum, best = static_cast<double>(shift) * tap_s;
-  }
+    return total > 0.0 ? sum / std::sqrt(total) : 0.0;
+  };
+  const double tap_s = 1.0 / (set.band.subcarriers * set.band.spacing_hz);
+  double best = clock.start, most = -1.0;
+  const auto try_clock = [&](double clock_s) {
+    const double value = agreement(std::clamp(clock_s, clock.low, clock.high));
+    if (value > most) most = value, best = std::clamp(clock_s, clock.low, clock.high);
+  };
+  const double range_s = std::min(clock.high - clock.low, set.band.subcarriers * tap_s);
+  for (double past = 0.0; past <= range_s; past += tap_s) try_clock(clock.low + past);
+  const double whole = best;
+  for (int eighth = -8; eighth <= 8; ++eighth) try_clock(whole + 0.125 * eighth * tap_s);
   return best;
 }
 

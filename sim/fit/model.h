@@ -21,6 +21,7 @@ struct FitVariable {
   bool logarithmic = false;
   std::optional<FitPrior> prior;  ///< of the coordinate
   bool of_material = false;
+  bool estimated = false;  ///< its start follows from the measurements and the other variables
   /// The fit works on coordinates: the value, or its logarithm.
   double coordinate(double value) const;
   double value(double coordinate) const;
@@ -37,10 +38,13 @@ struct FitBlock {
   uint32_t own_unknowns = 0;
 };
 
+/// Throws UserError, at the unknown, if no measurement depends on an unknown, if an unknown of each position
+/// has a measurement without phases, or if the search for the clock of a position has too many steps.
+void check_unknowns(const FitProblem& problem);
+
 class FitModel {
  public:
-  /// `problem` and `materials` outlive this. Throws UserError, at the unknown, if no measurement depends on
-  /// an unknown, or if the search for the clock of a position has too many steps.
+  /// `problem` and `materials` outlive this. Throws UserError like check_unknowns().
   FitModel(const FitProblem& problem, const FitMaterials& materials, double carrier_hz,
            std::vector<FitLink> links);
 

@@ -67,7 +67,7 @@ uint32_t FitSolver::runs_done(const FitState& state) const {
   return state.stage == FitStage::search ? 1 + state.run : runs() - 1;
 }
 
-/// Returns the best of some draws of the materials within their bounds (and three deviations of a prior).
+/// Returns the best of some draws within the bounds (and three deviations of a prior).
 std::vector<double> FitSolver::drawn_start(const FitState& state) const {
   const std::vector<FitVariable>& variables = model_.variables();
   RandomStream random(model_.problem().seed, stream_of_starts, state.run);
@@ -78,7 +78,7 @@ std::vector<double> FitSolver::drawn_start(const FitState& state) const {
   for (uint32_t draw = 0; draw < draws_of_start; ++draw) {
     std::vector<double> tried = state.before;
     for (size_t v = 0; v < variables.size(); ++v) {
-      if (!variables[v].of_material) continue;
+      if (variables[v].estimated) continue;
       double low = variables[v].coordinate(variables[v].low), high = variables[v].coordinate(variables[v].high);
       if (const std::optional<FitPrior>& prior = variables[v].prior) {
         low = std::clamp(prior->mean - 3.0 * prior->sigma, low, high);

@@ -141,7 +141,8 @@ TEST(FitModel, SlopesAreThoseOfDifferences) {
     set.phase_known = true;
     if (one.complex_values) {
       set.values.clear();
-      for (size_t i = 0; i < 4 * 32; ++i) set.responses.emplace_back(1e-4 * std::cos(1.0 * i), 1e-4 * std::sin(2.0 * i));
+      for (int i = 0; i < 4 * 32; ++i)
+        set.responses.emplace_back(1e-4 * std::cos(1.0 * i), 1e-4 * std::sin(2.0 * i));
     } else if (set.width > 1) {
       std::ranges::fill(set.values, -80.0);
     }
@@ -159,7 +160,7 @@ TEST(FitModel, SlopesAreThoseOfDifferences) {
     unknown(FitUnknownKind::orientation_deg, 7.0);
     unknown(FitUnknownKind::antenna_offset_m, 0.013);
     const FitWorld world(problem, fit_scene(true),
-                         fit_scenario(", polarization: single, slant_deg: 30, pattern: dipole"));
+                         fit_scenario(", slant_deg: 30, pattern: half_wave_dipole"));
     const FitModel& model = world.model();
     const std::vector<uint32_t> links = world.all();
     ASSERT_EQ(links.size(), 4u) << one.name;

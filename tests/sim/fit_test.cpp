@@ -63,8 +63,8 @@ TEST(Fit, StatedDeviationsAreThoseOfTheErrors) {
       size_t count = 0, within = 0;
       for (uint64_t seed = 0; seed < 60; ++seed) {
         world.problem().sets[0].sigma.reset();
-        if (given) world.problem().sets[0].sigma = 0.5;
-        world.measure(truth, 0.5, seed);
+        if (given) world.problem().sets[0].sigma = 0.1;
+        world.measure(truth, 0.1, seed);
         const std::vector<uint32_t> links = world.all();
         const FitState state = world.fitted(links);
         const FitAssessment assessment = world.assessed(state, links);
@@ -88,7 +88,7 @@ TEST(Fit, StatedDeviationsAreThoseOfTheErrors) {
 TEST(Fit, DeviationsOfBlocksHoldCommonCauses) {
   const std::vector<double> truth{9.0, 6.0, 12.5};
   FitWorld world(two_materials(240), fit_scene(false));
-  const FitSplit split{20.0, 0.0, 1};
+  const FitSplit split{10.0, 0.0, 1};
   const FitBlocks blocks = split_by_place(world.problem().sets[0].points, split);
   double of_residuals = 0.0, of_blocks = 0.0;
   const size_t draws = 40;
@@ -215,8 +215,8 @@ TEST(Fit, FindsOrientationAndOffset) {
   problem.sets = {set};
   problem.parameters = {parameter("ground", FitProperty::permittivity, 2.0, 30.0)};
   problem.unknowns = {unknown(FitUnknownKind::orientation_deg, -40.0, 40.0),
-                      unknown(FitUnknownKind::antenna_offset_m, -0.05, 0.05)};
-  problem.starts = 1;
+                      unknown(FitUnknownKind::antenna_offset_m, -0.03, 0.03)};
+  problem.starts = 12;
   FitWorld world(problem, fit_scene(false), fit_scenario(", pattern: tr38901"));
   const std::vector<double> truth{8.0, 11.0, 0.012, -0.02, 0.008};
   world.measure(truth, 0.0, 1);
