@@ -9,19 +9,22 @@
 namespace greatx::rf {
 
 /// Holds a complex field vector.
-struct FieldVector {
-  dvec3 re{0.0}, im{0.0};
-  Complex along(const dvec3& axis) const { return {glm::dot(re, axis), glm::dot(im, axis)}; }
-  void add(Complex amplitude, const dvec3& axis) {
+template <typename R>
+struct FieldVectorOf {
+  using Vec3 = Vec3Of<R>;
+  Vec3 re{dvec3(0.0)}, im{dvec3(0.0)};
+  ComplexOf<R> along(const Vec3& axis) const { return {dot(re, axis), dot(im, axis)}; }
+  void add(const ComplexOf<R>& amplitude, const Vec3& axis) {
     re += amplitude.real() * axis;
     im += amplitude.imag() * axis;
   }
-  void scale(Complex by) {
-    const dvec3 real = by.real() * re - by.imag() * im;
+  void scale(const ComplexOf<R>& by) {
+    const Vec3 real = by.real() * re - by.imag() * im;
     im = by.real() * im + by.imag() * re;
     re = real;
   }
 };
+using FieldVector = FieldVectorOf<double>;
 
 /// Returns the field of an element of one polarization towards a world direction.
 inline FieldVector field_towards(const TurnedElement& element, const dvec3& direction) {

@@ -7,6 +7,7 @@
 
 #include <complex>
 
+#include "core/dual.h"
 #include "core/vec.h"
 
 namespace greatx::rf {
@@ -20,19 +21,28 @@ struct Jones {
 
 /// Holds the cosines and sines of a direction's angles. They are computed from the components, so that no
 /// precision is lost near the poles. phi = 0 on the z axis.
-struct Angles {
-  double cos_theta, sin_theta, cos_phi, sin_phi;
-  dvec3 theta_hat() const { return {cos_theta * cos_phi, cos_theta * sin_phi, -sin_theta}; }
-  dvec3 phi_hat() const { return {-sin_phi, cos_phi, 0.0}; }
+template <typename R>
+struct AnglesOf {
+  R cos_theta, sin_theta, cos_phi, sin_phi;
+  Vec3Of<R> theta_hat() const { return {cos_theta * cos_phi, cos_theta * sin_phi, -sin_theta}; }
+  Vec3Of<R> phi_hat() const { return {-sin_phi, cos_phi, 0.0}; }
 };
+using Angles = AnglesOf<double>;
 /// Returns the angles of `direction`, which need not be a unit vector but must not be zero.
-Angles angles_of(const dvec3& direction);
+template <typename R = double>
+AnglesOf<R> angles_of(const Vec3Of<R>& direction);
 
 /// Returns theta = atan2(hypot(x, y), z) and phi = atan2(y, x); phi = 0 on the z axis. `direction` need not
 /// be a unit vector.
 dvec2 theta_phi(const dvec3& direction);
 /// Return the unit vectors theta-hat and phi-hat at a direction; at the poles, their limits along phi = 0.
-dvec3 theta_hat(const dvec3& direction);
-dvec3 phi_hat(const dvec3& direction);
+template <typename R = double>
+Vec3Of<R> theta_hat(const Vec3Of<R>& direction) {
+  return angles_of<R>(direction).theta_hat();
+}
+template <typename R = double>
+Vec3Of<R> phi_hat(const Vec3Of<R>& direction) {
+  return angles_of<R>(direction).phi_hat();
+}
 
 }  // namespace greatx::rf

@@ -61,13 +61,17 @@ bool foliage_model_covers(const scene::Foliage& foliage, double frequency_hz) {
          (frequency_hz >= weissberger_min_hz && frequency_hz <= weissberger_max_hz);
 }
 
-double foliage_db(const scene::Foliage& foliage, double frequency_hz, double depth_m) {
+template <typename R>
+R foliage_db(const scene::Foliage& foliage, const Given<R>& frequency_hz, double depth_m) {
+  using std::pow;
   GREATX_CHECK(depth_m >= 0.0 && std::isfinite(depth_m), "{} m of foliage", depth_m);
   if (foliage.attenuation_db_per_m) return *foliage.attenuation_db_per_m * depth_m;
-  check_frequency(foliage, frequency_hz, "foliage");
-  const double f = std::pow(frequency_hz / 1e9, 0.284);
+  check_frequency(foliage, value_of(frequency_hz), "foliage");
+  const R f = pow(frequency_hz / 1e9, 0.284);
   return depth_m <= weissberger_branch_m ? 0.45 * f * depth_m : 1.33 * f * std::pow(depth_m, 0.588);
 }
+template double foliage_db<double>(const scene::Foliage&, const double&, double);
+template Dual foliage_db<Dual>(const scene::Foliage&, const Dual&, double);
 
 void check_foliage(const scene::Scene& scene, double frequency_hz) {
   std::map<std::pair<uint32_t, uint32_t>, std::vector<Side>> volumes;  // by instance and material

@@ -5,6 +5,7 @@
 // depth of foliage that the path crosses.
 #pragma once
 
+#include "core/dual.h"
 #include "scene/description/scene.h"
 
 namespace greatx::rf {
@@ -27,7 +28,8 @@ bool foliage_model_covers(const scene::Foliage& foliage, double frequency_hz);
 /// The branches do not meet: at 14 m the second is 0.023 f^0.284 dB below the first (0.06 dB at 28 GHz).
 /// Beyond 400 m, where there are no measurements, the second branch is extrapolated. Throws UserError for a
 /// frequency outside 0.23 to 95 GHz.
-double foliage_db(const scene::Foliage& foliage, double frequency_hz, double depth_m);
+template <typename R = double>
+R foliage_db(const scene::Foliage& foliage, const Given<R>& frequency_hz, double depth_m);
 
 /// Checks a scene in which foliage attenuates. Throws UserError naming
 /// - the material, if its attenuation is not known at `frequency_hz`;

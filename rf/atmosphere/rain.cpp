@@ -17,11 +17,13 @@ struct Bell {
 struct Regression {
   std::span<const Bell> bells;
   double slope, constant;
-  double at(double log10_ghz) const {
-    double sum = slope * log10_ghz + constant;
+  template <typename R>
+  R at(const R& log10_ghz) const {
+    using std::exp;
+    R sum = slope * log10_ghz + constant;
     for (const Bell& bell : bells) {
-      const double x = (log10_ghz - bell.b) / bell.c;
-      sum += bell.a * std::exp(-x * x);
+      const R x = (log10_ghz - bell.b) / bell.c;
+      sum += bell.a * exp(-x * x);
     }
     return sum;
   }
@@ -53,30 +55,40 @@ constexpr Regression alpha_v{alpha_v_bells, -0.053739, 0.83433};
 
 /// Returns gamma by eq. 1, 4 and 5. `lean` = cos^2(elevation) cos(2 tilt) runs from 1 (horizontal path,
 /// horizontal polarization) to -1 (horizontal path, vertical polarization).
-double gamma_of(const RainCoefficients& c, double rain_mm_h, double lean) {
-  const double k = 0.5 * (c.k_h + c.k_v + (c.k_h - c.k_v) * lean);
-  const double alpha =
+template <typename R>
+R gamma_of(const RainCoefficientsOf<R>& c, double rain_mm_h, const R& lean) {
+  using std::pow;
+  const R k = 0.5 * (c.k_h + c.k_v + (c.k_h - c.k_v) * lean);
+  const R alpha =
       (c.k_h * c.alpha_h + c.k_v * c.alpha_v + (c.k_h * c.alpha_h - c.k_v * c.alpha_v) * lean) / (2.0 * k);
-  return k * std::pow(rain_mm_h, alpha);
+  return k * pow(rain_mm_h, alpha);
 }
 
 }  // namespace
 
-RainCoefficients rain_coefficients(double frequency_hz) {
-  if (!rain_model_covers(frequency_hz))
+template <typename R>
+RainCoefficientsOf<R> rain_coefficients(const Given<R>& frequency_hz) {
+  using std::log10, std::pow;
+  if (!rain_model_covers(value_of(frequency_hz)))
     throw_user_error(
         "rain attenuation: expected a frequency from 1 to 1000 GHz (ITU-R P.838-3), found {:g} GHz",
-        frequency_hz / 1e9);
-  const double x = std::log10(frequency_hz / 1e9);
-  return {std::pow(10.0, log_k_h.at(x)), alpha_h.at(x), std::pow(10.0, log_k_v.at(x)), alpha_v.at(x)};
+        value_of(frequency_hz) / 1e9);
+  const R x = log10(frequency_hz / 1e9);
+  return {pow(10.0, log_k_h.at(x)), alpha_h.at(x), pow(10.0, log_k_v.at(x)), alpha_v.at(x)};
 }
 
-RainAttenuation rain_db_per_km(const RainCoefficients& coefficients, double rain_mm_h,
-                               double cos2_elevation) {
+template <typename R>
+RainAttenuationOf<R> rain_db_per_km(const RainCoefficientsOf<Given<R>>& coefficients, double rain_mm_h,
+                                    const Given<R>& cos2_elevation) {
   GREATX_CHECK(rain_mm_h >= 0.0 && cos2_elevation >= 0.0 && cos2_elevation <= 1.0,
-               "{} mm/h, cos^2(elevation) {}", rain_mm_h, cos2_elevation);
-  return {gamma_of(coefficients, rain_mm_h, cos2_elevation),
-          gamma_of(coefficients, rain_mm_h, -cos2_elevation)};
+               "{} mm/h, cos^2(elevation) {}", rain_mm_h, value_of(cos2_elevation));
+  return {gamma_of<R>(coefficients, rain_mm_h, cos2_elevation),
+          gamma_of<R>(coefficients, rain_mm_h, -cos2_elevation)};
 }
+
+template RainCoefficients rain_coefficients<double>(const double&);
+template RainCoefficientsOf<Dual> rain_coefficients<Dual>(const Dual&);
+template RainAttenuation rain_db_per_km<double>(const RainCoefficients&, double, const double&);
+template RainAttenuationOf<Dual> rain_db_per_km<Dual>(const RainCoefficientsOf<Dual>&, double, const Dual&);
 
 }  // namespace greatx::rf

@@ -148,13 +148,18 @@ dvec3 seen_corner(const scene::Wedge& wedge, Corner corner) {
   return corner_point(wedge, corner) - inwards_m * outwards(wedge, corner);
 }
 
-CornerPlace corner_place(double u, double d_u, double v, double d_v) {
-  const double r = std::hypot(u, d_u), s = std::hypot(v, d_v);
-  const double inwards = u * d_v + v * d_u, far = d_u * d_v - u * v;
+template <typename R>
+CornerPlaceOf<R> corner_place(const Given<R>& u, const Given<R>& d_u, const Given<R>& v,
+                              const Given<R>& d_v) {
+  using std::hypot;
+  const R r = hypot(u, d_u), s = hypot(v, d_v);
+  const R inwards = u * d_v + v * d_u, far = d_u * d_v - u * v;
   // L_e^2 - L_K^2 = 2 (r s - far), and (r s)^2 - far^2 = inwards^2.
-  const double squares = far > 0.0 ? 2.0 * inwards * (inwards / (r * s + far)) : 2.0 * (r * s - far);
-  return {squares / (r + s + std::hypot(u - v, d_u + d_v)), inwards / (d_u + d_v)};
+  const R squares = far > 0.0 ? 2.0 * inwards * (inwards / (r * s + far)) : 2.0 * (r * s - far);
+  return {squares / (r + s + hypot(R(u - v), R(d_u + d_v))), inwards / (d_u + d_v)};
 }
+template CornerPlace corner_place<double>(const double&, const double&, const double&, const double&);
+template CornerPlaceOf<Dual> corner_place<Dual>(const Dual&, const Dual&, const Dual&, const Dual&);
 
 std::optional<CornerPlace> corner_place(const scene::Wedge& wedge, Corner corner, const dvec3& before,
                                         const dvec3& after) {
@@ -172,36 +177,47 @@ double largest_excess_m(double step_db, double wave_number) {
   return 1.0 / (4.0 * pi * share * share * wave_number);
 }
 
-EdgeDyadic corner_dyadic(const scene::Wedge& wedge, Corner corner, const dvec3& in, const dvec3& out,
-                         double before_m, double after_m, const FacetWorld& world,
-                         const RadioSurfaces& surfaces, const SpecularShare& share, KellerSide side) {
-  const EdgeTerms terms = edge_terms(wedge, in, out, before_m, after_m, world, surfaces, share, {},
-                                     GrazedFace::none, GrazedFace::none, AtKeller::no);
-  const double wave_number = 2.0 * pi / surfaces.wavelength_m();
+template <typename R>
+EdgeDyadicOf<R> corner_dyadic(const scene::Wedge& wedge, Corner corner, const Vec3Of<R>& in,
+                              const Vec3Of<R>& out, const Given<R>& before_m, const Given<R>& after_m,
+                              const FacetWorld& world, const RadioSurfacesOf<Given<R>>& surfaces,
+                              const SpecularShareOf<Given<R>>& share, KellerSide side) {
+  using std::abs, std::sqrt, std::hypot;
+  const EdgeTermsOf<R> terms = edge_terms<R>(wedge, in, out, before_m, after_m, world, surfaces, share, {},
+                                             GrazedFace::none, GrazedFace::none, AtKeller::no);
+  const R wave_number = 2.0 * pi / surfaces.wavelength_m();
   const dvec3 inward = -outwards(wedge, corner);
-  const double cos_in = glm::dot(in, inward), cos_out = glm::dot(out, inward);
-  const double away_before = before_m * terms.sin_in, away_after = after_m * terms.sin_out;
-  const CornerPlace place = corner_place(-before_m * cos_in, away_before, after_m * cos_out, away_after);
+  const R cos_in = dot(in, inward), cos_out = dot(out, inward);
+  const R away_before = before_m * terms.sin_in, away_after = after_m * terms.sin_out;
+  const CornerPlaceOf<R> place =
+      corner_place<R>(-before_m * cos_in, away_before, after_m * cos_out, away_after);
   const bool keller = side == KellerSide::by_place ? place.inwards_m >= 0.0 : side == KellerSide::exists;
-  const double straight_m = before_m / (before_m + after_m) * after_m * terms.sin_in * terms.sin_out;  // L
+  const R straight_m = before_m / (before_m + after_m) * after_m * terms.sin_in * terms.sin_out;  // L
   // sqrt(2 L'' excess)/|L'|, with L' = cos_out - cos_in along the edge; 1 at Keller's point.
-  const double curvature = terms.sin_in * terms.sin_out * (1.0 / before_m + 1.0 / after_m);
-  const double slope = std::abs(cos_in - cos_out), root = std::sqrt(2.0 * curvature * place.excess_m);
-  const double ratio = slope > 1e-9 ? root / slope : 1.0;
-  const Complex end =
-      (keller ? -0.5 : 0.5) * ratio * erfcx_on_diagonal(std::sqrt(wave_number * place.excess_m));
-  const double lengths =
-      before_m + after_m + std::hypot(before_m * cos_in + after_m * cos_out, away_before + away_after);
-  EdgeDyadic dyadic{terms.beta_in, terms.phi_in, terms.beta_out, terms.phi_out};
+  const R curvature = terms.sin_in * terms.sin_out * (1.0 / before_m + 1.0 / after_m);
+  const R slope = abs(cos_in - cos_out), root = sqrt(2.0 * curvature * place.excess_m);
+  const R ratio = slope > 1e-9 ? root / slope : R(1.0);
+  const ComplexOf<R> end =
+      (keller ? -0.5 : 0.5) * ratio * erfcx_on_diagonal<R>(sqrt(wave_number * place.excess_m));
+  const R lengths =
+      before_m + after_m + hypot(R(before_m * cos_in + after_m * cos_out), R(away_before + away_after));
+  EdgeDyadicOf<R> dyadic{terms.beta_in, terms.phi_in, terms.beta_out, terms.phi_out};
   for (uint32_t term = 0; term < 4; ++term) {
-    const UtdFactor& factor = terms.factors.factors[term];
-    const double past = 4.0 * away_before * away_after * factor.half_sine * factor.half_sine;  // L_K^2 - D^2
-    const double beyond = place.excess_m * lengths;  // L_e^2 - L_K^2
-    const double kernel = past + beyond > 0.0 ? past / (past + beyond) : 0.5;
-    const Complex d = kernel * end * utd_value(factor, wave_number, straight_m);
+    const UtdFactorOf<R>& factor = terms.factors.factors[term];
+    const R past = 4.0 * away_before * away_after * factor.half_sine * factor.half_sine;  // L_K^2 - D^2
+    const R beyond = place.excess_m * lengths;                                            // L_e^2 - L_K^2
+    const R kernel = past + beyond > 0.0 ? past / (past + beyond) : R(0.5);
+    const ComplexOf<R> d = kernel * end * utd_value<R>(factor, wave_number, straight_m);
     for (int i = 0; i < 4; ++i) dyadic.matrix[i] += d * terms.matrices[term][i];
   }
   return dyadic;
 }
+template EdgeDyadic corner_dyadic<double>(const scene::Wedge&, Corner, const dvec3&, const dvec3&,
+                                          const double&, const double&, const FacetWorld&,
+                                          const RadioSurfaces&, const SpecularShare&, KellerSide);
+template EdgeDyadicOf<Dual> corner_dyadic<Dual>(const scene::Wedge&, Corner, const Vec3Of<Dual>&,
+                                                const Vec3Of<Dual>&, const Dual&, const Dual&,
+                                                const FacetWorld&, const RadioSurfacesOf<Dual>&,
+                                                const SpecularShareOf<Dual>&, KellerSide);
 
 }  // namespace greatx::rf

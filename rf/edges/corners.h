@@ -72,15 +72,18 @@ inline const dvec3& corner_point(const scene::Wedge& wedge, Corner corner) {
 dvec3 seen_corner(const scene::Wedge& posed, Corner corner);
 
 /// Describes where an end lies on the way between two points.
-struct CornerPlace {
-  double excess_m = 0.0;  ///< L_e - L_K, without cancellation
+template <typename R>
+struct CornerPlaceOf {
+  R excess_m = 0.0;  ///< L_e - L_K, without cancellation
   /// From the end to Keller's point, along the edge: > 0 on the edge's side of the end.
-  double inwards_m = 0.0;
+  R inwards_m = 0.0;
 };
+using CornerPlace = CornerPlaceOf<double>;
 /// Returns the place for ends of the path that lie `along_m` from the corner, along the edge in one fixed
 /// sense of `inwards`, and `away_m` from the edge's line.
-CornerPlace corner_place(double before_along_m, double before_away_m, double after_along_m,
-                         double after_away_m);
+template <typename R = double>
+CornerPlaceOf<R> corner_place(const Given<R>& before_along_m, const Given<R>& before_away_m,
+                              const Given<R>& after_along_m, const Given<R>& after_away_m);
 /// Does the same for the two ends, or their images. Empty if an end of the path lies on the edge's line.
 std::optional<CornerPlace> corner_place(const scene::Wedge& posed, Corner corner, const dvec3& before,
                                         const dvec3& after);
@@ -91,9 +94,11 @@ double largest_excess_m(double step_db, double wave_number);
 
 /// Returns the dyadic of a corner, which spreads by the whole length over the corner, like edge_dyadic().
 /// Arguments as there, with `in` and `out` at the corner.
-EdgeDyadic corner_dyadic(const scene::Wedge& posed, Corner corner, const dvec3& in, const dvec3& out,
-                         double before_m, double after_m, const FacetWorld& world,
-                         const RadioSurfaces& surfaces, const SpecularShare& share = {},
-                         KellerSide side = KellerSide::by_place);
+template <typename R = double>
+EdgeDyadicOf<R> corner_dyadic(const scene::Wedge& posed, Corner corner, const Vec3Of<R>& in,
+                              const Vec3Of<R>& out, const Given<R>& before_m, const Given<R>& after_m,
+                              const FacetWorld& world, const RadioSurfacesOf<Given<R>>& surfaces,
+                              const SpecularShareOf<Given<R>>& share = {},
+                              KellerSide side = KellerSide::by_place);
 
 }  // namespace greatx::rf

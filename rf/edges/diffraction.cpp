@@ -21,32 +21,36 @@ bool on_face(const dvec2& face, const dvec2& at, double tolerance) {
 }
 
 /// Holds the reflection of one face between the unit vectors of the edge.
+template <typename R>
 struct FaceReflection {
-  Complex beta_beta, beta_phi, phi_beta, phi_phi;
+  ComplexOf<R> beta_beta, beta_phi, phi_beta, phi_phi;
 };
 
 /// Returns the specular reflection of a ray that meets a face at `angle` about the edge. `cos_beta0` is the
 /// cosine between the ray and the edge from a to b, with phi counted from that face. With N = sqrt(cos^2
 /// angle + cos^2 beta_0 sin^2 angle), s = k x n is (-cos angle, cos beta_0 sin angle)/N on (beta_0', phi')
 /// and (cos angle, cos beta_0 sin angle)/N on (beta_0, phi); p = k x s.
-FaceReflection face_reflection(double angle, double cos_beta0, const ReflectionCoefficients& r) {
-  double c = std::cos(angle), d = cos_beta0 * std::sin(angle);
-  const double norm = std::hypot(c, d);
+template <typename R>
+FaceReflection<R> face_reflection(const R& angle, const R& cos_beta0, const ReflectionCoefficientsOf<R>& r) {
+  using std::cos, std::sin, std::hypot;
+  R c = cos(angle), d = cos_beta0 * sin(angle);
+  const R norm = hypot(c, d);
   // At normal incidence r_TE = -r_TM, and any s gives the same result.
   if (norm < 1e-8) {
     c = 1.0, d = 0.0;
   } else {
     c /= norm, d /= norm;
   }
-  const Complex mixed = (r.r_te + r.r_tm) * (c * d);
+  const ComplexOf<R> mixed = (r.r_te + r.r_tm) * (c * d);
   return {r.r_tm * (d * d) - r.r_te * (c * c), mixed, -mixed, r.r_te * (d * d) - r.r_tm * (c * c)};
 }
 
-ReflectionCoefficients fresnel(const WedgeFace& face, double cos_theta, const RadioSurfaces& surfaces,
-                               const SpecularShare& share) {
-  const double cosine = std::clamp(cos_theta, 0.0, 1.0);  // removes only rounding
-  ReflectionCoefficients r = surfaces.reflect(face.material, face.from_front, cosine);
-  const double kept = share ? share(face.material, cosine) : 1.0;
+template <typename R>
+ReflectionCoefficientsOf<R> fresnel(const WedgeFace& face, const R& cos_theta,
+                                    const RadioSurfacesOf<R>& surfaces, const SpecularShareOf<R>& share) {
+  const R cosine = std::clamp(cos_theta, R(0.0), R(1.0));  // removes only rounding
+  ReflectionCoefficientsOf<R> r = surfaces.reflect(face.material, face.from_front, cosine);
+  const R kept = share ? share(face.material, cosine) : R(1.0);
   r.r_te *= kept;
   r.r_tm *= kept;
   return r;
@@ -131,72 +135,92 @@ WedgeFace face_of(const scene::Wedge& wedge, GrazedFace which, const FacetWorld&
   return {posed_facet.material, glm::dot(posed_facet.normal, normal) > 0.0, posed_facet.tolerance_m, normal};
 }
 
-EdgeTerms edge_terms(const scene::Wedge& wedge, const dvec3& in, const dvec3& out, double before_m,
-                     double after_m, const FacetWorld& world, const RadioSurfaces& surfaces,
-                     const SpecularShare& share, const EdgeSides& sides, GrazedFace in_along,
-                     GrazedFace out_along, AtKeller at_keller) {
+template <typename R>
+EdgeTermsOf<R> edge_terms(const scene::Wedge& wedge, const Vec3Of<R>& in, const Vec3Of<R>& out,
+                          const Given<R>& before_m, const Given<R>& after_m, const FacetWorld& world,
+                          const RadioSurfacesOf<Given<R>>& surfaces, const SpecularShareOf<Given<R>>& share,
+                          const EdgeSides& sides, GrazedFace in_along, GrazedFace out_along,
+                          AtKeller at_keller) {
+  using std::abs, std::sin, std::sqrt;
   const dvec3 edge = edge_direction(wedge);
-  const dvec3 turn_in = glm::cross(edge, in), turn_out = glm::cross(edge, out);
-  EdgeTerms terms;
-  terms.sin_in = glm::length(turn_in), terms.sin_out = glm::length(turn_out);
+  const Vec3Of<R> turn_in = cross(edge, in), turn_out = cross(edge, out);
+  EdgeTermsOf<R> terms;
+  terms.sin_in = length(turn_in), terms.sin_out = length(turn_out);
   GREATX_CHECK(terms.sin_in > 0.0 && terms.sin_out > 0.0 && before_m > 0.0 && after_m > 0.0 &&
-                   (at_keller == AtKeller::no || std::abs(glm::dot(in - out, edge)) < 1e-3),
-               "diffraction from cos(beta_0) {} to {}, {} m before, {} m after", glm::dot(in, edge),
-               glm::dot(out, edge), before_m, after_m);
+                   (at_keller == AtKeller::no || abs(dot(in - out, edge)) < 1e-3),
+               "diffraction from cos(beta_0) {} to {}, {} m before, {} m after", value_of(dot(in, edge)),
+               value_of(dot(out, edge)), value_of(before_m), value_of(after_m));
   terms.phi_in = -turn_in / terms.sin_in;
-  terms.beta_in = glm::cross(terms.phi_in, in);
+  terms.beta_in = cross(terms.phi_in, in);
   terms.phi_out = turn_out / terms.sin_out;
-  terms.beta_out = glm::cross(terms.phi_out, out);
+  terms.beta_out = cross(terms.phi_out, out);
 
   const dvec2 face_0(1.0, 0.0), face_n = face_n_direction(wedge);
-  const auto direction = [&](GrazedFace along, const dvec2& free) {
-    return along == GrazedFace::none ? free : along == GrazedFace::face_0 ? face_0 : face_n;
+  const auto direction = [&](GrazedFace along, const Vec2Of<R>& free) -> Vec2Of<R> {
+    return along == GrazedFace::none     ? free
+           : along == GrazedFace::face_0 ? Vec2Of<R>(face_0)
+                                         : Vec2Of<R>(face_n);
   };
-  const dvec2 source = direction(in_along, -across(wedge, in)),
-              observer = direction(out_along, across(wedge, out));
-  const UtdAngles angles = utd_angles(wedge.n, source, observer);
-  terms.factors = utd_factors(angles, sides);
+  const Vec2Of<R> source = direction(in_along, -across<R>(wedge, in)),
+                  observer = direction(out_along, across<R>(wedge, out));
+  const UtdAnglesOf<R> angles = utd_angles<R>(wedge.n, source, observer);
+  terms.factors = utd_factors<R>(angles, sides);
   for (const UtdTerm term : {UtdTerm::shadow_n, UtdTerm::shadow_0})
     terms.matrix(term)[0] = terms.matrix(term)[3] = -1.0;
 
-  const double cos_beta0 = 0.5 * glm::dot(in + out, edge),
-               sin_beta0 = std::sqrt(terms.sin_in * terms.sin_out);
-  const FaceAngles at = luebbers_angles(angles);
-  const auto add = [&](UtdTerm term, GrazedFace which, const dvec2& along, double angle, double towards) {
+  const R cos_beta0 = 0.5 * dot(in + out, edge), sin_beta0 = sqrt(terms.sin_in * terms.sin_out);
+  const FaceAnglesOf<R> at = luebbers_angles<R>(angles);
+  const auto add = [&](UtdTerm term, GrazedFace which, const dvec2& along, const R& angle, const R& towards) {
     if (which == in_along || which == out_along) return;
     const WedgeFace face = face_of(wedge, which, world);
-    if (on_face(along, before_m * source, face.tolerance_m) ||
-        on_face(along, after_m * observer, face.tolerance_m))
+    if (on_face(along, value_of(before_m) * value_of(source), face.tolerance_m) ||
+        on_face(along, value_of(after_m) * value_of(observer), face.tolerance_m))
       return;
-    const FaceReflection m =
-        face_reflection(angle, towards, fresnel(face, sin_beta0 * std::sin(angle), surfaces, share));
-    Complex* matrix = terms.matrix(term);
+    const FaceReflection<R> m =
+        face_reflection<R>(angle, towards, fresnel<R>(face, sin_beta0 * sin(angle), surfaces, share));
+    ComplexOf<R>* matrix = terms.matrix(term);
     matrix[0] = m.beta_beta, matrix[1] = m.beta_phi, matrix[2] = m.phi_beta, matrix[3] = m.phi_phi;
   };
   add(UtdTerm::reflection_0, GrazedFace::face_0, face_0, at.face_0, cos_beta0);
   // As seen from face n the edge runs in the opposite direction.
   add(UtdTerm::reflection_n, GrazedFace::face_n, face_n, at.face_n, -cos_beta0);
-  const Complex *m_0 = terms.matrix(UtdTerm::reflection_0), *m_n = terms.matrix(UtdTerm::reflection_n);
-  if (!reflects(m_0) || !reflects(m_n)) return terms;
+  const ComplexOf<R>*m_0 = terms.matrix(UtdTerm::reflection_0), *m_n = terms.matrix(UtdTerm::reflection_n);
+  if (!reflects<R>(m_0) || !reflects<R>(m_n)) return terms;
   // The wave meets the nearer face first.
-  const EdgeMatrix twice = at.near_0 ? product(m_n, m_0) : product(m_0, m_n);
-  Complex* far = terms.matrix(at.near_0 ? UtdTerm::shadow_n : UtdTerm::shadow_0);
+  const EdgeMatrixOf<R> twice = at.near_0 ? product<R>(m_n, m_0) : product<R>(m_0, m_n);
+  ComplexOf<R>* far = terms.matrix(at.near_0 ? UtdTerm::shadow_n : UtdTerm::shadow_0);
   for (int i = 0; i < 4; ++i) far[i] = -twice[i];
   return terms;
 }
 
-EdgeDyadic edge_dyadic(const scene::Wedge& wedge, const dvec3& in, const dvec3& out, double before_m,
-                       double after_m, const FacetWorld& world, const RadioSurfaces& surfaces,
-                       const SpecularShare& share, const EdgeSides& sides) {
-  const EdgeTerms terms = edge_terms(wedge, in, out, before_m, after_m, world, surfaces, share, sides);
-  const double wave_number = 2.0 * pi / surfaces.wavelength_m(),
-               distance = before_m / (before_m + after_m) * after_m * terms.sin_in * terms.sin_out;  // L
-  EdgeDyadic dyadic{terms.beta_in, terms.phi_in, terms.beta_out, terms.phi_out};
+template <typename R>
+EdgeDyadicOf<R> edge_dyadic(const scene::Wedge& wedge, const Vec3Of<R>& in, const Vec3Of<R>& out,
+                            const Given<R>& before_m, const Given<R>& after_m, const FacetWorld& world,
+                            const RadioSurfacesOf<Given<R>>& surfaces, const SpecularShareOf<Given<R>>& share,
+                            const EdgeSides& sides) {
+  const EdgeTermsOf<R> terms =
+      edge_terms<R>(wedge, in, out, before_m, after_m, world, surfaces, share, sides);
+  const R wave_number = 2.0 * pi / surfaces.wavelength_m(),
+          distance = before_m / (before_m + after_m) * after_m * terms.sin_in * terms.sin_out;  // L
+  EdgeDyadicOf<R> dyadic{terms.beta_in, terms.phi_in, terms.beta_out, terms.phi_out};
   for (uint32_t term = 0; term < 4; ++term) {
-    const Complex d = utd_value(terms.factors.factors[term], wave_number, distance);
+    const ComplexOf<R> d = utd_value<R>(terms.factors.factors[term], wave_number, distance);
     for (int i = 0; i < 4; ++i) dyadic.matrix[i] += d * terms.matrices[term][i];
   }
   return dyadic;
 }
+
+// The templates of this file, for doubles and for dual numbers.
+#define GREATX_FOR(R)                                                                                        \
+  template EdgeTermsOf<R> edge_terms<R>(const scene::Wedge&, const Vec3Of<R>&, const Vec3Of<R>&, const R&,   \
+                                        const R&, const FacetWorld&, const RadioSurfacesOf<R>&,              \
+                                        const SpecularShareOf<R>&, const EdgeSides&, GrazedFace, GrazedFace, \
+                                        AtKeller);                                                           \
+  template EdgeDyadicOf<R> edge_dyadic<R>(const scene::Wedge&, const Vec3Of<R>&, const Vec3Of<R>&, const R&, \
+                                          const R&, const FacetWorld&, const RadioSurfacesOf<R>&,            \
+                                          const SpecularShareOf<R>&, const EdgeSides&);
+GREATX_FOR(double)
+GREATX_FOR(Dual)
+#undef GREATX_FOR
 
 }  // namespace greatx::rf

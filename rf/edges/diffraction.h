@@ -47,8 +47,9 @@ std::optional<dvec3> keller_point(const scene::Wedge& posed, const dvec3& before
                                   KellerRefusal* why = nullptr);
 
 /// Returns the components of a vector across the edge, in (tangent_0, normal_0).
-inline dvec2 across(const scene::Wedge& wedge, const dvec3& vector) {
-  return {glm::dot(wedge.tangent_0, vector), glm::dot(wedge.normal_0, vector)};
+template <typename R = double>
+Vec2Of<R> across(const scene::Wedge& wedge, const Vec3Of<R>& vector) {
+  return {dot(wedge.tangent_0, vector), dot(wedge.normal_0, vector)};
 }
 
 /// Returns the direction in which face n goes off from the edge, in (tangent_0, normal_0).
@@ -78,33 +79,41 @@ bool in_shadow(const scene::Wedge& posed, const dvec3& source, const dvec3& obse
 /// Maps components of the incident field on (beta_0', phi') to components of the diffracted field on (beta_0,
 /// phi): phi' = -e x s'/sin(beta_0), beta_0' = phi' x s', phi = e x s/sin(beta_0), beta_0 = phi x s (C. A.
 /// Balanis, "Advanced Engineering Electromagnetics", 2nd ed., 13.3.3).
-struct EdgeDyadic {
-  dvec3 beta_in{0.0}, phi_in{0.0}, beta_out{0.0}, phi_out{0.0};
+template <typename R>
+struct EdgeDyadicOf {
+  Vec3Of<R> beta_in{dvec3(0.0)}, phi_in{dvec3(0.0)}, beta_out{dvec3(0.0)}, phi_out{dvec3(0.0)};
   /// Row-major, out by in, dimensionless: [beta beta', beta phi', phi beta', phi phi'].
-  Complex matrix[4]{};
+  ComplexOf<R> matrix[4]{};
 
-  FieldVector apply(const FieldVector& field) const {
-    const Complex beta = field.along(beta_in), phi = field.along(phi_in);
-    FieldVector out;
+  FieldVectorOf<R> apply(const FieldVectorOf<R>& field) const {
+    const ComplexOf<R> beta = field.along(beta_in), phi = field.along(phi_in);
+    FieldVectorOf<R> out;
     out.add(matrix[0] * beta + matrix[1] * phi, beta_out);
     out.add(matrix[2] * beta + matrix[3] * phi, phi_out);
     return out;
   }
 };
+using EdgeDyadic = EdgeDyadicOf<double>;
 
 /// Returns the amplitude share that roughness and scattering leave to the reflection by a material at a
 /// cosine of incidence.
-using SpecularShare = std::function<double(uint32_t material, double cos_theta)>;
+template <typename R>
+using SpecularShareOf = std::function<R(uint32_t material, const R& cos_theta)>;
+using SpecularShare = SpecularShareOf<double>;
 
 /// A map between field components on two pairs of axes, row-major.
-using EdgeMatrix = std::array<Complex, 4>;
-inline EdgeMatrix product(const Complex* a, const Complex* b) {
+template <typename R>
+using EdgeMatrixOf = std::array<ComplexOf<R>, 4>;
+using EdgeMatrix = EdgeMatrixOf<double>;
+template <typename R = double>
+EdgeMatrixOf<R> product(const ComplexOf<R>* a, const ComplexOf<R>* b) {
   return {a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3], a[2] * b[0] + a[3] * b[2],
           a[2] * b[1] + a[3] * b[3]};
 }
 /// Tells whether the matrix of a term is not that of a face that does not reflect.
-inline bool reflects(const Complex* matrix) {
-  return matrix[0] != 0.0 || matrix[1] != 0.0 || matrix[3] != 0.0;
+template <typename R = double>
+bool reflects(const ComplexOf<R>* matrix) {
+  return value_of(matrix[0]) != 0.0 || value_of(matrix[1]) != 0.0 || value_of(matrix[3]) != 0.0;
 }
 
 /// Tells whether a ray bends at Keller's point, where its angles with the edge are equal, or at an end.
@@ -113,22 +122,27 @@ enum class AtKeller : uint8_t { no, yes };
 enum class GrazedFace : uint8_t { none = 0, face_0, face_n };
 
 /// Holds the dyadic of an edge by terms: dyadic = sum of d_t matrix_t over the UtdTerms t.
-struct EdgeTerms {
-  dvec3 beta_in{0.0}, phi_in{0.0}, beta_out{0.0}, phi_out{0.0};  ///< as in EdgeDyadic
-  double sin_in = 1.0, sin_out = 1.0;                            ///< sines of the angles with the edge
-  UtdFactors factors;
-  Complex matrices[4][4]{};  ///< [UtdTerm][row-major]; zero for a face that does not reflect
-  Complex* matrix(UtdTerm term) { return matrices[static_cast<uint32_t>(term)]; }
-  const Complex* matrix(UtdTerm term) const { return matrices[static_cast<uint32_t>(term)]; }
+template <typename R>
+struct EdgeTermsOf {
+  /// As in EdgeDyadic.
+  Vec3Of<R> beta_in{dvec3(0.0)}, phi_in{dvec3(0.0)}, beta_out{dvec3(0.0)}, phi_out{dvec3(0.0)};
+  R sin_in = 1.0, sin_out = 1.0;  ///< sines of the angles with the edge
+  UtdFactorsOf<R> factors;
+  ComplexOf<R> matrices[4][4]{};  ///< [UtdTerm][row-major]; zero for a face that does not reflect
+  ComplexOf<R>* matrix(UtdTerm term) { return matrices[static_cast<uint32_t>(term)]; }
+  const ComplexOf<R>* matrix(UtdTerm term) const { return matrices[static_cast<uint32_t>(term)]; }
 };
+using EdgeTerms = EdgeTermsOf<double>;
 /// Returns the terms for the arguments of edge_dyadic(). `in_along` and `out_along` name faces along which
 /// the ray comes and goes: it then has exactly their angle. Such a face does not reflect in these terms.
 /// Throws ContractError if the angles with the edge differ `at_keller`.
-EdgeTerms edge_terms(const scene::Wedge& posed, const dvec3& in, const dvec3& out, double before_m,
-                     double after_m, const FacetWorld& world, const RadioSurfaces& surfaces,
-                     const SpecularShare& share = {}, const EdgeSides& sides = {},
-                     GrazedFace in_along = GrazedFace::none, GrazedFace out_along = GrazedFace::none,
-                     AtKeller at_keller = AtKeller::yes);
+template <typename R = double>
+EdgeTermsOf<R> edge_terms(const scene::Wedge& posed, const Vec3Of<R>& in, const Vec3Of<R>& out,
+                          const Given<R>& before_m, const Given<R>& after_m, const FacetWorld& world,
+                          const RadioSurfacesOf<Given<R>>& surfaces,
+                          const SpecularShareOf<Given<R>>& share = {}, const EdgeSides& sides = {},
+                          GrazedFace in_along = GrazedFace::none, GrazedFace out_along = GrazedFace::none,
+                          AtKeller at_keller = AtKeller::yes);
 
 /// Describes a face of a wedge as the wave in the exterior meets it.
 struct WedgeFace {
@@ -165,9 +179,11 @@ WedgeFace face_of(const scene::Wedge& posed, GrazedFace face, const FacetWorld& 
 /// of the incident field are left out.
 ///
 /// `sides` tells where the observer counts if it is too near to a boundary.
-EdgeDyadic edge_dyadic(const scene::Wedge& posed, const dvec3& in, const dvec3& out, double before_m,
-                       double after_m, const FacetWorld& world, const RadioSurfaces& surfaces,
-                       const SpecularShare& share = {}, const EdgeSides& sides = {});
+template <typename R = double>
+EdgeDyadicOf<R> edge_dyadic(const scene::Wedge& posed, const Vec3Of<R>& in, const Vec3Of<R>& out,
+                            const Given<R>& before_m, const Given<R>& after_m, const FacetWorld& world,
+                            const RadioSurfacesOf<Given<R>>& surfaces,
+                            const SpecularShareOf<Given<R>>& share = {}, const EdgeSides& sides = {});
 
 /// Tells near which boundaries of the edge (1: near, 0: not) a path lies that comes from `before`, bends at
 /// `at` and goes on to `after`: within `room_m` of the boundary at the nearer of these points, and within 1

@@ -22,16 +22,20 @@
 
 namespace greatx::rf {
 
-struct DoubleFresnel {
-  Complex value = 1.0;  ///< V
+template <typename R>
+struct DoubleFresnelOf {
+  ComplexOf<R> value = 1.0;  ///< V
   /// The same integral with the factor u, and with the factor v: -(1/2) dV/d(e^{j pi/4} w).
-  Complex moment_1 = 0.0, moment_2 = 0.0;
+  ComplexOf<R> moment_1 = 0.0, moment_2 = 0.0;
 };
+using DoubleFresnel = DoubleFresnelOf<double>;
 
 /// Returns V for w_1, w_2 >= 0. The correlation is given as rho and sqrt(1 - rho^2) > 0, of which a caller
 /// may know the second more accurately. The relative error of the value is below 2e-8 for |rho| <= 0.9999
 /// (`DoubleFresnel.*`), with 24 nodes.
-DoubleFresnel double_fresnel(double w_1, double w_2, double rho, double sine);
+template <typename R = double>
+DoubleFresnelOf<R> double_fresnel(const Given<R>& w_1, const Given<R>& w_2, const Given<R>& rho,
+                                  const Given<R>& sine);
 
 /// Returns erfcx(z) = e^{z^2} erfc(z) for any z whose result is finite. The relative error is below 1e-11 for
 /// Re z >= 0 (J. A. C. Weideman, "Computation of the complex error function", SIAM J. Numer. Anal. 31(5),

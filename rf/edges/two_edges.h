@@ -57,38 +57,51 @@
 namespace greatx::rf {
 
 /// Describes a path over two edges by its rays. Lengths are unfolded.
-struct TwoEdgeRays {
-  dvec3 in{0.0}, between{0.0}, out{0.0};  ///< unit
-  double before_m = 0.0, between_m = 0.0, after_m = 0.0;
+template <typename R>
+struct TwoEdgeRaysOf {
+  Vec3Of<R> in{dvec3(0.0)}, between{dvec3(0.0)}, out{dvec3(0.0)};  ///< unit
+  R before_m = 0.0, between_m = 0.0, after_m = 0.0;
   EdgeSides sides[2];
 };
+using TwoEdgeRays = TwoEdgeRaysOf<double>;
 
 /// Maps the field on (beta', phi') of the first edge to that on (beta, phi) of the second, as EdgeDyadic does
 /// for one: E(receiver) = e^{-jkR}/R * map . E_0.
-struct TwoEdgeMatrix {
-  dvec3 beta_in{0.0}, phi_in{0.0}, beta_out{0.0}, phi_out{0.0};
-  Complex matrix[4]{};
+template <typename R>
+struct TwoEdgeMatrixOf {
+  Vec3Of<R> beta_in{dvec3(0.0)}, phi_in{dvec3(0.0)}, beta_out{dvec3(0.0)}, phi_out{dvec3(0.0)};
+  ComplexOf<R> matrix[4]{};
 
-  FieldVector apply(const FieldVector& field) const {
-    return EdgeDyadic{beta_in, phi_in, beta_out, phi_out, {matrix[0], matrix[1], matrix[2], matrix[3]}}.apply(
-        field);
+  FieldVectorOf<R> apply(const FieldVectorOf<R>& field) const {
+    return EdgeDyadicOf<R>{beta_in, phi_in, beta_out, phi_out, {matrix[0], matrix[1], matrix[2], matrix[3]}}
+        .apply(field);
   }
 };
+using TwoEdgeMatrix = TwoEdgeMatrixOf<double>;
 
 /// Maps a field vector along the ray between the edges: through its walls and the air.
-using BetweenEdges = std::function<FieldVector(const FieldVector&)>;
+template <typename R>
+using BetweenEdgesOf = std::function<FieldVectorOf<R>(const FieldVectorOf<R>&)>;
+using BetweenEdges = BetweenEdgesOf<double>;
 
-TwoEdgeMatrix two_edge_matrix(const scene::Wedge& first, const scene::Wedge& second, const TwoEdgeRays& rays,
-                              const FacetWorld& world, const RadioSurfaces& surfaces,
-                              const SpecularShare& share = {}, const BetweenEdges& between = {});
+template <typename R = double>
+TwoEdgeMatrixOf<R> two_edge_matrix(const scene::Wedge& first, const scene::Wedge& second,
+                                   const TwoEdgeRaysOf<Given<R>>& rays, const FacetWorld& world,
+                                   const RadioSurfacesOf<Given<R>>& surfaces,
+                                   const SpecularShareOf<Given<R>>& share = {},
+                                   const BetweenEdgesOf<Given<R>>& between = {});
 
 /// Holds W = ground - 1 + slope theta of a common face, with ground = 2 F.
-struct GrazingReflection {
-  Complex ground = 0.0, slope = 0.0;
-  Complex steady() const { return ground - 1.0; }
+template <typename R>
+struct GrazingReflectionOf {
+  ComplexOf<R> ground = 0.0, slope = 0.0;
+  ComplexOf<R> steady() const { return ground - 1.0; }
 };
+using GrazingReflection = GrazingReflectionOf<double>;
 /// Returns W between two points on a surface that are `length_m` apart. `grazing_constant` is D; infinity: a
 /// soft surface.
-GrazingReflection grazing_reflection(Complex grazing_constant, double wave_number, double length_m);
+template <typename R = double>
+GrazingReflectionOf<R> grazing_reflection(const ComplexOf<R>& grazing_constant, const Given<R>& wave_number,
+                                          const Given<R>& length_m);
 
 }  // namespace greatx::rf

@@ -39,22 +39,29 @@ constexpr bool adds_pi(uint32_t term) {
 constexpr bool reflects(uint32_t term) { return term >= static_cast<uint32_t>(UtdTerm::reflection_n); }
 
 /// Returns N of a term: the number of whole turns of 2 n pi that is nearest to beta +- pi.
-double turns_of(uint32_t term, const UtdAngles& angles, double& beta_and_pi) {
-  const double beta = reflects(term) ? angles.observed + angles.incident : angles.observed - angles.incident;
+template <typename R>
+double turns_of(uint32_t term, const UtdAnglesOf<R>& angles, R& beta_and_pi) {
+  const R beta = reflects(term) ? angles.observed + angles.incident : angles.observed - angles.incident;
   beta_and_pi = adds_pi(term) ? beta + pi : beta - pi;
-  return std::nearbyint(beta_and_pi / (2.0 * angles.n * pi));
+  return std::nearbyint(value_of(beta_and_pi) / (2.0 * angles.n * pi));
 }
 
-void check(const UtdAngles& angles) {
+template <typename R>
+void check(const UtdAnglesOf<R>& angles) {
   const double wide = angles.n * pi + 1e-6;
   GREATX_CHECK(angles.n > 1.0 && angles.n <= 2.0, "an exterior of {} pi: expected (1, 2]", angles.n);
   GREATX_CHECK(angles.incident >= -1e-6 && angles.incident <= wide && angles.observed >= -1e-6 &&
                    angles.observed <= wide,
-               "angles {} and {} of an exterior of {}", angles.incident, angles.observed, angles.n * pi);
+               "angles {} and {} of an exterior of {}", value_of(angles.incident), value_of(angles.observed),
+               angles.n * pi);
 }
 
-/// Returns y cot y for |y| <= pi/2.
-double y_cot_y(double y) { return y == 0.0 ? 1.0 : y / std::tan(y); }
+/// Returns y cot y for |y| <= pi/2. Its slope at 0 is 0.
+template <typename R>
+R y_cot_y(const R& y) {
+  using std::tan;
+  return y == 0.0 ? R(1.0) : y / tan(y);
+}
 
 /// Largest angle past a boundary at which EdgeSides count, rad.
 constexpr double near_boundary_rad = 0.1;
@@ -64,19 +71,43 @@ int side_said(uint32_t term, const EdgeSides& sides) {
   return term == static_cast<uint32_t>(UtdTerm::reflection_0) ? sides.reflected_0 : sides.reflected_n;
 }
 
-UtdFactor factor_of(uint32_t term, double delta, double n, int said) {
-  const double half = 0.5 * delta, sine = std::abs(std::sin(half));
-  const double sinc = half == 0.0 ? 1.0 : sine / std::abs(half);
+/// Returns |x|. Its slope at 0 is that of the side that counts.
+double modulus_of(double x, bool) { return std::abs(x); }
+Dual modulus_of(const Dual& x, bool rises) { return x.value == 0.0 ? (rises ? x : -x) : abs(x); }
+
+template <typename R>
+UtdFactorOf<R> factor_of(uint32_t term, const R& delta, double n, int said) {
+  using std::abs, std::sin;
+  const R half = 0.5 * delta;
   // The boundary itself belongs to the lit side: delta > 0 for the terms with + pi, delta < 0 for the others.
-  const bool lit = said != 0 && std::abs(delta) < near_boundary_rad ? said > 0
-                   : delta == 0.0                                   ? true
-                                                                    : adds_pi(term) == (delta > 0.0);
-  return {0.5 * (lit ? -1.0 : 1.0) * sinc * y_cot_y(0.5 * delta / n), sine, lit};
+  const bool lit = said != 0 && abs(delta) < near_boundary_rad ? said > 0
+                   : delta == 0.0                              ? true
+                                                               : adds_pi(term) == (delta > 0.0);
+  const R sine = modulus_of(sin(half), adds_pi(term) == lit);
+  const R sinc = half == 0.0 ? R(1.0) : sine / abs(half);
+  return {0.5 * (lit ? -1.0 : 1.0) * sinc * y_cot_y<R>(0.5 * delta / n), sine, lit};
+}
+
+/// Returns erfcx'(z) = 2 z erfcx(z) - 2/sqrt(pi) for z = e^{j pi/4} w. Far out both terms cancel, and the
+/// asymptotic series (2/sqrt(pi)) sum (-1)^k (2k - 1)!!/(2 z^2)^k, k from 1 on, is exact to rounding.
+Complex erfcx_slope(double w, const Complex& value) {
+  constexpr double far = 7.0;
+  if (w < far) return 2.0 * std::polar(w, 0.25 * pi) * value - 2.0 / std::sqrt(pi);
+  const Complex step(0.0, 0.5 / (w * w));  // -1/(2 z^2)
+  Complex term = 1.0, sum = 0.0;
+  for (int k = 1; k < 24; ++k) {
+    const Complex next = (2.0 * k - 1.0) * step * term;
+    if (std::abs(next) >= std::abs(term)) break;
+    term = next;
+    sum += term;
+  }
+  return 2.0 / std::sqrt(pi) * sum;
 }
 
 }  // namespace
 
-Complex erfcx_on_diagonal(double w) {
+template <>
+Complex erfcx_on_diagonal<double>(const double& w) {
   GREATX_CHECK(w >= 0.0, "argument {}", w);
   static const MidpointRule rule = make_midpoint_rule();
   const double squared = w * w;  // z = e^{j pi/4} w, z^2 = j w^2
@@ -105,60 +136,79 @@ Complex erfcx_on_diagonal(double w) {
   return value;
 }
 
-UtdAngles utd_angles(double n, double incident, double observed) {
-  UtdAngles angles{n, incident, observed, {}};
+/// With z = e^{j pi/4} w, d erfcx(z)/dw = e^{j pi/4} (2 z erfcx(z) - 2/sqrt(pi)).
+template <>
+DualComplex erfcx_on_diagonal<Dual>(const Dual& w) {
+  static const Complex diagonal = std::polar(1.0, 0.25 * pi);
+  const Complex value = erfcx_on_diagonal<double>(w.value);
+  const Complex derivative = diagonal * erfcx_slope(w.value, value);
+  return {w.mapped(value.real(), derivative.real()), w.mapped(value.imag(), derivative.imag())};
+}
+
+template <typename R>
+UtdAnglesOf<R> utd_angles(double n, const Given<R>& incident, const Given<R>& observed) {
+  UtdAnglesOf<R> angles{n, incident, observed, {}};
   check(angles);
   for (uint32_t term = 0; term < 4; ++term) {
-    double sum = 0.0;
+    R sum = 0.0;
     const double turns = turns_of(term, angles, sum);
     angles.delta[term] = sum - 2.0 * n * pi * turns;
   }
   return angles;
 }
 
-UtdAngles utd_angles(double n, const dvec2& source, const dvec2& observer) {
+template <typename R>
+UtdAnglesOf<R> utd_angles(double n, const Vec2Of<R>& source, const Vec2Of<R>& observer) {
+  using std::abs, std::atan2;
   // Clamps the angle into [0, n pi]. A point on a face may be off it by its tolerance, which is a
   // considerable angle near the edge.
   const double wide = n * pi;
-  const auto from_face_0 = [&](const dvec2& direction) {
-    const double turned = std::atan2(direction.y, direction.x);
-    const double angle = turned < 0.5 * wide - pi ? turned + 2.0 * pi : turned;
-    GREATX_CHECK(angle > -0.1 && angle < wide + 0.1, "angle {} of an exterior of {}", angle, wide);
-    return std::min(std::max(angle, 0.0), wide);
+  const auto from_face_0 = [&](const Vec2Of<R>& direction) {
+    const R turned = atan2(direction.y, direction.x);
+    const R angle = turned < 0.5 * wide - pi ? turned + 2.0 * pi : turned;
+    GREATX_CHECK(angle > -0.1 && angle < wide + 0.1, "angle {} of an exterior of {}", value_of(angle), wide);
+    return std::min(std::max(angle, R(0.0)), R(wide));
   };
-  UtdAngles angles = utd_angles(n, from_face_0(source), from_face_0(observer));
+  UtdAnglesOf<R> angles = utd_angles<R>(n, from_face_0(source), from_face_0(observer));
   for (uint32_t term = 0; term < 4; ++term) {
-    if (std::abs(angles.delta[term]) > 1.0) continue;  // nothing cancels far from the boundary
-    double sum = 0.0;
+    if (abs(angles.delta[term]) > 1.0) continue;  // nothing cancels far from the boundary
+    R sum = 0.0;
     const double turned = 2.0 * n * pi * turns_of(term, angles, sum);
-    const dvec2 opposite(-source.x, reflects(term) ? source.y : -source.y);
+    const Vec2Of<R> opposite(-source.x, reflects(term) ? source.y : -source.y);
     const double c = std::cos(turned), s = std::sin(turned);
-    const dvec2 boundary =
-        turned == 0.0 ? opposite : dvec2(c * opposite.x - s * opposite.y, s * opposite.x + c * opposite.y);
+    const Vec2Of<R> boundary =
+        turned == 0.0 ? opposite
+                      : Vec2Of<R>(c * opposite.x - s * opposite.y, s * opposite.x + c * opposite.y);
     angles.delta[term] =
-        std::atan2(boundary.x * observer.y - boundary.y * observer.x, glm::dot(boundary, observer));
+        atan2(R(boundary.x * observer.y - boundary.y * observer.x), R(dot(boundary, observer)));
   }
   return angles;
 }
 
-bool UtdAngles::in_shadow() const {
-  const double beta = observed - incident;
-  const double past = beta > 0.0 ? delta[static_cast<uint32_t>(UtdTerm::shadow_0)]
-                                 : -delta[static_cast<uint32_t>(UtdTerm::shadow_n)];
+template <typename R>
+bool UtdAnglesOf<R>::in_shadow() const {
+  using std::abs;
+  const R beta = observed - incident;
+  const R past = beta > 0.0 ? delta[static_cast<uint32_t>(UtdTerm::shadow_0)]
+                            : -delta[static_cast<uint32_t>(UtdTerm::shadow_n)];
   // Near the boundary N = 0 and delta is exact; elsewhere the angles decide.
-  const double rough = std::abs(beta) - pi;
-  return std::abs(rough) < 0.5 ? past > 0.0 : rough > 0.0;
+  const R rough = abs(beta) - pi;
+  return abs(rough) < 0.5 ? past > 0.0 : rough > 0.0;
 }
 
-UtdFactors utd_factors(const UtdAngles& angles, const EdgeSides& sides) {
-  UtdFactors result;
+template <typename R>
+UtdFactorsOf<R> utd_factors(const UtdAnglesOf<Given<R>>& angles, const EdgeSides& sides) {
+  UtdFactorsOf<R> result;
   for (uint32_t term = 0; term < 4; ++term)
     result.factors[term] = factor_of(term, angles.delta[term], angles.n, side_said(term, sides));
   return result;
 }
 
-Complex utd_value(const UtdFactor& factor, double wave_number, double distance_m) {
-  return factor.amplitude * erfcx_on_diagonal(std::sqrt(2.0 * wave_number * distance_m) * factor.half_sine);
+template <typename R>
+ComplexOf<R> utd_value(const UtdFactorOf<Given<R>>& factor, const Given<R>& wave_number,
+                       const Given<R>& distance_m) {
+  using std::sqrt;
+  return factor.amplitude * erfcx_on_diagonal<R>(sqrt(2.0 * wave_number * distance_m) * factor.half_sine);
 }
 
 UtdTerms utd_terms(const UtdAngles& angles, double wave_number, double distance_m, const EdgeSides& sides) {
@@ -171,16 +221,32 @@ UtdTerms utd_terms(const UtdAngles& angles, double wave_number, double distance_
   return terms;
 }
 
-FaceAngles luebbers_angles(const UtdAngles& angles) {
+template <typename R>
+FaceAnglesOf<R> luebbers_angles(const UtdAnglesOf<Given<R>>& angles) {
+  using std::abs;
   const double wide = angles.n * pi;
-  double nearness = 0.5 * wide - angles.incident;
-  if (std::abs(nearness) < 1e-9) nearness = angles.observed - 0.5 * wide;
+  R nearness = 0.5 * wide - angles.incident;
+  if (abs(nearness) < 1e-9) nearness = angles.observed - 0.5 * wide;
   // The clamps only remove rounding: the nearer face is at most half of the exterior away, and the exterior
   // is at most 2 pi wide.
-  const auto incident_at = [](double incident) { return std::min(std::max(incident, 0.0), pi); };
-  const auto leaving_for = [](double observed) { return pi - std::min(std::max(observed, 0.0), 0.5 * pi); };
+  const auto incident_at = [](const R& incident) { return std::min(std::max(incident, R(0.0)), R(pi)); };
+  const auto leaving_for = [](const R& observed) -> R {
+    return pi - std::min(std::max(observed, R(0.0)), R(0.5 * pi));
+  };
   if (nearness >= 0.0) return {incident_at(angles.incident), leaving_for(wide - angles.observed), true};
   return {leaving_for(angles.observed), incident_at(wide - angles.incident), false};
 }
+
+// The templates of this file, for doubles and for dual numbers.
+#define GREATX_FOR(R)                                                                \
+  template struct UtdAnglesOf<R>;                                                    \
+  template UtdAnglesOf<R> utd_angles<R>(double, const R&, const R&);                 \
+  template UtdAnglesOf<R> utd_angles<R>(double, const Vec2Of<R>&, const Vec2Of<R>&); \
+  template UtdFactorsOf<R> utd_factors<R>(const UtdAnglesOf<R>&, const EdgeSides&);  \
+  template ComplexOf<R> utd_value<R>(const UtdFactorOf<R>&, const R&, const R&);     \
+  template FaceAnglesOf<R> luebbers_angles<R>(const UtdAnglesOf<R>&);
+GREATX_FOR(double)
+GREATX_FOR(Dual)
+#undef GREATX_FOR
 
 }  // namespace greatx::rf

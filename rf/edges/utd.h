@@ -14,6 +14,7 @@
 
 #include <complex>
 
+#include "core/dual.h"
 #include "core/vec.h"
 #include "rf/geometry/path.h"
 
@@ -22,7 +23,12 @@ namespace greatx::rf {
 /// Returns erfcx(e^{j pi/4} w) = e^{j w^2} erfc(e^{j pi/4} w) for w >= 0; 1 at w = 0. The relative error is
 /// below 1e-15 for every w (the midpoint rule of D. B. Hunter, T. Regan, Math. Comp. 26, 1972, with 12 nodes
 /// and the residue of its pole).
-Complex erfcx_on_diagonal(double w);
+template <typename R = double>
+ComplexOf<R> erfcx_on_diagonal(const Given<R>& w);
+template <>
+Complex erfcx_on_diagonal<double>(const double& w);
+template <>
+DualComplex erfcx_on_diagonal<Dual>(const Dual& w);
 
 /// Names the four terms of the coefficient. Each belongs to a boundary, where it compensates the jump of
 /// geometrical optics.
@@ -34,39 +40,50 @@ enum class UtdTerm : uint32_t {
 };
 
 /// Holds the angles of source and observer about the edge.
-struct UtdAngles {
-  double n = 2.0;         ///< the exterior is n pi wide, 1 < n <= 2
-  double incident = 0.0;  ///< phi', in [0, n pi]
-  double observed = 0.0;  ///< phi, in [0, n pi]
+template <typename R>
+struct UtdAnglesOf {
+  double n = 2.0;    ///< the exterior is n pi wide, 1 < n <= 2
+  R incident = 0.0;  ///< phi', in [0, n pi]
+  R observed = 0.0;  ///< phi, in [0, n pi]
   /// How far the observer is past the boundary of each UtdTerm: delta = phi -+ phi' +- pi - 2 n pi N, |delta|
   /// <= n pi.
-  double delta[4]{};
+  R delta[4]{};
 
   /// Tells whether the wedge hides the source. On the boundary the source is not hidden.
   bool in_shadow() const;
 };
+using UtdAngles = UtdAnglesOf<double>;
 /// Returns the angles for given phi' and phi. Near a boundary delta is accurate to the rounding of phi and
 /// phi', about 1e-15.
-UtdAngles utd_angles(double n, double incident, double observed);
+template <typename R = double>
+UtdAnglesOf<R> utd_angles(double n, const Given<R>& incident, const Given<R>& observed);
 /// Returns the angles for directions across the edge, as seen from the edge, in (tangent_0, normal_0), of any
 /// length above 0. Near a boundary delta is the atan2 between the observer and the boundary's own direction:
 /// exactly 0 if the observer is exactly on the boundary.
-UtdAngles utd_angles(double n, const dvec2& source, const dvec2& observer);
+template <typename R = double>
+UtdAnglesOf<R> utd_angles(double n, const Vec2Of<R>& source, const Vec2Of<R>& observer);
 
 /// Holds one term as d = amplitude erfcx(e^{j pi/4} sqrt(2 k L) half_sine).
-struct UtdFactor {
-  double amplitude = 0.0;  ///< -+ (1/2) sgn(delta) |sinc(delta/2)| (y cot y)|_{y = delta/2n}
-  double half_sine = 0.0;  ///< |sin(delta/2)|
-  bool lit = true;         ///< the observer is on the lit side of the term's boundary
+template <typename R>
+struct UtdFactorOf {
+  R amplitude = 0.0;  ///< -+ (1/2) sgn(delta) |sinc(delta/2)| (y cot y)|_{y = delta/2n}
+  R half_sine = 0.0;  ///< |sin(delta/2)|
+  bool lit = true;    ///< the observer is on the lit side of the term's boundary
 };
-struct UtdFactors {
-  UtdFactor factors[4];
-  const UtdFactor& operator[](UtdTerm term) const { return factors[static_cast<uint32_t>(term)]; }
+using UtdFactor = UtdFactorOf<double>;
+template <typename R>
+struct UtdFactorsOf {
+  UtdFactorOf<R> factors[4];
+  const UtdFactorOf<R>& operator[](UtdTerm term) const { return factors[static_cast<uint32_t>(term)]; }
 };
+using UtdFactors = UtdFactorsOf<double>;
 /// Returns d. `distance_m` is L of utd_terms().
-Complex utd_value(const UtdFactor& factor, double wave_number, double distance_m);
+template <typename R = double>
+ComplexOf<R> utd_value(const UtdFactorOf<Given<R>>& factor, const Given<R>& wave_number,
+                       const Given<R>& distance_m);
 /// Near a boundary, `sides` may say on which side of it the observer counts.
-UtdFactors utd_factors(const UtdAngles& angles, const EdgeSides& sides = {});
+template <typename R = double>
+UtdFactorsOf<R> utd_factors(const UtdAnglesOf<Given<R>>& angles, const EdgeSides& sides = {});
 
 /// Tells whether an observer goes deeper into the shadow of a term's boundary as phi grows (else as phi
 /// falls).
@@ -110,10 +127,13 @@ UtdTerms utd_terms(const UtdAngles& angles, double wave_number, double distance_
 /// normal has the cosine sin(beta_0) sin(angle). The choice is not reciprocal. It does not depend on which
 /// face is called 0: a source halfway between the faces counts as near the face that is farther from the
 /// observer.
-struct FaceAngles {
-  double face_0 = 0.0, face_n = 0.0;
+template <typename R>
+struct FaceAnglesOf {
+  R face_0 = 0.0, face_n = 0.0;
   bool near_0 = true;  ///< the source counts as near face 0
 };
-FaceAngles luebbers_angles(const UtdAngles& angles);
+using FaceAngles = FaceAnglesOf<double>;
+template <typename R = double>
+FaceAnglesOf<R> luebbers_angles(const UtdAnglesOf<Given<R>>& angles);
 
 }  // namespace greatx::rf

@@ -30,6 +30,7 @@
 
 #include <complex>
 
+#include "core/dual.h"
 #include "core/vec.h"
 
 namespace greatx::rf {
@@ -37,31 +38,40 @@ namespace greatx::rf {
 using Complex = std::complex<double>;
 
 /// Describes a ray from S to R by a point on it.
-struct UnfoldedRay {
-  dvec3 direction{0.0};                  ///< unit, from S to R
-  double before_m = 0.0, after_m = 0.0;  ///< distances of S and of R from the point, > 0
-  double length_m() const { return before_m + after_m; }
+template <typename Real>
+struct UnfoldedRayOf {
+  Vec3Of<Real> direction{dvec3(0.0)};  ///< unit, from S to R
+  Real before_m = 0.0, after_m = 0.0;  ///< distances of S and of R from the point, > 0
+  Real length_m() const { return before_m + after_m; }
 };
+using UnfoldedRay = UnfoldedRayOf<double>;
 
 /// A straight edge, or a part of its line, relative to the ray's point.
-struct EdgePiece {
-  dvec3 start{0.0};             ///< from the ray's point to the place t = 0 of the edge
-  dvec3 along{0.0};             ///< unit
-  double from = 0.0, to = 0.0;  ///< range of t, metres; may be infinite
+template <typename Real>
+struct EdgePieceOf {
+  Vec3Of<Real> start{dvec3(0.0)};  ///< from the ray's point to the place t = 0 of the edge
+  dvec3 along{0.0};                ///< unit
+  double from = 0.0, to = 0.0;     ///< range of t, metres; may be infinite
 };
+using EdgePiece = EdgePieceOf<double>;
 
 /// Returns E of the piece, for a surface on whose side of the edge the ray passes; for a ray that passes
 /// on the other side the contribution is -E. It is 1/2 as an endless edge approaches the ray, and tends to
 /// 1/(2 sqrt(pi k (L* - D))) far from the ray. The ends are at least half a wavelength from the edge: nearer,
 /// physical optics means nothing. The absolute error is below 1e-8 (`BoundaryWave.*`), and below 1e-10 of the
 /// integral of the modulus for a piece along which k L changes by less than 12.
-Complex boundary_wave(const UnfoldedRay& ray, const EdgePiece& piece, double wave_number);
+template <typename Real = double>
+ComplexOf<Real> boundary_wave(const UnfoldedRayOf<Given<Real>>& ray, const EdgePieceOf<Given<Real>>& piece,
+                              const Given<Real>& wave_number);
 
 /// Returns the place t of the edge's line where the path from S to R over the line is shortest (Keller's
 /// point).
-double keller_place(const UnfoldedRay& ray, const EdgePiece& piece);
+template <typename Real = double>
+Real keller_place(const UnfoldedRayOf<Given<Real>>& ray, const EdgePieceOf<Given<Real>>& piece);
 
 /// Returns L - D at the place t, without cancellation, metres.
-double excess_m(const UnfoldedRay& ray, const EdgePiece& piece, double t);
+template <typename Real = double>
+Real excess_m(const UnfoldedRayOf<Given<Real>>& ray, const EdgePieceOf<Given<Real>>& piece,
+              const Given<Real>& t);
 
 }  // namespace greatx::rf

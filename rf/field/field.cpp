@@ -20,36 +20,46 @@
 namespace greatx::rf {
 namespace {
 
-dvec3 mirrored(const dvec3& direction, const dvec3& normal) {
-  return direction - 2.0 * glm::dot(direction, normal) * normal;
+template <typename V>
+V mirrored(const V& direction, const dvec3& normal) {
+  return direction - 2.0 * dot(direction, normal) * normal;
 }
+
+/// A path in numbers of the type R.
+template <typename R>
+struct Places {
+  const GeometricPath& path;
+  std::span<const Vec3Of<R>> vertices;
+  R length_m;
+};
 
 bool bends(InteractionType type) {
   return type == InteractionType::diffraction || type == InteractionType::scattering;
 }
 
 /// Holds the straight runs of a path, from the transmitter on.
+template <typename R>
 struct Runs {
-  std::vector<size_t> vertices;   ///< [runs + 1] vertices where the path turns, with both ends
-  std::vector<dvec3> directions;  ///< [runs] unit vectors
+  std::vector<size_t> vertices;       ///< [runs + 1] vertices where the path turns, with both ends
+  std::vector<Vec3Of<R>> directions;  ///< [runs] unit vectors
   /// The runs that start at a diffraction or a scattering. They part the path: the longest run of each part
   /// gives its directions.
   size_t bends[2] = {0, 0};
   size_t bend_count = 0;
-  double parts_m[3] = {0.0, 0.0, 0.0};  ///< [bends + 1] unfolded lengths of the parts
+  R parts_m[3] = {0.0, 0.0, 0.0};  ///< [bends + 1] unfolded lengths of the parts
   /// Which bends are scatterings, from which the wave spreads anew.
   bool scatters[2] = {false, false};
   bool scattered() const { return scatters[0] || scatters[1]; }
   /// The length by which the field's amplitude falls: that of the path, or the product of the lengths between
   /// its ends and its scatterings, m^(scatterings + 1). A patch is a disk to the next one.
-  double spreading(const GeometricPath& path) const {
-    if (!scattered()) return path.length_m;
-    double product = 1.0, since_m = 0.0;
+  R spreading(const Places<R>& places) const {
+    if (!scattered()) return places.length_m;
+    R product = 1.0, since_m = 0.0;
     for (size_t part = 0; part <= bend_count; ++part) {
       since_m += parts_m[part];
       if (part < bend_count && !scatters[part]) continue;
       const bool to_another = part == 1 && bend_count == 2 && scatters[0];
-      product *= to_another ? between_patches_m(since_m, path.patch_area_m2) : since_m;
+      product *= to_another ? between_patches_m<R>(since_m, places.path.patch_area_m2) : since_m;
       since_m = 0.0;
     }
     return product;
@@ -57,17 +67,18 @@ struct Runs {
 };
 
 /// Sets the directions of the runs [first, last), which reflections join. Returns the sum of their lengths.
-double set_directions(const GeometricPath& path, const FacetWorld& world, size_t first, size_t last,
-                      Runs& runs) {
-  const auto along = [&](size_t run) {
-    return path.vertices[runs.vertices[run + 1]] - path.vertices[runs.vertices[run]];
+template <typename R>
+R set_directions(const Places<R>& places, const FacetWorld& world, size_t first, size_t last, Runs<R>& runs) {
+  const GeometricPath& path = places.path;
+  const auto along = [&](size_t run) -> Vec3Of<R> {
+    return places.vertices[runs.vertices[run + 1]] - places.vertices[runs.vertices[run]];
   };
   size_t longest = first;
-  double longest_m = 0.0, sum_m = 0.0;
+  R longest_m = 0.0, sum_m = 0.0;
   for (size_t run = first; run < last; ++run) {
-    const double length = glm::length(along(run));
-    sum_m += length;
-    if (length > longest_m) longest = run, longest_m = length;
+    const R of_run = length(along(run));
+    sum_m += of_run;
+    if (of_run > longest_m) longest = run, longest_m = of_run;
   }
   GREATX_CHECK(longest_m > 0.0, "path of {} interactions with no length before or after one",
                path.interactions.size());
@@ -82,8 +93,10 @@ double set_directions(const GeometricPath& path, const FacetWorld& world, size_t
   return sum_m;
 }
 
-Runs runs_of(const GeometricPath& path, const FacetWorld& world) {
-  Runs runs;
+template <typename R>
+Runs<R> runs_of(const Places<R>& places, const FacetWorld& world) {
+  const GeometricPath& path = places.path;
+  Runs<R> runs;
   runs.vertices.push_back(0);
   for (size_t i = 0; i < path.interactions.size(); ++i) {
     if (path.interactions[i].type == InteractionType::transmission) continue;
@@ -99,7 +112,7 @@ Runs runs_of(const GeometricPath& path, const FacetWorld& world) {
   runs.directions.resize(count);
   for (size_t part = 0, first = 0; part <= runs.bend_count; ++part) {
     const size_t last = part < runs.bend_count ? runs.bends[part] : count;
-    runs.parts_m[part] = set_directions(path, world, first, last, runs);
+    runs.parts_m[part] = set_directions(places, world, first, last, runs);
     first = last;
   }
   return runs;
@@ -107,130 +120,144 @@ Runs runs_of(const GeometricPath& path, const FacetWorld& world) {
 
 /// Holds the field of a path on its way: the images of the unit fields along theta and phi at the
 /// transmitter.
+template <typename R>
 class Travelling {
  public:
-  Travelling(const FieldModel& model, const dvec3& departure) : model_(model) {
-    columns_[0].add(1.0, theta_hat(departure));
-    columns_[1].add(1.0, phi_hat(departure));
-  }
-  const FieldVector& column(int index) const { return columns_[index]; }
+  using C = ComplexOf<R>;
+  using V = Vec3Of<R>;
 
-  void through_air(const dvec3& direction, double length_m) {
+  Travelling(const FieldModelOf<R>& model, const V& departure) : model_(model) {
+    columns_[0].add(1.0, theta_hat<R>(departure));
+    columns_[1].add(1.0, phi_hat<R>(departure));
+  }
+  const FieldVectorOf<R>& column(int index) const { return columns_[index]; }
+
+  void through_air(const V& direction, const R& length_m) {
     if (model_.attenuation.none()) return;
-    for (FieldVector& field : columns_) field = model_.attenuation.after(field, direction, length_m);
+    for (FieldVectorOf<R>& field : columns_) field = model_.attenuation.after(field, direction, length_m);
   }
 
-  void reflect(const PosedFacet& facet, const dvec3& in, const dvec3& out, Complex weight) {
-    const double towards = glm::dot(in, facet.normal), cosine = std::min(1.0, std::abs(towards));
-    const ReflectionCoefficients fresnel = model_.surfaces->reflect(facet.material, towards < 0.0, cosine);
-    const double kept = specular_share(facet.material, cosine);
-    const dvec3 s = s_axis(in, facet.normal);
-    map(s, glm::cross(in, s), s, glm::cross(out, s),
-        {kept * fresnel.r_te, Complex(0.0), Complex(0.0), kept * fresnel.r_tm});
-    if (weight == 1.0) return;
-    for (FieldVector& column : columns_) column.scale(weight);
+  void reflect(const PosedFacet& facet, const V& in, const V& out, const C& weight) {
+    using std::abs;
+    const R towards = dot(in, facet.normal), cosine = std::min(R(1.0), R(abs(towards)));
+    const ReflectionCoefficientsOf<R> fresnel =
+        model_.surfaces->reflect(facet.material, towards < 0.0, cosine);
+    const R kept = specular_share(facet.material, cosine);
+    const V s = s_axis(in, facet.normal);
+    map(s, cross(in, s), s, cross(out, s), {kept * fresnel.r_te, C(0.0), C(0.0), kept * fresnel.r_tm});
+    if (always_zero(C(weight - 1.0))) return;
+    for (FieldVectorOf<R>& column : columns_) column.scale(weight);
   }
 
-  void transmit(const PosedFacet& facet, const dvec3& direction) {
-    const double towards = glm::dot(direction, facet.normal), cosine = std::min(1.0, std::abs(towards));
-    const SheetTransmission sheet = model_.surfaces->transmit(facet.material, towards < 0.0, cosine);
-    const dvec3 s = s_axis(direction, facet.normal), p = glm::cross(direction, s);
-    map(s, p, s, p, {sheet.te, Complex(0.0), Complex(0.0), sheet.tm});
+  void transmit(const PosedFacet& facet, const V& direction) {
+    using std::abs;
+    const R towards = dot(direction, facet.normal), cosine = std::min(R(1.0), R(abs(towards)));
+    const SheetTransmissionOf<R> sheet = model_.surfaces->transmit(facet.material, towards < 0.0, cosine);
+    const V s = s_axis(direction, facet.normal), p = cross(direction, s);
+    map(s, p, s, p, {sheet.te, C(0.0), C(0.0), sheet.tm});
   }
 
-  void scatter(const PosedFacet& facet, const Interaction& patch, double area_m2, const dvec3& in,
-               const dvec3& out) {
+  void scatter(const PosedFacet& facet, const Interaction& patch, double area_m2, const V& in, const V& out) {
+    using std::abs, std::sqrt;
     GREATX_CHECK(area_m2 > 0.0, "patch {} of facet {} has {} m^2", patch.patch, patch.element, area_m2);
-    const double towards = glm::dot(in, facet.normal), cosine = std::min(1.0, std::abs(towards));
+    const R towards = dot(in, facet.normal), cosine = std::min(R(1.0), R(abs(towards)));
     const dvec3 normal = towards < 0.0 ? facet.normal : -facet.normal;
-    const ReflectionCoefficients fresnel = model_.surfaces->reflect(facet.material, towards < 0.0, cosine);
-    const DiffuseScattering& surface = model_.surfaces->surface(facet.material).scattering;
-    const double amplitude =
-        surface.coefficient * std::sqrt(scattering_pattern(surface, in, out, normal) * cosine * area_m2);
-    const ScatteringMatrix m =
-        scattering_matrix(surface.cross_polarization, model_.effects.seed, patch.element, patch.patch);
-    const Complex te = amplitude * fresnel.r_te, tm = amplitude * fresnel.r_tm;
-    const dvec3 s_in = s_axis(in, normal), s_out = s_axis(out, normal);
-    map(s_in, glm::cross(in, s_in), s_out, glm::cross(out, s_out),
-        {m.ss * te, m.sp * tm, m.ps * te, m.pp * tm});
+    const ReflectionCoefficientsOf<R> fresnel =
+        model_.surfaces->reflect(facet.material, towards < 0.0, cosine);
+    const DiffuseScatteringOf<R>& surface = model_.surfaces->surface(facet.material).scattering;
+    const R amplitude =
+        surface.coefficient * sqrt(scattering_pattern<R>(surface, in, out, normal) * cosine * area_m2);
+    const ScatteringMatrixOf<R> m =
+        scattering_matrix<R>(surface.cross_polarization, model_.effects.seed, patch.element, patch.patch);
+    const C te = amplitude * fresnel.r_te, tm = amplitude * fresnel.r_tm;
+    const V s_in = s_axis(in, normal), s_out = s_axis(out, normal);
+    map(s_in, cross(in, s_in), s_out, cross(out, s_out), {m.ss * te, m.sp * tm, m.ps * te, m.pp * tm});
   }
 
   /// The results spread by the whole length from there on (edge_dyadic).
-  void diffract(const scene::Wedge& wedge, const dvec3& in, const dvec3& out, double before_m, double after_m,
+  void diffract(const scene::Wedge& wedge, const V& in, const V& out, const R& before_m, const R& after_m,
                 const EdgeSides& sides) {
-    const auto share = [this](uint32_t material, double cosine) { return specular_share(material, cosine); };
-    const EdgeDyadic edge =
-        edge_dyadic(wedge, in, out, before_m, after_m, *model_.world, *model_.surfaces, share, sides);
-    for (FieldVector& field : columns_) field = edge.apply(field);
+    const auto share = [this](uint32_t material, const R& cosine) {
+      return specular_share(material, cosine);
+    };
+    const EdgeDyadicOf<R> edge =
+        edge_dyadic<R>(wedge, in, out, before_m, after_m, *model_.world, *model_.surfaces, share, sides);
+    for (FieldVectorOf<R>& field : columns_) field = edge.apply(field);
   }
 
-  void diffract_at(const scene::Wedge& wedge, Corner corner, const dvec3& in, const dvec3& out,
-                   double before_m, double after_m, KellerSide side) {
-    const auto share = [this](uint32_t material, double cosine) { return specular_share(material, cosine); };
-    const EdgeDyadic end = corner_dyadic(wedge, corner, in, out, before_m, after_m, *model_.world,
-                                         *model_.surfaces, share, side);
-    for (FieldVector& field : columns_) field = end.apply(field);
+  void diffract_at(const scene::Wedge& wedge, Corner corner, const V& in, const V& out, const R& before_m,
+                   const R& after_m, KellerSide side) {
+    const auto share = [this](uint32_t material, const R& cosine) {
+      return specular_share(material, cosine);
+    };
+    const EdgeDyadicOf<R> end = corner_dyadic<R>(wedge, corner, in, out, before_m, after_m, *model_.world,
+                                                 *model_.surfaces, share, side);
+    for (FieldVectorOf<R>& field : columns_) field = end.apply(field);
   }
 
   /// Arrives at the first of two edges. What lies between them acts on two unit fields until the second.
-  void leave_first_edge(const dvec3& between) {
+  void leave_first_edge(const V& between) {
     at_first_edge_[0] = columns_[0], at_first_edge_[1] = columns_[1];
-    axes_[0] = theta_hat(between), axes_[1] = phi_hat(between);
+    axes_[0] = theta_hat<R>(between), axes_[1] = phi_hat<R>(between);
     for (int i = 0; i < 2; ++i) {
       columns_[i] = {};
       columns_[i].add(1.0, axes_[i]);
     }
   }
-  void diffract_at_both(const scene::Wedge& first, const scene::Wedge& second, const TwoEdgeRays& rays) {
-    const auto share = [this](uint32_t material, double cosine) { return specular_share(material, cosine); };
-    const auto between = [this](const FieldVector& field) {
-      FieldVector sum;
+  void diffract_at_both(const scene::Wedge& first, const scene::Wedge& second, const TwoEdgeRaysOf<R>& rays) {
+    const auto share = [this](uint32_t material, const R& cosine) {
+      return specular_share(material, cosine);
+    };
+    const auto between = [this](const FieldVectorOf<R>& field) {
+      FieldVectorOf<R> sum;
       for (int i = 0; i < 2; ++i) {
-        FieldVector part = columns_[i];
+        FieldVectorOf<R> part = columns_[i];
         part.scale(field.along(axes_[i]));
         sum.re += part.re, sum.im += part.im;
       }
       return sum;
     };
-    const TwoEdgeMatrix edges =
-        two_edge_matrix(first, second, rays, *model_.world, *model_.surfaces, share, between);
-    FieldVector behind[2];
+    const TwoEdgeMatrixOf<R> edges =
+        two_edge_matrix<R>(first, second, rays, *model_.world, *model_.surfaces, share, between);
+    FieldVectorOf<R> behind[2];
     for (int i = 0; i < 2; ++i) behind[i] = edges.apply(at_first_edge_[i]);
     columns_[0] = behind[0], columns_[1] = behind[1];
   }
 
  private:
   /// Maps components on (s_in, p_in) to components on (s_out, p_out) by the matrix [ss sp; ps pp], out by in.
-  void map(const dvec3& s_in, const dvec3& p_in, const dvec3& s_out, const dvec3& p_out,
-           const ScatteringMatrix& by) {
-    for (FieldVector& field : columns_) {
-      const Complex s = field.along(s_in), p = field.along(p_in);
+  void map(const V& s_in, const V& p_in, const V& s_out, const V& p_out, const ScatteringMatrixOf<R>& by) {
+    for (FieldVectorOf<R>& field : columns_) {
+      const C s = field.along(s_in), p = field.along(p_in);
       field = {};
       field.add(by.ss * s + by.sp * p, s_out);
       field.add(by.ps * s + by.pp * p, p_out);
     }
   }
 
-  double specular_share(uint32_t material, double cosine) const {
+  R specular_share(uint32_t material, const R& cosine) const {
     const FieldEffects& effects = model_.effects;
-    return rf::specular_share(model_.surfaces->surface(material), cosine, model_.surfaces->wavelength_m(),
-                              effects.roughness ? std::optional(effects.roughness_model) : std::nullopt,
-                              effects.scattering);
+    return rf::specular_share<R>(model_.surfaces->surface(material), cosine, model_.surfaces->wavelength_m(),
+                                 effects.roughness ? std::optional(effects.roughness_model) : std::nullopt,
+                                 effects.scattering);
   }
 
-  const FieldModel& model_;
-  FieldVector columns_[2];
-  FieldVector at_first_edge_[2];
-  dvec3 axes_[2];  ///< of the ray between two edges
+  const FieldModelOf<R>& model_;
+  FieldVectorOf<R> columns_[2];
+  FieldVectorOf<R> at_first_edge_[2];
+  V axes_[2];  ///< of the ray between two edges
 };
 
-double foliage_amplitude(const FieldModel& model, double depth_m) {
+template <typename R>
+R foliage_amplitude(const FieldModelOf<R>& model, double depth_m) {
+  using std::pow;
   if (!model.effects.foliage || depth_m == 0.0) return 1.0;
   GREATX_CHECK(model.foliage.has_value(), "{} m of foliage that the field model does not know", depth_m);
-  return std::pow(10.0, -foliage_db(*model.foliage, model.surfaces->carrier_hz(), depth_m) / 20.0);
+  return pow(10.0, -foliage_db<R>(*model.foliage, model.surfaces->carrier_hz(), depth_m) / 20.0);
 }
 
-const scene::Wedge& wedge_of(const FieldModel& model, const Interaction& interaction) {
+template <typename R>
+const scene::Wedge& wedge_of(const FieldModelOf<R>& model, const Interaction& interaction) {
   GREATX_CHECK(interaction.element < model.wedges.size(), "wedge {} of {}", interaction.element,
                model.wedges.size());
   return model.wedges[interaction.element];
@@ -238,23 +265,28 @@ const scene::Wedge& wedge_of(const FieldModel& model, const Interaction& interac
 
 /// Returns the weight of the reflection at interaction `i`, between the runs `in` and `out`. The reflection's
 /// part of the path, between bends and ends, is `part_m` long and has `before_m` before the reflection.
-Complex reflection_weight(const GeometricPath& path, const FieldModel& model, size_t i, const dvec3& in,
-                          const dvec3& out, double before_m, double part_m) {
+template <typename R>
+ComplexOf<R> reflection_weight(const Places<R>& places, const FieldModelOf<R>& model, size_t i,
+                               const Vec3Of<R>& in, const Vec3Of<R>& out, const R& before_m,
+                               const R& part_m) {
   if (model.reflectors == nullptr) return 1.0;
-  const ReflectionSight sight{path.vertices[i + 1], in, out, before_m, part_m - before_m};
-  return model.reflectors->weight(*model.world, path.interactions[i].element, sight,
-                                  2.0 * pi / model.surfaces->wavelength_m(), path.edges_diffract >> i & 1u);
+  const GeometricPath& path = places.path;
+  const ReflectionSightOf<R> sight{places.vertices[i + 1], in, out, before_m, part_m - before_m};
+  return model.reflectors->template weight<R>(*model.world, path.interactions[i].element, sight,
+                                              2.0 * pi / model.surfaces->wavelength_m(),
+                                              path.edges_diffract >> i & 1u);
 }
 
 /// Takes the field along a diffraction, the bend `bend` of the path.
-void diffract(const GeometricPath& path, const FieldModel& model, const Runs& runs, size_t bend,
-              Travelling& field) {
+template <typename R>
+void diffract(const GeometricPath& path, const FieldModelOf<R>& model, const Runs<R>& runs, size_t bend,
+              Travelling<R>& field) {
   const auto wedge = [&](size_t which) {
     const Interaction& interaction = path.interactions[runs.vertices[runs.bends[which]] - 1];
     return posed(wedge_of(model, interaction), *model.world);
   };
   const auto before = [&](size_t which) { return runs.directions[runs.bends[which] - 1]; };
-  const dvec3& out = runs.directions[runs.bends[bend]];
+  const Vec3Of<R>& out = runs.directions[runs.bends[bend]];
   const uint32_t corner = path.interactions[runs.vertices[runs.bends[bend]] - 1].patch;
   if (corner != 0)
     return field.diffract_at(wedge(bend), static_cast<Corner>(corner), before(bend), out, runs.parts_m[bend],
@@ -274,23 +306,26 @@ void diffract(const GeometricPath& path, const FieldModel& model, const Runs& ru
 }
 
 /// Takes the field along the path, through the air and every interaction.
-void travel(const GeometricPath& path, const FieldModel& model, const Runs& runs, Travelling& field) {
+template <typename R>
+void travel(const Places<R>& places, const FieldModelOf<R>& model, const Runs<R>& runs,
+            Travelling<R>& field) {
+  const GeometricPath& path = places.path;
   const FacetWorld& world = *model.world;
   size_t run = 0, part = 0;
   double patch_m2 = path.patch_area_m2;
-  double before_m = 0.0;  // since the transmitter or the last bend
+  R before_m = 0.0;  // since the transmitter or the last bend
   for (size_t i = 0; i <= path.interactions.size(); ++i) {
-    const dvec3& in = runs.directions[run];
-    const double segment_m = glm::length(path.vertices[i + 1] - path.vertices[i]);
+    const Vec3Of<R>& in = runs.directions[run];
+    const R segment_m = length(places.vertices[i + 1] - places.vertices[i]);
     before_m += segment_m;
     field.through_air(in, segment_m);
     if (i == path.interactions.size()) break;
     const Interaction& interaction = path.interactions[i];
-    const dvec3& out = interaction.type == InteractionType::transmission ? in : runs.directions[++run];
+    const Vec3Of<R>& out = interaction.type == InteractionType::transmission ? in : runs.directions[++run];
     switch (interaction.type) {
       case InteractionType::reflection:
         field.reflect(world.facet(interaction.element), in, out,
-                      reflection_weight(path, model, i, in, out, before_m, runs.parts_m[part]));
+                      reflection_weight<R>(places, model, i, in, out, before_m, runs.parts_m[part]));
         break;
       case InteractionType::transmission:
         field.transmit(world.facet(interaction.element), in);
@@ -311,15 +346,16 @@ void travel(const GeometricPath& path, const FieldModel& model, const Runs& runs
 }
 
 /// Sets `transfer` to the images of the two unit fields at the transmitter, including the spreading.
-void set_transfer(const GeometricPath& path, const FieldModel& model, const Runs& runs,
-                  Complex (&transfer)[4]) {
-  Travelling field(model, runs.directions.front());
-  double spreading = 1.0 / runs.spreading(path);
+template <typename R>
+void set_transfer(const Places<R>& places, const FieldModelOf<R>& model, const Runs<R>& runs,
+                  ComplexOf<R> (&transfer)[4]) {
+  Travelling<R> field(model, runs.directions.front());
+  R spreading = 1.0 / runs.spreading(places);
   if constexpr (all_effects_built) {
-    travel(path, model, runs, field);
-    spreading *= foliage_amplitude(model, path.foliage_m);
+    travel(places, model, runs, field);
+    spreading *= foliage_amplitude(model, places.path.foliage_m);
   }
-  const dvec3 arrival = -runs.directions.back(), theta = theta_hat(arrival), phi = phi_hat(arrival);
+  const Vec3Of<R> arrival = -runs.directions.back(), theta = theta_hat<R>(arrival), phi = phi_hat<R>(arrival);
   for (int column = 0; column < 2; ++column) {
     transfer[column] = field.column(column).along(theta) * spreading;
     transfer[2 + column] = field.column(column).along(phi) * spreading;
@@ -340,19 +376,31 @@ GeometricPath reversed(GeometricPath path) {
   return path;
 }
 
+/// Returns the velocity of a facet's body at a place that the facet, or its edge, has in common with it.
+dvec3 velocity_at(const FacetWorld& world, uint32_t facet, const dvec3& place) {
+  return world.velocity(facet, place);
+}
+Vec3Of<Dual> velocity_at(const FacetWorld& world, uint32_t facet, const Vec3Of<Dual>& place) {
+  const dvec3 at = value_of(place);
+  return world.velocity(facet, at) +
+         cross(world.motion(world.facet(facet).body).angular_velocity, place - at);
+}
+
 /// Returns the rate at which the path shortens, m/s: v_0 . k_0 - v_{n+1} . k_n + sum v_i . (k_i - k_{i-1}).
-double closing_rate(const GeometricPath& path, const FieldModel& model, const Runs& runs,
-                    const dvec3& transmitter_velocity, const dvec3& receiver_velocity) {
-  double rate = glm::dot(transmitter_velocity, runs.directions.front()) -
-                glm::dot(receiver_velocity, runs.directions.back());
+template <typename R>
+R closing_rate(const Places<R>& places, const FieldModelOf<R>& model, const Runs<R>& runs,
+               const Vec3Of<R>& transmitter_velocity, const Vec3Of<R>& receiver_velocity) {
+  const GeometricPath& path = places.path;
+  R rate =
+      dot(transmitter_velocity, runs.directions.front()) - dot(receiver_velocity, runs.directions.back());
   for (size_t run = 1; run < runs.directions.size(); ++run) {
     const size_t vertex = runs.vertices[run];
     const Interaction& interaction = path.interactions[vertex - 1];
     const uint32_t facet = interaction.type == InteractionType::diffraction
                                ? wedge_of(model, interaction).facet_0
                                : interaction.element;
-    rate += glm::dot(model.world->velocity(facet, path.vertices[vertex]),
-                     runs.directions[run] - runs.directions[run - 1]);
+    rate += dot(velocity_at(*model.world, facet, places.vertices[vertex]),
+                runs.directions[run] - runs.directions[run - 1]);
   }
   return rate;
 }
@@ -363,15 +411,58 @@ void check(const GeometricPath& path) {
                path.length_m);
 }
 
+/// Calls `use` with the path as its wave takes it.
+template <typename R, typename Use>
+void with_wave(const GeometricPath& geometry, std::span<const Vec3Of<R>> vertices, const R& length_m,
+               const Use& use) {
+  check(geometry);
+  if (!geometry.from_receiver) return use(Places<R>{geometry, vertices, length_m});
+  const GeometricPath wave = reversed(geometry);
+  const std::vector<Vec3Of<R>> places(vertices.rbegin(), vertices.rend());
+  use(Places<R>{wave, places, length_m});
+}
+
 }  // namespace
+
+template <typename R>
+PathValuesOf<R> path_values(const GeometricPath& geometry, const PathPlacesOf<R>& given,
+                            const FieldModelOf<R>& model) {
+  PathValuesOf<R> values;
+  const bool back = geometry.from_receiver;
+  with_wave<R>(geometry, given.vertices, given.length_m, [&](const Places<R>& places) {
+    const Runs<R> runs = runs_of(places, *model.world);
+    values.doppler_hz =
+        closing_rate(places, model, runs, back ? given.receiver_velocity : given.transmitter_velocity,
+                     back ? given.transmitter_velocity : given.receiver_velocity) /
+        model.surfaces->wavelength_m();
+    values.departure = runs.directions.front();
+    values.arrival = -runs.directions.back();
+    set_transfer(places, model, runs, values.transfer);
+  });
+  if (!back) return values;
+  std::swap(values.departure, values.arrival);
+  std::swap(values.transfer[1], values.transfer[2]);
+  return values;
+}
+template PathValuesOf<double> path_values<double>(const GeometricPath&, const PathPlacesOf<double>&,
+                                                  const FieldModel&);
+template PathValuesOf<Dual> path_values<Dual>(const GeometricPath&, const PathPlacesOf<Dual>&,
+                                              const FieldModelOf<Dual>&);
+
+PathDirections path_directions(const GeometricPath& geometry, const FacetWorld& world) {
+  PathDirections directions;
+  with_wave<double>(geometry, geometry.vertices, geometry.length_m, [&](const Places<double>& places) {
+    const Runs<double> runs = runs_of(places, world);
+    directions = {runs.directions.front(), -runs.directions.back()};
+  });
+  if (geometry.from_receiver) std::swap(directions.departure, directions.arrival);
+  return directions;
+}
 
 Path path_field(const GeometricPath& geometry, const FieldModel& model, const dvec3& transmitter_velocity,
                 const dvec3& receiver_velocity) {
-  check(geometry);
-  const bool back = geometry.from_receiver;
-  const GeometricPath turned = back ? reversed(geometry) : GeometricPath{};
-  const GeometricPath& wave = back ? turned : geometry;
-  const Runs runs = runs_of(wave, *model.world);
+  const PathValuesOf<double> values = path_values<double>(
+      geometry, {geometry.vertices, geometry.length_m, transmitter_velocity, receiver_velocity}, model);
   Path path;
   path.interactions = geometry.interactions;
   path.vertices = geometry.vertices;
@@ -381,30 +472,23 @@ Path path_field(const GeometricPath& geometry, const FieldModel& model, const dv
   path.edges_diffract = geometry.edges_diffract;
   path.edge_sides = geometry.edge_sides;
   path.keller_side = geometry.keller_side;
-  path.from_receiver = back;
+  path.from_receiver = geometry.from_receiver;
   path.stratum = geometry.stratum;
   path.second_patch_area_m2 = geometry.second_patch_area_m2;
   path.draw_variance = geometry.draw_variance;
   path.delay_s = geometry.length_m / speed_of_light;
-  path.doppler_hz = closing_rate(wave, model, runs, back ? receiver_velocity : transmitter_velocity,
-                                 back ? transmitter_velocity : receiver_velocity) /
-                    model.surfaces->wavelength_m();
-  path.departure = runs.directions.front();
-  path.arrival = -runs.directions.back();
-  set_transfer(wave, model, runs, path.transfer);
-  if (!back) return path;
-  std::swap(path.departure, path.arrival);
-  std::swap(path.transfer[1], path.transfer[2]);
+  path.doppler_hz = values.doppler_hz;
+  path.departure = values.departure;
+  path.arrival = values.arrival;
+  std::copy_n(values.transfer, 4, path.transfer);
   return path;
 }
 
 void path_transfer(const GeometricPath& geometry, const FieldModel& model, Complex (&transfer)[4]) {
-  check(geometry);
-  if (!geometry.from_receiver)
-    return set_transfer(geometry, model, runs_of(geometry, *model.world), transfer);
-  const GeometricPath wave = reversed(geometry);
-  set_transfer(wave, model, runs_of(wave, *model.world), transfer);
-  std::swap(transfer[1], transfer[2]);
+  with_wave<double>(geometry, geometry.vertices, geometry.length_m, [&](const Places<double>& places) {
+    set_transfer(places, model, runs_of(places, *model.world), transfer);
+  });
+  if (geometry.from_receiver) std::swap(transfer[1], transfer[2]);
 }
 
 }  // namespace greatx::rf

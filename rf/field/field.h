@@ -31,16 +31,18 @@ struct FieldEffects {
 };
 
 /// Holds the models that act on the fields of a channel's paths, at one frequency. All paths share them.
-struct FieldModel {
+template <typename R>
+struct FieldModelOf {
   const FacetWorld* world = nullptr;  ///< the world in which the paths were solved
-  const RadioSurfaces* surfaces = nullptr;
+  const RadioSurfacesOf<R>* surfaces = nullptr;
   FieldEffects effects;
   std::span<const scene::Wedge> wedges;  ///< wedges that may diffract paths
-  PathAttenuation attenuation;           ///< of the air at the surfaces' carrier, for the effects that are on
+  PathAttenuationOf<R> attenuation;      ///< of the air at the surfaces' carrier, for the effects that are on
   /// The foliage of GeometricPath::foliage_m. It must have a value if effects.foliage is on.
   std::optional<scene::Foliage> foliage;
   const FiniteReflectors* reflectors = nullptr;  ///< set if and only if effects.finite_reflectors is on
 };
+using FieldModel = FieldModelOf<double>;
 
 /// Computes the field along one path with any number of reflections and transmissions, and at most two
 /// scatterings and diffractions, of which two diffractions follow one right after the other. Velocities are
@@ -80,6 +82,34 @@ struct FieldModel {
 ///   doppler t}. A transmission adds nothing, whatever the motion of its wall.
 Path path_field(const GeometricPath& geometry, const FieldModel& model, const dvec3& transmitter_velocity,
                 const dvec3& receiver_velocity);
+
+/// Returns Path::departure and Path::arrival alone.
+struct PathDirections {
+  dvec3 departure{0.0}, arrival{0.0};
+};
+PathDirections path_directions(const GeometricPath& geometry, const FacetWorld& world);
+
+/// Holds what of a path depends on the positions and velocities of its ends.
+template <typename R>
+struct PathPlacesOf {
+  std::span<const Vec3Of<R>> vertices;  ///< as GeometricPath::vertices
+  R length_m = 0.0;                     ///< as GeometricPath::length_m
+  Vec3Of<R> transmitter_velocity{dvec3(0.0)}, receiver_velocity{dvec3(0.0)};
+};
+
+/// Holds what path_field() computes of a path; the members are those of Path.
+template <typename R>
+struct PathValuesOf {
+  ComplexOf<R> transfer[4]{};
+  R doppler_hz = 0.0;
+  Vec3Of<R> departure{dvec3(0.0)}, arrival{dvec3(0.0)};
+};
+
+/// Computes the field of path_field() for R = double or Dual. `geometry` says what the path does; its places
+/// are those of `places`.
+template <typename R>
+PathValuesOf<R> path_values(const GeometricPath& geometry, const PathPlacesOf<R>& places,
+                            const FieldModelOf<R>& model);
 
 /// Computes Path::transfer alone with another model of the same world, as for another frequency.
 void path_transfer(const GeometricPath& geometry, const FieldModel& model, Complex (&transfer)[4]);

@@ -28,9 +28,10 @@ scene::WedgeOptions edge_options() {
 bool hard(FacetKind kind) { return kind == FacetKind::opaque || kind == FacetKind::wall; }
 
 /// Returns 1 below full_phase, 0 above no_phase, and a smooth step between.
-double taper(double phase) {
+template <typename Real>
+Real taper(const Real& phase) {
   const double range = FiniteReflectors::no_phase - FiniteReflectors::full_phase;
-  const double x = std::clamp((FiniteReflectors::no_phase - phase) / range, 0.0, 1.0);
+  const Real x = std::clamp(Real((FiniteReflectors::no_phase - phase) / range), Real(0.0), Real(1.0));
   return x * x * (3.0 - 2.0 * x);
 }
 
@@ -41,6 +42,11 @@ double way_in(const dvec3& from_start, const dvec3& along, const dvec3& inward, 
   const double height = glm::dot(from_start, inward), place = glm::dot(from_start, along);
   if (height >= inside_m || height < -weld_m || place < -weld_m || place > length_m + weld_m) return 0.0;
   return inside_m - height;
+}
+
+template <typename V>
+auto distance_of(const PosedFacet& facet, const V& point) {
+  return dot(facet.normal, point) - facet.offset;
 }
 
 /// Tells whether a surface ends, or bends away from where the normal of its facet points.
@@ -63,39 +69,43 @@ double area_of(const scene::Scene& scene, const scene::Facet& facet) {
 }  // namespace
 
 /// The ends of a reflection as one facet mirrors them.
+template <typename Real>
 struct FiniteReflectors::Side {
-  dvec3 near_end{0.0}, far_end{0.0};  ///< as the facet sees them, on one side of it
-  dvec3 point{0.0};                   ///< where the ray meets the facet's plane
-  UnfoldedRay ray;                    ///< from the mirrored near end to the far end
-  bool lit = false;                   ///< both ends are on the same side
-  double front = 1.0;                 ///< +1: on the side of the facet's normal
+  Vec3Of<Real> near_end{dvec3(0.0)}, far_end{dvec3(0.0)};  ///< as the facet sees them, on one side of it
+  Vec3Of<Real> point{dvec3(0.0)};                          ///< where the ray meets the facet's plane
+  UnfoldedRayOf<Real> ray;                                 ///< from the mirrored near end to the far end
+  bool lit = false;                                        ///< both ends are on the same side
+  double front = 1.0;                                      ///< +1: on the side of the facet's normal
 };
 
 /// Holds the facets around a reflection that are pieces of the same surface.
+template <typename Real>
 struct FiniteReflectors::Neighbours {
   struct Piece {
     uint32_t facet;
-    double share;  ///< 0 to 1, by taper()
-    Side side;
+    Real share;  ///< 0 to 1, by taper()
+    Side<Real> side;
   };
   std::vector<Piece> pieces;  ///< those that are lit; without the facet of the reflection itself
   std::vector<uint32_t> known;
   uint32_t reflecting = 1;  ///< facets with a reflection point of their own
   bool edges_diffract = false;
-  double length_m = 0.0;  ///< D of the reflection
+  Real length_m = 0.0;  ///< D of the reflection
 
-  static Side side_of(const PosedFacet& facet, const dvec3& near_end, const dvec3& far_end) {
-    const double from = facet.distance(near_end), to = facet.distance(far_end);
-    Side side;
+  static Side<Real> side_of(const PosedFacet& facet, const Vec3Of<Real>& near_end,
+                            const Vec3Of<Real>& far_end) {
+    const Real from = distance_of(facet, near_end), to = distance_of(facet, far_end);
+    Side<Real> side;
     side.near_end = near_end;
     side.far_end = far_end;
-    side.lit = from * to > 0.0 && std::min(std::abs(from), std::abs(to)) > facet.tolerance_m;
+    side.lit =
+        from * to > 0.0 && std::min(std::abs(value_of(from)), std::abs(value_of(to))) > facet.tolerance_m;
     side.front = from > 0.0 ? 1.0 : -1.0;
     if (!side.lit) return side;
-    const dvec3 image = near_end - 2.0 * from * facet.normal, ray = far_end - image;
-    const double length = glm::length(ray), share = from / (from + to);
+    const Vec3Of<Real> image = near_end - 2.0 * from * facet.normal, ray = far_end - image;
+    const Real whole = length(ray), share = from / (from + to);
     side.point = image + share * ray;
-    side.ray = {ray / length, share * length, (1.0 - share) * length};
+    side.ray = {ray / whole, share * whole, (1.0 - share) * whole};
     return side;
   }
 };
@@ -162,33 +172,36 @@ FiniteReflectors::Edge FiniteReflectors::posed(const Edge& edge, const FacetWorl
 
 /// Returns the sum of the boundary waves of a facet's edges. A ray that meets the facet's plane outside of an
 /// edge takes its wave with the other sign.
-Complex FiniteReflectors::boundary(const FacetWorld& world, uint32_t facet, const Side& side,
-                                   double wave_number, bool edges_diffract) const {
-  Complex sum = 0.0;
+template <typename Real>
+ComplexOf<Real> FiniteReflectors::boundary(const FacetWorld& world, uint32_t facet, const Side<Real>& side,
+                                           const Real& wave_number, bool edges_diffract) const {
+  ComplexOf<Real> sum = 0.0;
   for (const Edge& stored : edges_of(facet)) {
     if (stored.inner_corner_from(side.front)) continue;
     const Edge edge = posed(stored, world, facet);
-    EdgePiece piece{edge.start - side.point, edge.along, 0.0, edge.length_m};
-    const double sign = glm::dot(piece.start, edge.inward) <= 0.0 ? 1.0 : -1.0;
+    EdgePieceOf<Real> piece{edge.start - side.point, edge.along, 0.0, edge.length_m};
+    const double sign = dot(piece.start, edge.inward) <= 0.0 ? 1.0 : -1.0;
     const bool taken = edges_diffract && edge.diffracts && (edge.free || side.front == edge.exterior);
-    const double place = taken ? keller_place(side.ray, piece) : -1.0;
+    const double place = taken ? value_of(keller_place<Real>(side.ray, piece)) : -1.0;
     const bool within = place >= 0.0 && place <= edge.length_m;
     if (taken && (within || edge.start_diffracts || edge.end_diffracts))
-      sum += sign * beyond_ends(side.ray, edge, piece, place, wave_number);
+      sum += sign * beyond_ends<Real>(side.ray, edge, piece, place, wave_number);
     else
-      sum += sign * boundary_wave(side.ray, piece, wave_number);
+      sum += sign * boundary_wave<Real>(side.ray, piece, wave_number);
   }
   return sum;
 }
 
 /// Returns the wave of an edge without that of its endless line, if Keller's point is at a `place` of the
 /// edge, and without the waves of the ends that diffract.
-Complex FiniteReflectors::beyond_ends(const UnfoldedRay& ray, const Edge& edge, EdgePiece piece, double place,
-                                      double wave_number) {
-  Complex sum = 0.0;
+template <typename Real>
+ComplexOf<Real> FiniteReflectors::beyond_ends(const UnfoldedRayOf<Real>& ray, const Edge& edge,
+                                              EdgePieceOf<Real> piece, double place,
+                                              const Real& wave_number) {
+  ComplexOf<Real> sum = 0.0;
   const auto from_end = [&](double from, double to, double sign) {
     piece.from = from, piece.to = to;
-    sum += sign * boundary_wave(ray, piece, wave_number);
+    sum += sign * boundary_wave<Real>(ray, piece, wave_number);
   };
   if (!edge.start_diffracts) place < 0.0 ? from_end(0.0, INFINITY, 1.0) : from_end(-INFINITY, 0.0, -1.0);
   if (!edge.end_diffracts)
@@ -197,21 +210,24 @@ Complex FiniteReflectors::beyond_ends(const UnfoldedRay& ray, const Edge& edge, 
 }
 
 /// Appends the facets beyond the smooth edges of a facet, and those beyond them.
-void FiniteReflectors::add_neighbours(const FacetWorld& world, uint32_t facet, const Side& side,
-                                      double reached, double wave_number, Neighbours& found) const {
+template <typename Real>
+void FiniteReflectors::add_neighbours(const FacetWorld& world, uint32_t facet, const Side<Real>& side,
+                                      const Real& reached, const Real& wave_number,
+                                      Neighbours<Real>& found) const {
+  using std::abs;
   for (const Edge& stored : edges_of(facet)) {
     if (stored.neighbour == none || (found.edges_diffract && stored.diffracts)) continue;
     if (found.known.size() >= most_neighbours) return;
     if (std::ranges::find(found.known, stored.neighbour) != found.known.end()) continue;
     const Edge edge = posed(stored, world, facet);
-    const EdgePiece piece{edge.start - side.point, edge.along, 0.0, edge.length_m};
-    const double place = std::clamp(keller_place(side.ray, piece), 0.0, edge.length_m);
-    const double longer = excess_m(side.ray, piece, place) + side.ray.length_m() - found.length_m;
-    const double share = reached * taper(wave_number * std::abs(longer));
+    const EdgePieceOf<Real> piece{edge.start - side.point, edge.along, 0.0, edge.length_m};
+    const Real place = std::clamp(keller_place<Real>(side.ray, piece), Real(0.0), Real(edge.length_m));
+    const Real longer = excess_m<Real>(side.ray, piece, place) + side.ray.length_m() - found.length_m;
+    const Real share = reached * taper<Real>(wave_number * abs(longer));
     if (share == 0.0) continue;
     found.known.push_back(edge.neighbour);
     const PosedFacet& next = world.facet(edge.neighbour);
-    const Side beyond = Neighbours::side_of(next, side.near_end, side.far_end);
+    const Side<Real> beyond = Neighbours<Real>::side_of(next, side.near_end, side.far_end);
     // On the outer side of this facet the neighbour is seen from its outer side, too.
     const bool outer = side.front == edge.exterior;
     if (!beyond.lit || beyond.front != (outer ? edge.neighbour_exterior : -edge.neighbour_exterior)) continue;
@@ -221,57 +237,66 @@ void FiniteReflectors::add_neighbours(const FacetWorld& world, uint32_t facet, c
 
 /// Returns what the neighbours reflect, in units of the field that an endless wall in place of the facet
 /// would.
-Complex FiniteReflectors::neighbours(const FacetWorld& world, uint32_t facet, const Side& own,
-                                     double wave_number, bool edges_diffract) const {
-  Neighbours found;
+template <typename Real>
+ComplexOf<Real> FiniteReflectors::neighbours(const FacetWorld& world, uint32_t facet, const Side<Real>& own,
+                                             const Real& wave_number, bool edges_diffract) const {
+  using std::cos, std::sin;
+  Neighbours<Real> found;
   found.edges_diffract = edges_diffract;
   found.length_m = own.ray.length_m();
   found.known.push_back(facet);
-  add_neighbours(world, facet, own, 1.0, wave_number, found);
-  Complex sum = 0.0;
+  add_neighbours<Real>(world, facet, own, 1.0, wave_number, found);
+  ComplexOf<Real> sum = 0.0;
   const PosedFacet& here = world.facet(facet);
-  const double heights = here.distance(own.near_end) * here.distance(own.far_end);
+  const Real heights = distance_of(here, own.near_end) * distance_of(here, own.far_end);
   for (size_t i = 0; i < found.pieces.size(); ++i) {
-    const Neighbours::Piece piece = found.pieces[i];
-    add_neighbours(world, piece.facet, piece.side, piece.share, wave_number, found);
+    const typename Neighbours<Real>::Piece piece = found.pieces[i];
+    add_neighbours<Real>(world, piece.facet, piece.side, piece.share, wave_number, found);
     const PosedFacet& next = world.facet(piece.facet);
-    if (world.contains(piece.facet, next.plane_coordinates(piece.side.point))) {
+    if (world.contains(piece.facet, next.plane_coordinates(value_of(piece.side.point)))) {
       ++found.reflecting;
       continue;
     }
     // D_G^2 = |S R|^2 + 4 h_S h_R for the heights h above the plane of any facet.
-    const double length = piece.side.ray.length_m();
-    const double longer = 4.0 * (next.distance(own.near_end) * next.distance(own.far_end) - heights) /
-                          (length + found.length_m);
-    const double phase = wave_number * longer;
-    sum -= piece.share * (found.length_m / length) * Complex(std::cos(phase), -std::sin(phase)) *
-           boundary(world, piece.facet, piece.side, wave_number, edges_diffract);
+    const Real whole = piece.side.ray.length_m();
+    const Real longer = 4.0 * (distance_of(next, own.near_end) * distance_of(next, own.far_end) - heights) /
+                        (whole + found.length_m);
+    const Real phase = wave_number * longer;
+    sum -= piece.share * (found.length_m / whole) * ComplexOf<Real>(cos(phase), -sin(phase)) *
+           boundary<Real>(world, piece.facet, piece.side, wave_number, edges_diffract);
   }
   return sum / static_cast<double>(found.reflecting);
 }
 
-Complex FiniteReflectors::weight(const FacetWorld& world, uint32_t facet, const ReflectionSight& sight,
-                                 double wave_number, bool edges_diffract) const {
+template <typename Real>
+ComplexOf<Real> FiniteReflectors::weight(const FacetWorld& world, uint32_t facet,
+                                         const ReflectionSightOf<Given<Real>>& sight,
+                                         const Given<Real>& wave_number, bool edges_diffract) const {
   const std::span<const Edge> edges = edges_of(facet);
   if (edges.empty()) return 1.0;
   dvec3 shift(0.0);
   bool smooth = false;
   for (const Edge& stored : edges) {
     const Edge edge = posed(stored, world, facet);
-    shift += way_in(sight.point - edge.start, edge.along, edge.inward, edge.length_m) * edge.inward;
+    shift += way_in(value_of(sight.point) - edge.start, edge.along, edge.inward, edge.length_m) * edge.inward;
     smooth = smooth || (edge.neighbour != none && !(edges_diffract && edge.diffracts));
   }
-  Side own;
+  Side<Real> own;
   own.point = sight.point + shift;
   own.near_end = sight.point - sight.before_m * sight.in;
   own.far_end = sight.point + sight.after_m * sight.out;
   own.ray = {sight.out, sight.before_m, sight.after_m};
   own.lit = true;
-  own.front = glm::dot(sight.in, world.facet(facet).normal) < 0.0 ? 1.0 : -1.0;
-  Complex weight = 1.0 - boundary(world, facet, own, wave_number, edges_diffract);
-  if (smooth) weight += neighbours(world, facet, own, wave_number, edges_diffract);
+  own.front = dot(sight.in, world.facet(facet).normal) < 0.0 ? 1.0 : -1.0;
+  ComplexOf<Real> weight = 1.0 - boundary<Real>(world, facet, own, wave_number, edges_diffract);
+  if (smooth) weight += neighbours<Real>(world, facet, own, wave_number, edges_diffract);
   return weight;
 }
+
+template Complex FiniteReflectors::weight<double>(const FacetWorld&, uint32_t, const ReflectionSight&,
+                                                  const double&, bool) const;
+template DualComplex FiniteReflectors::weight<Dual>(const FacetWorld&, uint32_t,
+                                                    const ReflectionSightOf<Dual>&, const Dual&, bool) const;
 
 FiniteReflectorBound finite_reflector_bound(const scene::Scene& scene, double wavelength_m, double longest_m,
                                             bool find_edges) {

@@ -56,11 +56,13 @@ namespace greatx::rf {
 
 /// Describes a reflection with its unfolded ends: mirrored at the other reflections of the path, so that they
 /// are seen on straight lines.
-struct ReflectionSight {
-  dvec3 point{0.0};                      ///< on the facet, local coordinates
-  dvec3 in{0.0}, out{0.0};               ///< unit directions of the ray before and after
-  double before_m = 0.0, after_m = 0.0;  ///< unfolded distances of the ends from the point
+template <typename Real>
+struct ReflectionSightOf {
+  Vec3Of<Real> point{dvec3(0.0)};                ///< on the facet, local coordinates
+  Vec3Of<Real> in{dvec3(0.0)}, out{dvec3(0.0)};  ///< unit directions of the ray before and after
+  Real before_m = 0.0, after_m = 0.0;            ///< unfolded distances of the ends from the point
 };
+using ReflectionSight = ReflectionSightOf<double>;
 
 /// Selects the edges that the diffraction counts.
 struct DiffractingEdges {
@@ -79,8 +81,9 @@ class FiniteReflectors {
 
   /// Returns the weight of a reflection by `facet`. `edges_diffract`: the diffraction at the facet's edges is
   /// counted by paths of their own. Swapping the ends gives the same weight within 1e-12.
-  Complex weight(const FacetWorld& world, uint32_t facet, const ReflectionSight& sight, double wave_number,
-                 bool edges_diffract) const;
+  template <typename Real = double>
+  ComplexOf<Real> weight(const FacetWorld& world, uint32_t facet, const ReflectionSightOf<Given<Real>>& sight,
+                         const Given<Real>& wave_number, bool edges_diffract) const;
 
   /// Returns the number of edges that count.
   size_t edge_count() const { return edges_.size(); }
@@ -101,20 +104,26 @@ class FiniteReflectors {
     /// Tells whether the facets meet in an inner corner, as seen from the side of the facet with this sign.
     bool inner_corner_from(double front) const { return !free && neighbour == none && front != exterior; }
   };
+  template <typename Real>
   struct Side;
+  template <typename Real>
   struct Neighbours;
   std::span<const Edge> edges_of(uint32_t facet) const {
     return std::span(edges_).subspan(offsets_[facet], offsets_[facet + 1] - offsets_[facet]);
   }
   static Edge posed(const Edge& edge, const FacetWorld& world, uint32_t facet);
-  static Complex beyond_ends(const UnfoldedRay& ray, const Edge& edge, EdgePiece piece, double place,
-                             double wave_number);
-  Complex boundary(const FacetWorld& world, uint32_t facet, const Side& side, double wave_number,
-                   bool edges_diffract) const;
-  Complex neighbours(const FacetWorld& world, uint32_t facet, const Side& own, double wave_number,
-                     bool edges_diffract) const;
-  void add_neighbours(const FacetWorld& world, uint32_t facet, const Side& side, double reached,
-                      double wave_number, Neighbours& found) const;
+  template <typename Real>
+  static ComplexOf<Real> beyond_ends(const UnfoldedRayOf<Real>& ray, const Edge& edge,
+                                     EdgePieceOf<Real> piece, double place, const Real& wave_number);
+  template <typename Real>
+  ComplexOf<Real> boundary(const FacetWorld& world, uint32_t facet, const Side<Real>& side,
+                           const Real& wave_number, bool edges_diffract) const;
+  template <typename Real>
+  ComplexOf<Real> neighbours(const FacetWorld& world, uint32_t facet, const Side<Real>& own,
+                             const Real& wave_number, bool edges_diffract) const;
+  template <typename Real>
+  void add_neighbours(const FacetWorld& world, uint32_t facet, const Side<Real>& side, const Real& reached,
+                      const Real& wave_number, Neighbours<Real>& found) const;
 
   std::vector<uint32_t> offsets_;  ///< [facets + 1] into edges_
   std::vector<Edge> edges_;

@@ -4,21 +4,24 @@
 
 #include <cmath>
 
-#include "core/vec.h"
+#include "core/dual.h"
 
 namespace greatx::rf {
 
 /// Returns any unit vector perpendicular to k.
-inline dvec3 any_perpendicular(const dvec3& k) {
-  return glm::normalize(glm::cross(k, std::abs(k.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
+template <typename V>
+V any_perpendicular(const V& k) {
+  using std::abs;
+  return normalize(cross(k, abs(k.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
 }
 
 /// Returns s = k x n / |k x n|, the direction of horizontal polarization. Within 1e-8 of the normal the plane
 /// of incidence is only rounding noise, while r_TE = -r_TM and t_TE = t_TM to 1e-16: any s gives the same
-/// field.
-inline dvec3 s_axis(const dvec3& k, const dvec3& normal) {
-  const dvec3 product = glm::cross(k, normal);
-  const double sine = glm::length(product);
+/// field. `V` is a dvec3 or a vector of dual numbers.
+template <typename V>
+V s_axis(const V& k, const dvec3& normal) {
+  const V product = cross(k, normal);
+  const auto sine = length(product);
   return sine > 1e-8 ? product / sine : any_perpendicular(k);
 }
 

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "core/dual.h"
+
 namespace greatx::rf {
 
 /// Selects how a rough surface weakens its specular reflection. The two models differ for g > 1: by 7 dB at g
@@ -19,12 +21,14 @@ enum class RoughnessModel : uint8_t {
 
 /// Returns g = 4 pi sigma_h cos(theta) / lambda: the standard deviation of the phase over the surface, rad.
 /// `cos_theta` is the cosine of the angle from the normal; `rms_height_m` is >= 0.
-double roughness_parameter(double rms_height_m, double cos_theta, double wavelength_m);
+template <typename R = double>
+R roughness_parameter(const Given<R>& rms_height_m, const Given<R>& cos_theta, const Given<R>& wavelength_m);
 
 /// Returns the factor rho in (0, 1] on the amplitude of the specular reflection. It is 1 for a smooth surface
 /// and at grazing. For large g Ament's factor underflows to 0, and that of Miller and Brown falls as
 /// 1/(sqrt(pi) g). Nothing overflows.
-double roughness_factor(RoughnessModel model, double g);
+template <typename R = double>
+R roughness_factor(RoughnessModel model, const Given<R>& g);
 
 /// Returns the largest loss of a specular reflection by Ament's factor, which occurs at normal incidence, dB,
 /// >= 0.
@@ -32,6 +36,7 @@ double most_roughness_db(double rms_height_m, double wavelength_m);
 
 /// Returns e^{-x} I_0(x) for x >= 0, with a relative error of about 1e-15 (Abramowitz and Stegun, 9.6.12 and
 /// 9.7.1).
-double scaled_bessel_i0(double x);
+template <typename R = double>
+R scaled_bessel_i0(const Given<R>& x);
 
 }  // namespace greatx::rf

@@ -32,9 +32,11 @@ double share(double value, const char* field, const std::string& material_name) 
 
 /// Returns ((1 + cos psi)/2)^alpha, where psi is the angle between two unit vectors. The form |a + b|^2/4
 /// does not cancel at psi = pi.
-double lobe(const dvec3& a, const dvec3& b, uint32_t exponent) {
-  const dvec3 sum = a + b;
-  return std::pow(std::min(1.0, 0.25 * glm::dot(sum, sum)), exponent);
+template <typename R, typename V>
+R lobe(const V& a, const V& b, uint32_t exponent) {
+  using std::pow;
+  const V sum = a + b;
+  return pow(std::min(R(1.0), R(0.25 * dot(sum, sum))), exponent);
 }
 
 }  // namespace
@@ -51,15 +53,16 @@ DiffuseScattering diffuse_scattering(const scene::RadioMaterial& material, const
   };
 }
 
-double lobe_normalisation(uint32_t exponent, double cos_incidence) {
+template <typename R>
+R lobe_normalisation(uint32_t exponent, const Given<R>& cos_incidence) {
   GREATX_CHECK(cos_incidence >= 0.0 && cos_incidence <= 1.0 && exponent <= 100, "cosine {}, exponent {}",
-               cos_incidence, exponent);
-  const double quarter_sine2 = 0.25 * (1.0 - cos_incidence) * (1.0 + cos_incidence);
+               value_of(cos_incidence), exponent);
+  const R quarter_sine2 = 0.25 * (1.0 - cos_incidence) * (1.0 + cos_incidence);
   double binomial = std::ldexp(1.0, -static_cast<int>(exponent));  // C(alpha, k) / 2^alpha
-  double term = 1.0, series = 0.0;                                 // C(2w, w) (sin/2)^{2w} and its sum
-  double sum = 0.0;
+  R term = 1.0, series = 0.0;                                      // C(2w, w) (sin/2)^{2w} and its sum
+  R sum = 0.0;
   for (uint32_t k = 0; k <= exponent; ++k) {
-    double moment = 2.0 * pi / (k + 1.0);
+    R moment = 2.0 * pi / (k + 1.0);
     if (k % 2 == 1) {  // the sum has one term more than that of the previous odd k
       series += term;
       const double w = (k - 1) / 2;
@@ -72,27 +75,41 @@ double lobe_normalisation(uint32_t exponent, double cos_incidence) {
   return sum;
 }
 
-double scattering_pattern(const DiffuseScattering& surface, const dvec3& in, const dvec3& out,
-                          const dvec3& normal) {
-  const double cos_in = std::min(1.0, -glm::dot(in, normal)), cos_out = glm::dot(out, normal);
-  GREATX_CHECK(cos_in >= 0.0, "the wave comes from behind: cosine {}", cos_in);
+template <typename R>
+R scattering_pattern(const DiffuseScatteringOf<Given<R>>& surface, const Vec3Of<R>& in, const Vec3Of<R>& out,
+                     const dvec3& normal) {
+  const R cos_in = std::min(R(1.0), R(-dot(in, normal))), cos_out = dot(out, normal);
+  GREATX_CHECK(cos_in >= 0.0, "the wave comes from behind: cosine {}", value_of(cos_in));
   if (cos_out <= 0.0) return 0.0;
   if (surface.pattern == scene::ScatteringPattern::lambertian) return cos_out / pi;
-  const dvec3 specular = in + 2.0 * cos_in * normal;
-  const double forward = lobe(specular, out, surface.exponent);
-  const double forward_norm = lobe_normalisation(surface.exponent, cos_in);
+  const Vec3Of<R> specular = in + 2.0 * cos_in * normal;
+  const R forward = lobe<R>(specular, out, surface.exponent);
+  const R forward_norm = lobe_normalisation<R>(surface.exponent, cos_in);
   if (surface.pattern == scene::ScatteringPattern::directive) return forward / forward_norm;
-  const double back = surface.backscatter_share;
-  return ((1.0 - back) * forward + back * lobe(-in, out, surface.backscatter_exponent)) /
-         ((1.0 - back) * forward_norm + back * lobe_normalisation(surface.backscatter_exponent, cos_in));
+  const R& back = surface.backscatter_share;
+  return ((1.0 - back) * forward + back * lobe<R, Vec3Of<R>>(-in, out, surface.backscatter_exponent)) /
+         ((1.0 - back) * forward_norm + back * lobe_normalisation<R>(surface.backscatter_exponent, cos_in));
 }
 
-ScatteringMatrix scattering_matrix(double cross_polarization, uint64_t seed, uint32_t facet, uint32_t patch) {
+template <typename R>
+ScatteringMatrixOf<R> scattering_matrix(const Given<R>& cross_polarization, uint64_t seed, uint32_t facet,
+                                        uint32_t patch) {
+  using std::sqrt;
   RandomStream random(seed ^ patch_phases, facet, patch);
   const double a = random.uniform(), b = random.uniform(), c = random.uniform();
-  const double kept = std::sqrt(1.0 - cross_polarization), crossed = std::sqrt(cross_polarization);
+  const R kept = sqrt(1.0 - cross_polarization), crossed = sqrt(cross_polarization);
   return {kept * unit_phasor(a), crossed * unit_phasor(c), crossed * unit_phasor(a + b - c + 0.5),
           kept * unit_phasor(b)};
 }
+
+// The templates of this file, for doubles and for dual numbers.
+#define GREATX_FOR(R)                                                                                 \
+  template R lobe_normalisation<R>(uint32_t, const R&);                                               \
+  template R scattering_pattern<R>(const DiffuseScatteringOf<R>&, const Vec3Of<R>&, const Vec3Of<R>&, \
+                                   const dvec3&);                                                     \
+  template ScatteringMatrixOf<R> scattering_matrix<R>(const R&, uint64_t, uint32_t, uint32_t);
+GREATX_FOR(double)
+GREATX_FOR(Dual)
+#undef GREATX_FOR
 
 }  // namespace greatx::rf

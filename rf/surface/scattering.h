@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/dual.h"
 #include "core/units.h"
 #include "core/vec.h"
 #include "rf/antenna/field_vector.h"
@@ -18,15 +19,17 @@
 namespace greatx::rf {
 
 /// Describes how a surface scatters.
-struct DiffuseScattering {
+template <typename R>
+struct DiffuseScatteringOf {
   /// S, 0 to 1: ratio of the scattered amplitude to that which a smooth surface would reflect.
-  double coefficient = 0.0;
+  R coefficient = 0.0;
   scene::ScatteringPattern pattern = scene::ScatteringPattern::lambertian;
   uint32_t exponent = 4;              ///< alpha_R of the lobe around the specular direction
   uint32_t backscatter_exponent = 4;  ///< alpha_I of the lobe back towards the source
-  double backscatter_share = 0.5;     ///< 1 - Lambda: share of the lobe back towards the source
-  double cross_polarization = 0.0;    ///< K_x: share of the scattered power in the other polarization, 0 to 1
+  R backscatter_share = 0.5;          ///< 1 - Lambda: share of the lobe back towards the source
+  R cross_polarization = 0.0;         ///< K_x: share of the scattered power in the other polarization, 0 to 1
 };
+using DiffuseScattering = DiffuseScatteringOf<double>;
 
 /// Returns the scattering parameters of a material. Throws UserError naming the material if a value lies
 /// outside its range or an exponent is not a whole number from 1 to 100.
@@ -37,7 +40,8 @@ DiffuseScattering diffuse_scattering(const scene::RadioMaterial& material, const
 /// direction back to the source. The closed form is F_alpha = 2^-alpha sum_k C(alpha, k) I_k with
 ///   I_k = 2 pi/(k + 1)                                                                for even k,
 ///   I_k = 2 pi/(k + 1) cos(theta_i) sum_{w <= (k-1)/2} C(2w, w) (sin(theta_i)/2)^{2w} for odd k.
-double lobe_normalisation(uint32_t exponent, double cos_incidence);
+template <typename R = double>
+R lobe_normalisation(uint32_t exponent, const Given<R>& cos_incidence);
 
 /// Returns f_s, the share of the scattered power in a direction, 1/sr. Its integral over the hemisphere is 1.
 /// All vectors are unit vectors: `in` is the direction of the wave, `out` the direction of scattering, and
@@ -47,8 +51,9 @@ double lobe_normalisation(uint32_t exponent, double cos_incidence);
 /// - backscattering: (Lambda ((1 + cos psi_R)/2)^alpha_R + (1 - Lambda)((1 + cos psi_I)/2)^alpha_I)
 ///   / (Lambda F_alpha_R + (1 - Lambda) F_alpha_I), with psi_I from -in.
 /// Returns 0 for directions along the surface and on its far side: nothing is scattered through it.
-double scattering_pattern(const DiffuseScattering& surface, const dvec3& in, const dvec3& out,
-                          const dvec3& normal);
+template <typename R = double>
+R scattering_pattern(const DiffuseScatteringOf<Given<R>>& surface, const Vec3Of<R>& in, const Vec3Of<R>& out,
+                     const dvec3& normal);
 
 /// Relates the components along s and p of the field that a patch scatters to those of the incident field,
 /// without S, the pattern and the distance. The matrix is unitary, so that the patch keeps the power of any
@@ -57,16 +62,22 @@ double scattering_pattern(const DiffuseScattering& surface, const dvec3& in, con
 ///   [along p_out] = [ sqrt(K) e^{jd}        sqrt(1 - K) e^{jb} ] [along p_in],   d = a + b - c + pi
 /// The phases a, b, c are independent and uniform over a full turn. They are a pure function of (seed, facet,
 /// patch).
-struct ScatteringMatrix {
-  Complex ss, sp, ps, pp;  ///< [out in]: the first letter is the scattered component
+template <typename R>
+struct ScatteringMatrixOf {
+  ComplexOf<R> ss, sp, ps, pp;  ///< [out in]: the first letter is the scattered component
 };
-ScatteringMatrix scattering_matrix(double cross_polarization, uint64_t seed, uint32_t facet, uint32_t patch);
+using ScatteringMatrix = ScatteringMatrixOf<double>;
+template <typename R = double>
+ScatteringMatrixOf<R> scattering_matrix(const Given<R>& cross_polarization, uint64_t seed, uint32_t facet,
+                                        uint32_t patch);
 
 /// Returns the distance that stands for the one between two patches in 1/distance^2: the first one, which
 /// sends, is a disk with its area, seen on its axis (J. R. Wallace, K. A. Elmquist, E. A. Haines, "A ray
 /// tracing algorithm for progressive radiosity", SIGGRAPH 1989).
-inline double between_patches_m(double distance_m, double area_m2) {
-  return std::sqrt(distance_m * distance_m + area_m2 / pi);
+template <typename R = double>
+R between_patches_m(const Given<R>& distance_m, double area_m2) {
+  using std::sqrt;
+  return sqrt(distance_m * distance_m + area_m2 / pi);
 }
 
 }  // namespace greatx::rf

@@ -12,29 +12,35 @@ namespace greatx::rf {
 namespace {
 
 /// A wall or its windows as seen from one side.
-using Stack = std::vector<DielectricLayer>;
+template <typename R>
+using StackOf = std::vector<DielectricLayerOf<R>>;
+using Stack = StackOf<double>;
 
-FresnelCoefficients fresnel(const Stack& layers, double wavelength_m, double cos_theta) {
-  if (layers.size() == 1 && layers[0].thickness_m == 0.0) return half_space(layers[0].eta, cos_theta);
-  if (layers.size() == 1) return slab(layers[0], wavelength_m, cos_theta);
-  return multilayer(layers, wavelength_m, cos_theta);
+template <typename R>
+FresnelCoefficientsOf<R> fresnel(const StackOf<R>& layers, const R& wavelength_m, const R& cos_theta) {
+  if (layers.size() == 1 && layers[0].thickness_m == 0.0) return half_space<R>(layers[0].eta, cos_theta);
+  if (layers.size() == 1) return slab<R>(layers[0], wavelength_m, cos_theta);
+  return multilayer<R>(layers, wavelength_m, cos_theta);
 }
 
-ReflectionCoefficients reflection(const Stack& layers, double wavelength_m, double cos_theta) {
-  if (layers.size() > 1) return multilayer(layers, wavelength_m, cos_theta);
-  if (layers[0].thickness_m == 0.0) return half_space_reflection(layers[0].eta, cos_theta);
-  return slab_reflection(layers[0], wavelength_m, cos_theta);
+template <typename R>
+ReflectionCoefficientsOf<R> reflection(const StackOf<R>& layers, const R& wavelength_m, const R& cos_theta) {
+  if (layers.size() > 1) return multilayer<R>(layers, wavelength_m, cos_theta);
+  if (layers[0].thickness_m == 0.0) return half_space_reflection<R>(layers[0].eta, cos_theta);
+  return slab_reflection<R>(layers[0], wavelength_m, cos_theta);
 }
 
-SheetTransmission transmission(const Stack& layers, double wavelength_m, double cos_theta) {
-  double thickness_m = 0.0;
-  for (const DielectricLayer& layer : layers) thickness_m += layer.thickness_m;
-  const FresnelCoefficients through = fresnel(layers, wavelength_m, cos_theta);
-  const Complex phase = sheet_phase(thickness_m, wavelength_m, cos_theta);
+template <typename R>
+SheetTransmissionOf<R> transmission(const StackOf<R>& layers, const R& wavelength_m, const R& cos_theta) {
+  R thickness_m = 0.0;
+  for (const DielectricLayerOf<R>& layer : layers) thickness_m += layer.thickness_m;
+  const FresnelCoefficientsOf<R> through = fresnel(layers, wavelength_m, cos_theta);
+  const ComplexOf<R> phase = sheet_phase<R>(thickness_m, wavelength_m, cos_theta);
   return {through.t_te * phase, through.t_tm * phase};
 }
 
-Complex mean(const Complex& wall, const Complex& windows, double share) {
+template <typename C>
+C mean(const C& wall, const C& windows, double share) {
   return (1.0 - share) * wall + share * windows;
 }
 
@@ -86,15 +92,21 @@ WindowSurface windows_of(const scene::RadioWindows& windows, double frequency_hz
 
 }  // namespace
 
-double specular_share(const RadioSurface& surface, double cosine, double wavelength_m,
-                      std::optional<RoughnessModel> roughness, bool scattering) {
-  double kept = 1.0;
-  if (roughness && surface.roughness_m > 0.0)
-    kept = roughness_factor(*roughness, roughness_parameter(surface.roughness_m, cosine, wavelength_m));
-  const double scattered = surface.scattering.coefficient;
-  if (scattering) kept *= std::sqrt((1.0 - scattered) * (1.0 + scattered));
+template <typename R>
+R specular_share(const RadioSurfaceOf<Given<R>>& surface, const Given<R>& cosine,
+                 const Given<R>& wavelength_m, std::optional<RoughnessModel> roughness, bool scattering) {
+  using std::sqrt;
+  R kept = 1.0;
+  if (roughness && !always_zero(surface.roughness_m))
+    kept = roughness_factor<R>(*roughness, roughness_parameter<R>(surface.roughness_m, cosine, wavelength_m));
+  const R& scattered = surface.scattering.coefficient;
+  if (scattering) kept *= sqrt((1.0 - scattered) * (1.0 + scattered));
   return kept;
 }
+template double specular_share<double>(const RadioSurface&, const double&, const double&,
+                                       std::optional<RoughnessModel>, bool);
+template Dual specular_share<Dual>(const RadioSurfaceOf<Dual>&, const Dual&, const Dual&,
+                                   std::optional<RoughnessModel>, bool);
 
 RadioSurface radio_surface(const scene::RadioMaterial& material, double frequency_hz,
                            const std::string& material_name) {
@@ -107,7 +119,9 @@ RadioSurface radio_surface(const scene::RadioMaterial& material, double frequenc
   return surface;
 }
 
-RadioSurfaces::RadioSurfaces(const scene::Scene& scene, double carrier_hz)
+template <typename R>
+RadioSurfacesOf<R>::RadioSurfacesOf(const scene::Scene& scene,
+                                    double carrier_hz) requires std::is_same_v<R, double>
     : surfaces_(scene.materials.size()), carrier_hz_(carrier_hz), wavelength_m_(speed_of_light / carrier_hz) {
   GREATX_CHECK(carrier_hz > 0.0, "carrier {} Hz", carrier_hz);
   for (const scene::Facet& facet : scene.facets) {
@@ -125,51 +139,75 @@ RadioSurfaces::RadioSurfaces(const scene::Scene& scene, double carrier_hz)
   }
 }
 
-RadioSurfaces::RadioSurfaces(std::vector<RadioSurface> surfaces, double carrier_hz)
-    : surfaces_(std::move(surfaces)), carrier_hz_(carrier_hz), wavelength_m_(speed_of_light / carrier_hz) {
-  GREATX_CHECK(carrier_hz > 0.0, "carrier {} Hz", carrier_hz);
+template <typename R>
+RadioSurfacesOf<R>::RadioSurfacesOf(std::vector<RadioSurfaceOf<R>> surfaces, const R& carrier_hz,
+                                    std::vector<uint32_t> materials)
+    : surfaces_(std::move(surfaces)),
+      materials_(std::move(materials)),
+      carrier_hz_(carrier_hz),
+      wavelength_m_(speed_of_light / carrier_hz) {
+  GREATX_CHECK(carrier_hz > 0.0, "carrier {} Hz", value_of(carrier_hz));
+  GREATX_CHECK(materials_.empty() || materials_.size() == surfaces_.size(), "{} surfaces of {} materials",
+               surfaces_.size(), materials_.size());
 }
 
-const RadioSurface& RadioSurfaces::surface(uint32_t material) const {
-  GREATX_CHECK(material < surfaces_.size(), "material {} of {}", material, surfaces_.size());
-  return surfaces_[material];
+template <typename R>
+size_t RadioSurfacesOf<R>::place_of(uint32_t material) const {
+  if (materials_.empty()) return material;
+  return static_cast<size_t>(std::ranges::find(materials_, material) - materials_.begin());
 }
 
-const RadioSurface& RadioSurfaces::wall(uint32_t material) const {
-  GREATX_CHECK(material < surfaces_.size() && !surfaces_[material].front.empty(),
+template <typename R>
+const RadioSurfaceOf<R>& RadioSurfacesOf<R>::surface(uint32_t material) const {
+  const size_t place = place_of(material);
+  GREATX_CHECK(place < surfaces_.size(), "material {} of {}", material, surfaces_.size());
+  return surfaces_[place];
+}
+
+template <typename R>
+const RadioSurfaceOf<R>& RadioSurfacesOf<R>::wall(uint32_t material) const {
+  const size_t place = place_of(material);
+  GREATX_CHECK(place < surfaces_.size() && !surfaces_[place].front.empty(),
                "material {} of {} has no surface", material, surfaces_.size());
-  return surfaces_[material];
+  return surfaces_[place];
 }
 
-ReflectionCoefficients RadioSurfaces::reflect(uint32_t material, bool from_front, double cos_theta) const {
-  const RadioSurface& surface = wall(material);
+template <typename R>
+ReflectionCoefficientsOf<R> RadioSurfacesOf<R>::reflect(uint32_t material, bool from_front,
+                                                        const R& cos_theta) const {
+  const RadioSurfaceOf<R>& surface = wall(material);
   const auto of_wall = [&] {
     return reflection(from_front ? surface.front : surface.back, wavelength_m_, cos_theta);
   };
   const double share = surface.windows.share;
   if (share == 0.0) return of_wall();
-  const WindowSurface& windows = surface.windows;
-  const ReflectionCoefficients panes =
+  const WindowSurfaceOf<R>& windows = surface.windows;
+  const ReflectionCoefficientsOf<R> panes =
       reflection(from_front ? windows.front : windows.back, wavelength_m_, cos_theta);
   if (share == 1.0) return panes;
-  const ReflectionCoefficients around = of_wall();
+  const ReflectionCoefficientsOf<R> around = of_wall();
   return {mean(around.r_te, panes.r_te, share), mean(around.r_tm, panes.r_tm, share)};
 }
 
-SheetTransmission RadioSurfaces::transmit(uint32_t material, bool from_front, double cos_theta) const {
-  const RadioSurface& surface = wall(material);
+template <typename R>
+SheetTransmissionOf<R> RadioSurfacesOf<R>::transmit(uint32_t material, bool from_front,
+                                                    const R& cos_theta) const {
+  const RadioSurfaceOf<R>& surface = wall(material);
   GREATX_CHECK(surface.penetrable(), "material {} lets nothing through", material);
   const auto of_wall = [&] {
     return transmission(from_front ? surface.front : surface.back, wavelength_m_, cos_theta);
   };
   const double share = surface.windows.share;
   if (share == 0.0) return of_wall();
-  const WindowSurface& windows = surface.windows;
-  const SheetTransmission panes =
+  const WindowSurfaceOf<R>& windows = surface.windows;
+  const SheetTransmissionOf<R> panes =
       transmission(from_front ? windows.front : windows.back, wavelength_m_, cos_theta);
   if (share == 1.0) return panes;
-  const SheetTransmission around = surface.wall_ends() ? of_wall() : SheetTransmission{};
+  const SheetTransmissionOf<R> around = surface.wall_ends() ? of_wall() : SheetTransmissionOf<R>{};
   return {mean(around.te, panes.te, share), mean(around.tm, panes.tm, share)};
 }
+
+template class RadioSurfacesOf<double>;
+template class RadioSurfacesOf<Dual>;
 
 }  // namespace greatx::rf

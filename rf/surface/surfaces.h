@@ -30,22 +30,25 @@
 namespace greatx::rf {
 
 /// Describes the windows of a wall at one frequency. Every layer has a thickness.
-struct WindowSurface {
-  double share = 0.0;                  ///< of the area of the wall, 0 to 1; 0: the wall has no windows
-  std::vector<DielectricLayer> front;  ///< as seen from the side of the normal; empty if `share` is 0
-  std::vector<DielectricLayer> back;   ///< as seen from the other side
+template <typename R>
+struct WindowSurfaceOf {
+  double share = 0.0;                       ///< of the area of the wall, 0 to 1; 0: the wall has no windows
+  std::vector<DielectricLayerOf<R>> front;  ///< as seen from the side of the normal; empty if `share` is 0
+  std::vector<DielectricLayerOf<R>> back;   ///< as seen from the other side
 };
+using WindowSurface = WindowSurfaceOf<double>;
 
 /// Describes a wall at one frequency, seen from both sides.
-struct RadioSurface {
+template <typename R>
+struct RadioSurfaceOf {
   /// The layers as seen from the side that the normal of the facet points to, the outermost first. A last
   /// layer of thickness 0 is a half-space. Otherwise there is vacuum behind the layers.
-  std::vector<DielectricLayer> front;
-  std::vector<DielectricLayer> back;  ///< the layers as seen from the other side
-  bool foliage = false;               ///< true: no wall, but the boundary of an attenuating volume
-  double roughness_m = 0.0;           ///< rms height of either face, m
-  DiffuseScattering scattering;       ///< of either face
-  WindowSurface windows;
+  std::vector<DielectricLayerOf<R>> front;
+  std::vector<DielectricLayerOf<R>> back;  ///< the layers as seen from the other side
+  bool foliage = false;                    ///< true: no wall, but the boundary of an attenuating volume
+  R roughness_m = 0.0;                     ///< rms height of either face, m
+  DiffuseScatteringOf<R> scattering;       ///< of either face
+  WindowSurfaceOf<R> windows;
 
   /// Returns whether no layer of the wall beside its windows is a half-space.
   bool wall_ends() const { return !front.empty() && front.back().thickness_m > 0.0; }
@@ -53,19 +56,23 @@ struct RadioSurface {
   /// in a half-space are openings in a thick wall and let waves through to its other side.
   bool penetrable() const { return wall_ends() || windows.share > 0.0; }
 };
+using RadioSurface = RadioSurfaceOf<double>;
 
 /// Returns the factor, 0 to 1, by which a rough surface reduces the amplitude of the specular reflection: rho
 /// of the model `roughness` (nullopt: the effect is off) times, if `scattering` is true, sqrt(1 - S^2). Paths
 /// and echoes share this rule. `cosine` is that of the angle from the normal.
-double specular_share(const RadioSurface& surface, double cosine, double wavelength_m,
-                      std::optional<RoughnessModel> roughness, bool scattering);
+template <typename R = double>
+R specular_share(const RadioSurfaceOf<Given<R>>& surface, const Given<R>& cosine,
+                 const Given<R>& wavelength_m, std::optional<RoughnessModel> roughness, bool scattering);
 
 /// Holds the ratios of transmitted to incident field of a wall that is drawn as a sheet without thickness.
 /// They are relative to the free-space propagation that the length of the path already includes (P.2040-4,
 /// 2.2.2). A wall of vacuum has 1.
-struct SheetTransmission {
-  Complex te{0.0}, tm{0.0};
+template <typename R>
+struct SheetTransmissionOf {
+  ComplexOf<R> te{0.0}, tm{0.0};
 };
+using SheetTransmission = SheetTransmissionOf<double>;
 
 /// Returns the wall that a radio material describes. The wave meets the layers that the material names:
 /// - If the first layer has thickness 0, the wall is a half-space, the same from either side (ground, thick
@@ -80,34 +87,44 @@ struct SheetTransmission {
 RadioSurface radio_surface(const scene::RadioMaterial& material, double frequency_hz,
                            const std::string& material_name);
 
-/// Holds one surface per material. The permittivities are computed once.
-class RadioSurfaces {
+/// Holds one surface per material, or those of a few materials. RadioSurfaces has doubles;
+/// RadioSurfacesOf<Dual> knows how they change with parameters.
+template <typename R>
+class RadioSurfacesOf {
  public:
-  /// Throws UserError naming the material if a material of a facet of `scene` has no radio properties or is
-  /// not known at `carrier_hz`. In the second case the message also names the frequency and the ranges of the
-  /// material.
-  RadioSurfaces(const scene::Scene& scene, double carrier_hz);
-  /// Takes `surfaces` in the order of material indices.
-  RadioSurfaces(std::vector<RadioSurface> surfaces, double carrier_hz);
+  /// The permittivities are computed once. Throws UserError naming the material if a material of a facet of
+  /// `scene` has no radio properties or is not known at `carrier_hz`. In the second case the message also
+  /// names the frequency and the ranges of the material.
+  RadioSurfacesOf(const scene::Scene& scene, double carrier_hz) requires std::is_same_v<R, double>;
+  /// Takes `surfaces` in the order of material indices. If `materials` is not empty, they are the surfaces of
+  /// these materials.
+  RadioSurfacesOf(std::vector<RadioSurfaceOf<R>> surfaces, const R& carrier_hz,
+                  std::vector<uint32_t> materials = {});
 
-  double carrier_hz() const { return carrier_hz_; }
-  double wavelength_m() const { return wavelength_m_; }
+  const R& carrier_hz() const { return carrier_hz_; }
+  const R& wavelength_m() const { return wavelength_m_; }
   /// Returns the reflection of the smooth wall, with windows the mean by area. `from_front` is true if the
   /// wave comes from the side that the normal of the facet points to.
-  ReflectionCoefficients reflect(uint32_t material, bool from_front, double cos_theta) const;
+  ReflectionCoefficientsOf<R> reflect(uint32_t material, bool from_front, const R& cos_theta) const;
   /// Returns the transmission through all layers of a wall, which must be penetrable, with windows the mean
   /// by area. A half-space around windows adds nothing. The result of a thick lossy wall underflows to 0.
-  SheetTransmission transmit(uint32_t material, bool from_front, double cos_theta) const;
+  SheetTransmissionOf<R> transmit(uint32_t material, bool from_front, const R& cos_theta) const;
+  size_t size() const { return surfaces_.size(); }
   bool penetrable(uint32_t material) const { return surface(material).penetrable(); }
   /// Returns the wall of a material by its index in the scene. The wall has no layers if no facet has this
   /// material or if the material is foliage.
-  const RadioSurface& surface(uint32_t material) const;
+  const RadioSurfaceOf<R>& surface(uint32_t material) const;
 
  private:
-  const RadioSurface& wall(uint32_t material) const;
+  size_t place_of(uint32_t material) const;
+  const RadioSurfaceOf<R>& wall(uint32_t material) const;
 
-  std::vector<RadioSurface> surfaces_;  ///< [materials]
-  double carrier_hz_, wavelength_m_;
+  std::vector<RadioSurfaceOf<R>> surfaces_;  ///< [materials]
+  std::vector<uint32_t> materials_;          ///< of the surfaces; empty: all, in their order
+  R carrier_hz_, wavelength_m_;
 };
+using RadioSurfaces = RadioSurfacesOf<double>;
+extern template class RadioSurfacesOf<double>;
+extern template class RadioSurfacesOf<Dual>;
 
 }  // namespace greatx::rf
