@@ -31,8 +31,9 @@ struct CalibrateOptions {
 void check_options(const CalibrateOptions& options, bool fit) {
   const auto refuse = [&](bool given, const char* option) {
     if (given)
-      throw_user_error("{}: expected a {} beside it, found the {} {}", option, fit ? "scenario" : "fit (measurements)",
-                       fit ? "fit" : "scenario", options.scenario.scenario);
+      throw_user_error("{}: expected a {} beside it, found the {} {}", option,
+                       fit ? "scenario" : "fit (measurements)", fit ? "fit" : "scenario",
+                       options.scenario.scenario);
   };
   if (fit) return refuse(options.again, "--again");
   refuse(options.resume, "--resume");
@@ -65,10 +66,11 @@ void run_calibrate(const CalibrateOptions& options) {
 }  // namespace
 
 void add_calibrate(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "calibrate",
-      "fit materials to measurements (a file with 'greatx_fit: 1' and -o DIR; docs/fit.md), or choose settings "
-      "for a scenario that gives errors (accuracy) or a time budget (docs/accuracy.md)");
+  CLI::App* command =
+      app.add_subcommand("calibrate",
+                         "fit materials to measurements (a file with 'greatx_fit: 1' and -o DIR; "
+                         "docs/fit.md), or choose settings "
+                         "for a scenario that gives errors (accuracy) or a time budget (docs/accuracy.md)");
   auto options = std::make_shared<CalibrateOptions>();
   options->scenario.add_to(*command);
   options->run.add_to(*command);

@@ -95,22 +95,28 @@ std::vector<FitUnknown> read_unknowns(const Field& field) {
 /// The range in which a property has a meaning (docs/materials.md).
 std::pair<double, double> range_of_property(FitProperty property) {
   switch (property) {
-    case FitProperty::permittivity: return {1.0, 1e6};
-    case FitProperty::conductivity: return {0.0, 1e9};
-    case FitProperty::thickness: return {1e-6, 1e3};
-    case FitProperty::roughness: return {0.0, 1e3};
-    case FitProperty::scattering: return {0.0, 0.9999};
-    case FitProperty::cross_polarization: return {1e-6, 0.999999};  // the field has the slope of a root at 0 and 1
-    default: return {0.0, 1.0};
+    case FitProperty::permittivity:
+      return {1.0, 1e6};
+    case FitProperty::conductivity:
+      return {0.0, 1e9};
+    case FitProperty::thickness:
+      return {1e-6, 1e3};
+    case FitProperty::roughness:
+      return {0.0, 1e3};
+    case FitProperty::scattering:
+      return {0.0, 0.9999};
+    case FitProperty::cross_polarization:
+      return {1e-6, 0.999999};  // the field has the slope of a root at 0 and 1
+    default:
+      return {0.0, 1.0};
   }
 }
 
 FitParameter read_parameter(const Field& field) {
-  constexpr std::string_view properties[] = {"permittivity", "conductivity",       "thickness",
-                                             "roughness",    "scattering",         "cross_polarization",
+  constexpr std::string_view properties[] = {"permittivity",     "conductivity", "thickness",
+                                             "roughness",        "scattering",   "cross_polarization",
                                              "backscatter_share"};
-  const FieldMap map(field,
-                     {"material", "property", "layer", "windows", "bounds", "start", "prior", "log"});
+  const FieldMap map(field, {"material", "property", "layer", "windows", "bounds", "start", "prior", "log"});
   FitParameter parameter;
   parameter.where = field.where();
   const Field material = map.require("material", "the name of a material, or a list of names");
@@ -164,8 +170,9 @@ sim::FitBand read_band(const FieldMap& map, const sim::ChannelConfig& channel, b
   if (const auto f = map.find("subcarriers")) band.subcarriers = f->integer32(1, most_subcarriers);
   if (const auto f = map.find("subcarrier_spacing_hz")) band.spacing_hz = f->positive(1.0, 1e12);
   if (0.5 * band.subcarriers * band.spacing_hz >= channel.carrier_hz)
-    map.field().refuse(fmt::format("subcarriers: expected every one above 0 Hz, found {} x {:g} Hz at {:g} Hz",
-                                   band.subcarriers, band.spacing_hz, channel.carrier_hz));
+    map.field().refuse(
+        fmt::format("subcarriers: expected every one above 0 Hz, found {} x {:g} Hz at {:g} Hz",
+                    band.subcarriers, band.spacing_hz, channel.carrier_hz));
   band.taps = band.subcarriers;
   if (!taps) return band;
   if (const auto f = map.find("window")) band.hann = f->choice({"none", "hann"}) == 1;
@@ -186,9 +193,8 @@ void read_ports(const FieldMap& map, const sim::Scenario& scenario, const sim::C
   if (!f) return;
   const std::vector<Field> ends = f->list("the receiving and the sending port", 2);
   if (ends.size() != 2) f->fail("two integers, the receiving and the sending port");
-  const uint32_t receiving = set.receiver.empty()
-                                 ? 1
-                                 : sim::antenna_array(scenario, set.receiver, channel.carrier_hz).port_count();
+  const uint32_t receiving =
+      set.receiver.empty() ? 1 : sim::antenna_array(scenario, set.receiver, channel.carrier_hz).port_count();
   const uint32_t sending =
       sim::antenna_array(scenario, channel.transmitters[set.transmitter], channel.carrier_hz).port_count();
   set.receive_port = ends[0].integer32(0, receiving - 1);
@@ -203,8 +209,7 @@ void read_ends(const FieldMap& map, const sim::Scenario& scenario, const sim::Ch
   if (transmitter) {
     const std::string name = transmitter->text();
     const auto at = std::ranges::find(channel.transmitters, name);
-    if (at == channel.transmitters.end())
-      transmitter->refuse(expected_one_of(channel.transmitters, name));
+    if (at == channel.transmitters.end()) transmitter->refuse(expected_one_of(channel.transmitters, name));
     set.transmitter = static_cast<uint32_t>(at - channel.transmitters.begin());
   }
   if (const auto f = map.find("receiver")) {
@@ -228,14 +233,21 @@ FitSet read_set(const Field& field, const sim::Scenario& scenario, const sim::Ch
   // The quantity decides which other keys there are.
   for (const auto& [key, value] : field.entries())
     if (key == "quantity")
-      set.quantity =
-          static_cast<FitQuantity>(value.choice({"power_db", "delay_spread_ns", "cir", "cfr"}));
+      set.quantity = static_cast<FitQuantity>(value.choice({"power_db", "delay_spread_ns", "cir", "cfr"}));
   const Keys band{"subcarriers", "subcarrier_spacing_hz"}, taps{"window", "taps"};
   switch (set.quantity) {
-    case FitQuantity::power_db: keys = keys + Keys{"average"} + band; break;
-    case FitQuantity::delay_spread_ns: keys = keys + Keys{"spread_of"} + band + taps; break;
-    case FitQuantity::cir: keys = keys + Keys{"compare", "phase", "ports", "floor_db"} + band + taps; break;
-    case FitQuantity::cfr: keys = keys + Keys{"compare", "phase", "ports", "floor_db"} + band; break;
+    case FitQuantity::power_db:
+      keys = keys + Keys{"average"} + band;
+      break;
+    case FitQuantity::delay_spread_ns:
+      keys = keys + Keys{"spread_of"} + band + taps;
+      break;
+    case FitQuantity::cir:
+      keys = keys + Keys{"compare", "phase", "ports", "floor_db"} + band + taps;
+      break;
+    case FitQuantity::cfr:
+      keys = keys + Keys{"compare", "phase", "ports", "floor_db"} + band;
+      break;
   }
   const FieldMap map(field, keys);
   map.require("quantity", "power_db, delay_spread_ns, cir or cfr");
@@ -313,7 +325,8 @@ FitInput read_fit_input(const FitFile& fit, const sim::Scenario& scenario, uint3
   for (const Field& item : measurements.list("measurements", 1)) {
     FitSet set = read_set(item, scenario, config, input.data);
     for (const FitSet& other : problem.sets)
-      if (other.name == set.name) item.refuse(fmt::format("name: expected a new one, found '{}' again", set.name));
+      if (other.name == set.name)
+        item.refuse(fmt::format("name: expected a new one, found '{}' again", set.name));
     problem.sets.push_back(std::move(set));
   }
   for (const Field& item : map.require("parameters", "a list of parameters").list("parameters", 1))

@@ -40,8 +40,8 @@ FitJournal::FitJournal(const fs::path& folder, const Json& request, bool resume)
   const fs::path part = folder / journal_file, whole = folder / fit_description;
   const bool unfinished = fs::exists(part), complete = !unfinished && fs::exists(whole);
   if (!unfinished && !complete && !fs::is_empty(folder))
-    throw_user_error("{}: expected a new or empty folder, or that of a fit, found '{}' in it", folder.string(),
-                     fs::directory_iterator(folder)->path().filename().string());
+    throw_user_error("{}: expected a new or empty folder, or that of a fit, found '{}' in it",
+                     folder.string(), fs::directory_iterator(folder)->path().filename().string());
   if (!unfinished && !complete) return;
   if (!resume)
     throw_user_error("{}: holds {} fit: choose another folder, or add --resume{}", folder.string(),
@@ -56,7 +56,9 @@ FitJournal::FitJournal(const fs::path& folder, const Json& request, bool resume)
   if (complete) return;
   const io::JsonValue state = document.root().at("state");
   sim::FitState read;
-  const auto count = [&](const char* key) { return static_cast<uint32_t>(state.at(key).integer(0, most_count)); };
+  const auto count = [&](const char* key) {
+    return static_cast<uint32_t>(state.at(key).integer(0, most_count));
+  };
   read.stage = static_cast<sim::FitStage>(state.at("stage").integer(0, 2));
   read.run = count("run"), read.round = count("round"), read.iteration = count("iteration");
   read.lambda = state.at("lambda").number(0.0, any_number);

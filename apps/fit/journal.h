@@ -35,7 +35,6 @@ class FitJournal {
   void finish();
 
  private:
-
   std::filesystem::path folder_;
   nlohmann::ordered_json request_;
   bool finished_ = false;

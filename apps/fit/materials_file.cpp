@@ -44,7 +44,8 @@ std::string clutter_fields(const scene::SurfaceClutter& clutter) {
     case scene::ClutterForm::constant_gamma:
       return fmt::format("{{gamma_db: {}, frequency_db: {}, cross_db: {}}}", clutter.level_db,
                          clutter.frequency_db, clutter.cross_db);
-    case scene::ClutterForm::sea: break;
+    case scene::ClutterForm::sea:
+      break;
   }
   return fmt::format("{{sea_state: {}, cross_db: {}}}", clutter.sea_state, clutter.cross_db);
 }
@@ -74,13 +75,14 @@ std::string radio_fields_line(const scene::Material& material) {
     fields.push_back(fmt::format("layers: {}", layers_list(radio.layers)));
   }
   if (radio.windows)
-    fields.push_back(
-        fmt::format("windows: {{share: {}, layers: {}}}", radio.windows->share, layers_list(radio.windows->layers)));
+    fields.push_back(fmt::format("windows: {{share: {}, layers: {}}}", radio.windows->share,
+                                 layers_list(radio.windows->layers)));
   fields.push_back(fmt::format("scattering_coefficient: {}, pattern: {}, pattern_exponent: {}",
                                radio.scattering_coefficient, patterns[static_cast<size_t>(radio.pattern)],
                                radio.pattern_exponent));
   fields.push_back(fmt::format("backscatter_exponent: {}, backscatter_share: {}, cross_polarization: {}",
-                               radio.backscatter_exponent, radio.backscatter_share, radio.cross_polarization));
+                               radio.backscatter_exponent, radio.backscatter_share,
+                               radio.cross_polarization));
   fields.push_back(fmt::format("roughness_m: {}", radio.roughness_m));
   if (radio.clutter) fields.push_back(fmt::format("clutter: {}", clutter_fields(*radio.clutter)));
   if (material.reflectance_905nm)

@@ -29,14 +29,27 @@ namespace fs = std::filesystem;
 constexpr size_t most_positions = 1'000'000;
 
 /// The columns of a table: x, y, z, the value, and the angles.
-enum Column : size_t { column_x, column_y, column_z, column_value, column_yaw, column_pitch, column_roll, columns };
+enum Column : size_t {
+  column_x,
+  column_y,
+  column_z,
+  column_value,
+  column_yaw,
+  column_pitch,
+  column_roll,
+  columns
+};
 constexpr std::array<const char*, columns> column_keys{"x", "y", "z", "value", "yaw", "pitch", "roll"};
 
 /// Returns the names that the file may use for each column.
 std::array<std::vector<std::string>, columns> column_names(const FieldMap& map, const sim::FitSet& set) {
-  std::array<std::vector<std::string>, columns> names{
-      {{"x", "x_m"}, {"y", "y_m"}, {"z", "z_m"}, {sim::name_of(set.quantity), "value"}, {"yaw_deg"},
-       {"pitch_deg"}, {"roll_deg"}}};
+  std::array<std::vector<std::string>, columns> names{{{"x", "x_m"},
+                                                       {"y", "y_m"},
+                                                       {"z", "z_m"},
+                                                       {sim::name_of(set.quantity), "value"},
+                                                       {"yaw_deg"},
+                                                       {"pitch_deg"},
+                                                       {"roll_deg"}}};
   if (const auto f = map.find("columns")) {
     const FieldMap given(*f, Keys(column_keys.begin(), column_keys.end()));
     for (size_t c = 0; c < columns; ++c)
@@ -55,7 +68,8 @@ class Table {
     for (size_t c = 0; c < columns; ++c)
       for (size_t i = 0; i < found.size(); ++i)
         if (std::ranges::find(names[c], found[i]) != names[c].end()) {
-          if (cells_[c]) header.fail(i, fmt::format("{}: expected one column, found a second", column_keys[c]));
+          if (cells_[c])
+            header.fail(i, fmt::format("{}: expected one column, found a second", column_keys[c]));
           cells_[c] = i;
         }
     for (const size_t c : {column_x, column_y, column_z, column_value})
@@ -105,7 +119,8 @@ void check_count(const std::string& name, size_t count) {
 }
 
 void check_value(const sim::FitSet& set, double value, const std::function<void(const char*)>& fail) {
-  if (set.quantity == sim::FitQuantity::delay_spread_ns && value < 0.0) fail("a delay spread of 0 ns or more");
+  if (set.quantity == sim::FitQuantity::delay_spread_ns && value < 0.0)
+    fail("a delay spread of 0 ns or more");
   if (set.quantity != sim::FitQuantity::delay_spread_ns && std::abs(value) > 1000.0)
     fail("a level from -1000 to 1000 dB");
 }
@@ -122,10 +137,10 @@ void read_table(const fs::path& file, const FieldMap& map, sim::FitSet& set) {
     set.points.emplace_back(number(column_x, sim::most_position_m), number(column_y, sim::most_position_m),
                             number(column_z, sim::most_position_m));
     if (table.has(column_yaw))
-      set.orientations.push_back(orientation_from_yaw_pitch_roll(
-          radians(number(column_yaw, 1e6)),
-          table.has(column_pitch) ? radians(number(column_pitch, 1e6)) : 0.0,
-          table.has(column_roll) ? radians(number(column_roll, 1e6)) : 0.0));
+      set.orientations.push_back(
+          orientation_from_yaw_pitch_roll(radians(number(column_yaw, 1e6)),
+                                          table.has(column_pitch) ? radians(number(column_pitch, 1e6)) : 0.0,
+                                          table.has(column_roll) ? radians(number(column_roll, 1e6)) : 0.0));
     set.values.push_back(table.value(*line));
     check_value(set, set.values.back(), [&](const char* expected) {
       line->fail(0, fmt::format("value: expected {}, found {}", expected, set.values.back()));
@@ -134,7 +149,9 @@ void read_table(const fs::path& file, const FieldMap& map, sim::FitSet& set) {
   check_count(name, set.points.size());
 }
 
-std::string shape_words(const std::vector<int64_t>& shape) { return fmt::format("[{}]", fmt::join(shape, ", ")); }
+std::string shape_words(const std::vector<int64_t>& shape) {
+  return fmt::format("[{}]", fmt::join(shape, ", "));
+}
 
 /// Returns the values of an array of real numbers.
 std::vector<double> real_values(const Array& array) {
@@ -144,7 +161,8 @@ std::vector<double> real_values(const Array& array) {
 
 void read_points(const fs::path& file, sim::FitSet& set) {
   const io::NpyFile npy(file);
-  if (npy.shape().size() != 2 || npy.shape()[1] != 3 || (npy.dtype() != DType::f64 && npy.dtype() != DType::f32))
+  if (npy.shape().size() != 2 || npy.shape()[1] != 3 ||
+      (npy.dtype() != DType::f64 && npy.dtype() != DType::f32))
     throw_user_error("{}: expected positions, float64 or float32 [positions, 3], found {} {}", file.string(),
                      numpy_name(npy.dtype()), shape_words(npy.shape()));
   check_count(file.string(), static_cast<size_t>(npy.rows()));
@@ -164,7 +182,8 @@ void read_values(const fs::path& file, sim::FitSet& set) {
   const bool response = set.quantity == sim::FitQuantity::cir || set.quantity == sim::FitQuantity::cfr;
   std::vector<int64_t> shape{count};
   if (response) shape.push_back(set.width);
-  const bool is_complex = npy.dtype() == DType::complex64, is_real = npy.dtype() == DType::f64 || npy.dtype() == DType::f32;
+  const bool is_complex = npy.dtype() == DType::complex64,
+             is_real = npy.dtype() == DType::f64 || npy.dtype() == DType::f32;
   const bool good_type = set.complex_values ? is_complex : is_real || (response && is_complex);
   if (npy.shape() != shape || !good_type)
     throw_user_error("{}: expected {} {}, found {} {}", file.string(),
@@ -205,7 +224,9 @@ void read_measurements(const FieldMap& map, sim::FitSet& set, std::vector<FitDat
   if (const auto f = map.find("file")) {
     map.exclude("file", "positions");
     map.exclude("file", "values");
-    if (response) f->refuse(fmt::format("expected positions and values (.npy) for a {}, found a table", sim::name_of(set.quantity)));
+    if (response)
+      f->refuse(fmt::format("expected positions and values (.npy) for a {}, found a table",
+                            sim::name_of(set.quantity)));
     const fs::path file = f->file();
     note(file);
     return read_table(file, map, set);

@@ -128,8 +128,9 @@ Array draw_error_map(const FitResult& result, uint32_t set, std::span<const Plan
   const double per_m = longest / std::max(high.x - low.x, high.y - low.y);
   const int width = std::max(360, static_cast<int>((high.x - low.x) * per_m)),
             height = std::max(240, static_cast<int>((high.y - low.y) * per_m));
-  Canvas canvas = page(left_axis + width + 150, title_height + height + below_axis + margin, title,
-                       fmt::format("{}: errors after the fit, {}; rings are held out", of.name, error_unit(of)));
+  Canvas canvas =
+      page(left_axis + width + 150, title_height + height + below_axis + margin, title,
+           fmt::format("{}: errors after the fit, {}; rings are held out", of.name, error_unit(of)));
   const Rect plot{left_axis, title_height + line, width, height};
   const io::Scale across{low.x, low.x + width / per_m, false}, upward{low.y, low.y + height / per_m, false};
   canvas.fill(plot, canvas.theme().panel);
@@ -141,11 +142,12 @@ Array draw_error_map(const FitResult& result, uint32_t set, std::span<const Plan
     const dvec2 a = at(wall.from), b = at(wall.to);
     canvas.line(a.x, a.y, b.x, b.y, 1.5, canvas.theme().dim);
   }
-  const bool signed_values = !of.complex_values && of.quantity != sim::FitQuantity::cir &&
-                             of.quantity != sim::FitQuantity::cfr;
+  const bool signed_values =
+      !of.complex_values && of.quantity != sim::FitQuantity::cir && of.quantity != sim::FitQuantity::cfr;
   const io::Scale scale{signed_values ? -most : 0.0, most, false};
   const io::ColorMap map = signed_values ? canvas.theme().velocities : canvas.theme().power;
-  const double radius = std::clamp(0.25 * width / std::sqrt(1.0 + static_cast<double>(magnitudes.size())), 3.0, 9.0);
+  const double radius =
+      std::clamp(0.25 * width / std::sqrt(1.0 + static_cast<double>(magnitudes.size())), 3.0, 9.0);
   for (const FitPlace& place : result.places) {
     if (place.set != set) continue;
     const dvec2 p = at(dvec2(place.at));
@@ -169,15 +171,17 @@ Array draw_distributions(const FitResult& result, uint32_t set, const std::strin
   const bool single =
       of.quantity == sim::FitQuantity::power_db || of.quantity == sim::FitQuantity::delay_spread_ns;
   constexpr int width = 520, height = 420, step = width + left_axis + margin;
-  Canvas canvas = page(left_axis + (single ? 2 : 1) * step, title_height + line + height + below_axis + 5 * line,
-                       title, fmt::format("{}: distributions over the positions", of.name));
+  Canvas canvas =
+      page(left_axis + (single ? 2 : 1) * step, title_height + line + height + below_axis + 5 * line, title,
+           fmt::format("{}: distributions over the positions", of.name));
   Rect plot{left_axis, title_height + line, width, height};
   if (single) {
-    draw_panel(canvas, plot,
-               {{"measured", values_of(result, set, {}, [](const FitPlace& p) { return p.measured; })},
-                {"modelled before", values_of(result, set, {}, [](const FitPlace& p) { return p.modelled_before; })},
-                {"modelled after", values_of(result, set, {}, [](const FitPlace& p) { return p.modelled; })}},
-               of.quantity == sim::FitQuantity::power_db ? "power, dB" : "delay spread, ns");
+    draw_panel(
+        canvas, plot,
+        {{"measured", values_of(result, set, {}, [](const FitPlace& p) { return p.measured; })},
+         {"modelled before", values_of(result, set, {}, [](const FitPlace& p) { return p.modelled_before; })},
+         {"modelled after", values_of(result, set, {}, [](const FitPlace& p) { return p.modelled; })}},
+        of.quantity == sim::FitQuantity::power_db ? "power, dB" : "delay spread, ns");
     plot.x += step;
   }
   const auto before = [](const FitPlace& p) { return std::abs(p.error_before); };
@@ -198,16 +202,18 @@ Array draw_correlations(const FitResult& result, const std::string& title) {
   size_t longest = 0;
   for (const sim::FitVariable& variable : variables) longest = std::max(longest, variable.name.size());
   const int names = std::min(620, static_cast<int>(longest + 5) * Canvas::glyph_width * text);
-  Canvas canvas = page(margin + names + count * cell + 170, title_height + 2 * line + std::max(count * cell, 200) + margin,
-                       title, "correlations of the errors of the variables, by the measurements alone");
+  Canvas canvas = page(margin + names + count * cell + 170,
+                       title_height + 2 * line + std::max(count * cell, 200) + margin, title,
+                       "correlations of the errors of the variables, by the measurements alone");
   const Rect plot{margin + names, title_height + 2 * line, count * cell, count * cell};
   const io::Scale scale{-1.0, 1.0, false};
   for (int a = 0; a < count; ++a) {
-    canvas.text(plot.x - 10, plot.y + a * cell + cell / 2 - 7,
-                io::fitted(fmt::format("{} {}", variables[static_cast<size_t>(a)].name, a + 1), names - 10, text),
-                text, canvas.theme().text, io::Align::right);
-    canvas.text(plot.x + a * cell + cell / 2, plot.y - line, fmt::format("{}", a + 1), text, canvas.theme().text,
-                io::Align::center);
+    canvas.text(
+        plot.x - 10, plot.y + a * cell + cell / 2 - 7,
+        io::fitted(fmt::format("{} {}", variables[static_cast<size_t>(a)].name, a + 1), names - 10, text),
+        text, canvas.theme().text, io::Align::right);
+    canvas.text(plot.x + a * cell + cell / 2, plot.y - line, fmt::format("{}", a + 1), text,
+                canvas.theme().text, io::Align::center);
     for (int b = 0; b < count; ++b) {
       const double value = result.assessment.correlation(a, b);
       const Rect square{plot.x + b * cell, plot.y + a * cell, cell - 1, cell - 1};

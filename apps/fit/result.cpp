@@ -68,20 +68,23 @@ Json estimates_json(const FitResult& result) {
 std::string direction_words(const FitResult& result, const sim::FitDirection& direction) {
   std::vector<size_t> order(direction.parts.size());
   for (size_t v = 0; v < order.size(); ++v) order[v] = v;
-  std::ranges::stable_sort(order, [&](size_t a, size_t b) {
-    return std::abs(direction.parts[a]) > std::abs(direction.parts[b]);
-  });
+  std::ranges::stable_sort(
+      order, [&](size_t a, size_t b) { return std::abs(direction.parts[a]) > std::abs(direction.parts[b]); });
   std::string words;
   for (const size_t v : order) {
     if (std::abs(direction.parts[v]) < 0.2) break;
-    words += fmt::format("{}{:.2f} [{}]", words.empty() ? "" : direction.parts[v] < 0.0 ? " - " : " + ",
+    words += fmt::format("{}{:.2f} [{}]",
+                         words.empty()              ? ""
+                         : direction.parts[v] < 0.0 ? " - "
+                                                    : " + ",
                          std::abs(direction.parts[v]), result.model->variables()[v].name);
   }
   return words;
 }
 
 std::string value_words(const sim::FitVariable& variable, double value) {
-  return fmt::format("{:.5g}{}{}", value, variable.unit == "1" ? "" : " ", variable.unit == "1" ? "" : variable.unit);
+  return fmt::format("{:.5g}{}{}", value, variable.unit == "1" ? "" : " ",
+                     variable.unit == "1" ? "" : variable.unit);
 }
 
 std::string estimate_words(const FitResult& result, size_t v) {
@@ -103,9 +106,11 @@ std::string verdict_words(const FitResult& result) {
   for (size_t v = 0; v < variables.size(); ++v) {
     const std::string& name = variables[v].name;
     switch (result.assessment.estimates[v].verdict) {
-      case sim::FitVerdict::determined: break;
+      case sim::FitVerdict::determined:
+        break;
       case sim::FitVerdict::untouched:
-        words += fmt::format("- No path to a fitted position meets the material of [{}]: it keeps its start.\n", name);
+        words += fmt::format(
+            "- No path to a fitted position meets the material of [{}]: it keeps its start.\n", name);
         break;
       case sim::FitVerdict::no_effect:
         words += fmt::format("- Nothing that was measured changes with [{}]: it keeps its start.\n", name);
@@ -245,10 +250,10 @@ std::string fit_words(const FitResult& result) {
     for (const FitPart part : {FitPart::fitted, FitPart::held_out}) {
       const FitErrors before = errors_of(result, s, part, true), after = errors_of(result, s, part, false);
       if (after.positions == 0) continue;
-      words += fmt::format("  {:<24} {:<9} {:>6} positions  {:.4g} ({:.4g}) -> {:.4g} ({:.4g}) {}\n",
-                           problem.sets[s].name, part == FitPart::fitted ? "fitted" : "held out",
-                           after.positions, before.rms, before.median, after.rms, after.median,
-                           error_unit(problem.sets[s]));
+      words +=
+          fmt::format("  {:<24} {:<9} {:>6} positions  {:.4g} ({:.4g}) -> {:.4g} ({:.4g}) {}\n",
+                      problem.sets[s].name, part == FitPart::fitted ? "fitted" : "held out", after.positions,
+                      before.rms, before.median, after.rms, after.median, error_unit(problem.sets[s]));
     }
   const std::string verdicts = verdict_words(result);
   if (!verdicts.empty()) words += "to be taken with care:\n" + verdicts;
@@ -258,13 +263,17 @@ std::string fit_words(const FitResult& result) {
 std::string places_csv(const FitResult& result) {
   std::string csv =
       "set,position,x_m,y_m,z_m,block,part,measured,modelled_before,modelled,error_before,error\n";
-  const auto cell = [](double value) { return std::isfinite(value) ? fmt::format("{}", value) : std::string(); };
+  const auto cell = [](double value) {
+    return std::isfinite(value) ? fmt::format("{}", value) : std::string();
+  };
   for (const FitPlace& place : result.places)
     csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", result.model->problem().sets[place.set].name,
                        place.position, place.at.x, place.at.y, place.at.z, place.block,
-                       !place.usable ? "none" : place.held_out ? "held_out" : "fitted", cell(place.measured),
-                       cell(place.modelled_before), cell(place.modelled), cell(place.error_before),
-                       cell(place.error));
+                       !place.usable    ? "none"
+                       : place.held_out ? "held_out"
+                                        : "fitted",
+                       cell(place.measured), cell(place.modelled_before), cell(place.modelled),
+                       cell(place.error_before), cell(place.error));
   return csv;
 }
 

@@ -39,9 +39,10 @@ Json request_of(const FitFile& fit, const FitInput& input, const FitOptions& opt
             {"channel", scenario.channels[channel].name},
             {"carrier_hz", scenario.channels[channel].carrier_hz},
             {"seed", scenario.seed},
-            {"split", {{"block_m", input.problem.split.block_m},
-                       {"held_out", input.problem.split.held_out},
-                       {"seed", input.problem.split.seed}}},
+            {"split",
+             {{"block_m", input.problem.split.block_m},
+              {"held_out", input.problem.split.held_out},
+              {"seed", input.problem.split.seed}}},
             {"pictures", !options.no_pictures}};
   json["measurements"] = Json::array();
   for (const FitData& data : input.data)
@@ -124,7 +125,8 @@ void run_fit(const FitOptions& options) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   if (options.output.empty())
-    throw_user_error("-o: expected a folder for the result of the fit {}, found none", options.scenario.scenario);
+    throw_user_error("-o: expected a folder for the result of the fit {}, found none",
+                     options.scenario.scenario);
   const FitFile fit = read_fit_file(options.scenario.scenario);
   ScenarioOptions from = options.scenario;
   from.scenario = fit.scenario;
@@ -145,7 +147,8 @@ void run_fit(const FitOptions& options) {
   }
   install_interrupt_handler();
 
-  std::vector<sim::FitLink> links = solve_paths(options, device, experiment, channel, input.problem, materials);
+  std::vector<sim::FitLink> links =
+      solve_paths(options, device, experiment, channel, input.problem, materials);
   check_validation(device);
   const double paths_s = seconds();
   size_t paths = 0;
@@ -174,10 +177,11 @@ void run_fit(const FitOptions& options) {
   result.assessment = sim::assess(model, solver, result.state, fitted_blocks);
   result.places = places_of(model, result.state, blocks);
   const fs::path folder = options.output;
-  const std::string title = fmt::format("{}, {}", fs::path(fit.file).filename().string(), experiment.scenario.name);
+  const std::string title =
+      fmt::format("{}, {}", fs::path(fit.file).filename().string(), experiment.scenario.name);
   io::write_file_atomically(folder / "materials.yaml",
-                            fitted_sidecar(experiment.scenario.scene.radio_materials, experiment.scene(), model,
-                                           result.assessment, title));
+                            fitted_sidecar(experiment.scenario.scene.radio_materials, experiment.scene(),
+                                           model, result.assessment, title));
   io::write_file_atomically(folder / "positions.csv", places_csv(result));
   const std::string words = fit_words(result);
   io::write_file_atomically(folder / "report.txt", words);

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/fit/assess.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 namespace greatx::sim {
 namespace {
@@ -99,16 +98,16 @@ void find_correlations(const Eigen::MatrixXd& plain, std::span<const Eigen::Inde
   for (size_t a = 0; a < touched.size(); ++a)
     for (size_t b = 0; b < touched.size(); ++b) {
       const auto i = static_cast<Eigen::Index>(a), j = static_cast<Eigen::Index>(b);
-      const double value = std::clamp(covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j)), -1.0, 1.0);
+      const double value =
+          std::clamp(covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j)), -1.0, 1.0);
       assessment.correlation(touched[a], touched[b]) = a == b ? 1.0 : value;
       if (a < b && std::abs(value) > named_correlation)
         assessment.pairs.push_back(
             {static_cast<uint32_t>(touched[a]), static_cast<uint32_t>(touched[b]), value});
     }
-  std::ranges::stable_sort(assessment.pairs,
-                           [](const FitPair& x, const FitPair& y) {
-                             return std::abs(x.correlation) > std::abs(y.correlation);
-                           });
+  std::ranges::stable_sort(assessment.pairs, [](const FitPair& x, const FitPair& y) {
+    return std::abs(x.correlation) > std::abs(y.correlation);
+  });
 }
 
 void find_shares(const FitModel& model, const FitState& state, std::span<const uint32_t> links,
@@ -129,8 +128,8 @@ void find_shares(const FitModel& model, const FitState& state, std::span<const u
 }  // namespace
 
 const char* name_of(FitVerdict verdict) {
-  constexpr const char* names[] = {"determined", "untouched", "no effect", "at a bound", "not determined",
-                                   "by its prior"};
+  constexpr const char* names[] = {"determined", "untouched",      "no effect",
+                                   "at a bound", "not determined", "by its prior"};
   return names[static_cast<size_t>(verdict)];
 }
 

@@ -27,7 +27,7 @@ const char* name_of(FitVerdict verdict);
 /// What the fit says of one variable. Deviations and intervals are infinite if nothing determines it.
 struct FitEstimate {
   double value = 0.0;
-  double deviation = 0.0;    ///< of the coordinate
+  double deviation = 0.0;        ///< of the coordinate
   double low = 0.0, high = 0.0;  ///< one deviation below and above, as values
   /// The same deviation from residuals alone that are taken as independent, and from whole blocks of the
   /// plan; NaN: there are too few blocks.
@@ -48,12 +48,12 @@ struct FitDirection {
 };
 
 struct FitAssessment {
-  std::vector<FitEstimate> estimates;  ///< [variables]
-  Eigen::MatrixXd correlation;         ///< [variables, variables], measurements alone; 0 if not determined
-  std::vector<FitPair> pairs;          ///< |correlation| above 0.95, largest first
+  std::vector<FitEstimate> estimates;    ///< [variables]
+  Eigen::MatrixXd correlation;           ///< [variables, variables], measurements alone; 0 if not determined
+  std::vector<FitPair> pairs;            ///< |correlation| above 0.95, largest first
   std::vector<FitDirection> directions;  ///< ascending singular values, without untouched variables
-  std::vector<double> shares;  ///< [parameters] mean share of a position's power that depends on it
-  std::vector<uint32_t> positions;  ///< [parameters] fitted positions with a path that depends on it
+  std::vector<double> shares;            ///< [parameters] mean share of a position's power that depends on it
+  std::vector<uint32_t> positions;       ///< [parameters] fitted positions with a path that depends on it
 };
 
 /// Assesses a fit. `blocks`: for each fitted link, the number of its block of the plan.

@@ -91,8 +91,7 @@ std::optional<std::vector<FitLink>> solve_links(gpu::Device& device, const Exper
     throw_user_error("effects.dispersion: expected off for a fit, which has the materials at the carrier");
   std::vector<FitLink> links;
   std::map<uint32_t, std::vector<uint32_t>> of_transmitter;
-  for (uint32_t s = 0; s < problem.sets.size(); ++s)
-    of_transmitter[problem.sets[s].transmitter].push_back(s);
+  for (uint32_t s = 0; s < problem.sets.size(); ++s) of_transmitter[problem.sets[s].transmitter].push_back(s);
   bool stopped = false;
   for (const auto& [transmitter, sets] : of_transmitter) {
     ChannelSnapshot snapshot(device, experiment, channel, {0, 0, transmitter});

@@ -43,20 +43,23 @@ double value_of(const FitParameter& parameter, const scene::Material& material, 
     const scene::RadioLayer& layer = layer_of(parameter, radio, material.name);
     if (parameter.property == FitProperty::thickness) {
       if (layer.thickness_m == 0.0)
-        refuse(parameter, fmt::format("expected a material with a thickness, found the half-space '{}'",
-                                      material.name));
+        refuse(parameter,
+               fmt::format("expected a material with a thickness, found the half-space '{}'", material.name));
       return layer.thickness_m;
     }
-    const std::complex<double> eta =
-        scene::relative_permittivity(layer.medium, carrier_hz, material.name);
+    const std::complex<double> eta = scene::relative_permittivity(layer.medium, carrier_hz, material.name);
     return parameter.property == FitProperty::permittivity ? eta.real()
-                                                            : -eta.imag() * conductivity_of_one(carrier_hz);
+                                                           : -eta.imag() * conductivity_of_one(carrier_hz);
   }
   switch (parameter.property) {
-    case FitProperty::roughness: return radio.roughness_m;
-    case FitProperty::scattering: return radio.scattering_coefficient;
-    case FitProperty::cross_polarization: return radio.cross_polarization;
-    default: return radio.backscatter_share;
+    case FitProperty::roughness:
+      return radio.roughness_m;
+    case FitProperty::scattering:
+      return radio.scattering_coefficient;
+    case FitProperty::cross_polarization:
+      return radio.cross_polarization;
+    default:
+      return radio.backscatter_share;
   }
 }
 
@@ -81,11 +84,21 @@ void set_value(const FitParameter& parameter, double value, double carrier_hz, c
       set_electric(layer_of(parameter, radio, name).medium, parameter.property == FitProperty::permittivity,
                    value, carrier_hz, name);
       break;
-    case FitProperty::thickness: layer_of(parameter, radio, name).thickness_m = value; break;
-    case FitProperty::roughness: radio.roughness_m = value; break;
-    case FitProperty::scattering: radio.scattering_coefficient = value; break;
-    case FitProperty::cross_polarization: radio.cross_polarization = value; break;
-    case FitProperty::backscatter_share: radio.backscatter_share = value; break;
+    case FitProperty::thickness:
+      layer_of(parameter, radio, name).thickness_m = value;
+      break;
+    case FitProperty::roughness:
+      radio.roughness_m = value;
+      break;
+    case FitProperty::scattering:
+      radio.scattering_coefficient = value;
+      break;
+    case FitProperty::cross_polarization:
+      radio.cross_polarization = value;
+      break;
+    case FitProperty::backscatter_share:
+      radio.backscatter_share = value;
+      break;
   }
 }
 

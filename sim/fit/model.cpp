@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/fit/model.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "core/parallel.h"
@@ -26,9 +26,12 @@ constexpr double turn_step_rad = 1e-5;  ///< of central differences by an orient
 /// Whether a quantity depends on an unknown.
 bool depends(const FitSet& set, FitUnknownKind kind) {
   switch (kind) {
-    case FitUnknownKind::scale_db: return set.quantity != FitQuantity::delay_spread_ns;
-    case FitUnknownKind::clock_s: return set.complex_values || set.quantity == FitQuantity::cir;
-    default: return true;
+    case FitUnknownKind::scale_db:
+      return set.quantity != FitQuantity::delay_spread_ns;
+    case FitUnknownKind::clock_s:
+      return set.complex_values || set.quantity == FitQuantity::cir;
+    default:
+      return true;
   }
 }
 
@@ -70,9 +73,7 @@ double compared(double measured, std::span<const double> floors) {
 }  // namespace
 
 double FitVariable::coordinate(double value) const { return logarithmic ? std::log(value) : value; }
-double FitVariable::value(double coordinate) const {
-  return logarithmic ? std::exp(coordinate) : coordinate;
-}
+double FitVariable::value(double coordinate) const { return logarithmic ? std::exp(coordinate) : coordinate; }
 
 /// The columns of a link: its parameters and the variables of its set, ascending.
 struct FitModel::Columns {
@@ -115,8 +116,8 @@ int FitModel::add_variable(const FitUnknown& unknown, const std::string& of, con
   variable.high = unknown.range.high;
   variable.start = unknown.range.start.value_or(std::clamp(0.0, variable.low, variable.high));
   variable.prior = unknown.range.prior;
-  variable.estimated = !unknown.range.start && (unknown.kind == FitUnknownKind::scale_db ||
-                                                unknown.kind == FitUnknownKind::clock_s);
+  variable.estimated = !unknown.range.start &&
+                       (unknown.kind == FitUnknownKind::scale_db || unknown.kind == FitUnknownKind::clock_s);
   variables_.push_back(std::move(variable));
   uint8_t estimated = 0;
   if (!unknown.range.start && unknown.kind == FitUnknownKind::scale_db) estimated = 1;
@@ -147,12 +148,18 @@ void FitModel::bind(const FitUnknown& unknown) {
     }
     SetVariables& own = sets_[s];
     switch (unknown.kind) {
-      case FitUnknownKind::scale_db: own.scale = variable; break;
-      case FitUnknownKind::clock_s: own.clock = variable; break;
+      case FitUnknownKind::scale_db:
+        own.scale = variable;
+        break;
+      case FitUnknownKind::clock_s:
+        own.clock = variable;
+        break;
       case FitUnknownKind::orientation_deg:
         own.orientation = variable, own.orientation_end = unknown.end;
         break;
-      case FitUnknownKind::antenna_offset_m: own.offset = variable, own.offset_end = unknown.end; break;
+      case FitUnknownKind::antenna_offset_m:
+        own.offset = variable, own.offset_end = unknown.end;
+        break;
     }
   }
 }
@@ -168,7 +175,6 @@ FitModel::FitModel(const FitProblem& problem, const FitMaterials& materials, dou
       weights_(links_.size()) {
   for (size_t p = 0; p < problem.parameters.size(); ++p) {
     const FitParameter& parameter = problem.parameters[p];
-    properties_.push_back(parameter.property);
     std::string name = parameter.materials[0];
     for (size_t m = 1; m < parameter.materials.size(); ++m) name += " + " + parameter.materials[m];
     name += fmt::format(": {}", name_of(parameter.property));
@@ -253,8 +259,8 @@ PathTerms FitModel::terms_of(uint32_t l, const TransferSlopes& slopes_of, std::s
   // An offset of an antenna moves the delay of each path as that of an element at this place (a plane wave).
   const size_t end = own.offset_end == FitUnknown::End::receiver ? 1 : 0;
   const dvec3 up(0.0, 0.0, 1.0);
-  const dquat turn = glm::angleAxis(yaw[end], up) *
-                     (end == 1 ? link.receiver.orientation : link.transmitter.orientation);
+  const dquat turn =
+      glm::angleAxis(yaw[end], up) * (end == 1 ? link.receiver.orientation : link.transmitter.orientation);
   dvec3 offset(0.0);
   if (own.offset >= 0)
     for (int axis = 0; axis < 3; ++axis) offset[axis] = values[static_cast<size_t>(own.offset + axis)];
@@ -292,8 +298,7 @@ PathTerms FitModel::terms_of(uint32_t l, const TransferSlopes& slopes_of, std::s
   if (own.offset < 0) return terms;
   const auto add_delay = [&](int variable, const dvec3& moved) {
     PathTerms::DelaySlope slope{static_cast<uint32_t>(columns.of(variable)), {}};
-    for (size_t i = 0; i < paths; ++i)
-      slope.of.push_back(-glm::dot(direction(i), moved) / speed_of_light);
+    for (size_t i = 0; i < paths; ++i) slope.of.push_back(-glm::dot(direction(i), moved) / speed_of_light);
     terms.delay_slopes.push_back(std::move(slope));
   };
   for (int axis = 0; axis < 3; ++axis) {
@@ -351,10 +356,8 @@ FitBlock FitModel::complex_block(uint32_t l, Signal response, std::span<const do
   }
   if (!set.phase_known) {
     Complex correlation = 0.0;
-    for (size_t k = 0; k < count; ++k)
-      correlation += std::conj(turn[k] * response.value[k]) * measured[k];
-    const Complex phase =
-        std::norm(correlation) > 0.0 ? correlation / std::abs(correlation) : Complex(1.0);
+    for (size_t k = 0; k < count; ++k) correlation += std::conj(turn[k] * response.value[k]) * measured[k];
+    const Complex phase = std::norm(correlation) > 0.0 ? correlation / std::abs(correlation) : Complex(1.0);
     for (Complex& factor : turn) factor *= phase;
   }
   const auto rows = static_cast<Eigen::Index>(2 * count);
@@ -382,9 +385,8 @@ FitBlock FitModel::complex_block(uint32_t l, Signal response, std::span<const do
     if (!set.phase_known) put(by_own.col(column++), k, Complex(0.0, 1.0) * modelled);
     if (own.own_clock) put(by_own.col(column), k, Complex(0.0, -number) * modelled);
   }
-  const Eigen::MatrixXd q =
-      Eigen::HouseholderQR<Eigen::MatrixXd>(by_own).householderQ() *
-      Eigen::MatrixXd::Identity(rows, block.own_unknowns);
+  const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(by_own).householderQ() *
+                            Eigen::MatrixXd::Identity(rows, block.own_unknowns);
   block.slopes -= q * (q.transpose() * block.slopes);
   return block;
 }
@@ -421,15 +423,17 @@ FitBlock FitModel::block(uint32_t l, const TransferSlopes& slopes_of, std::span<
     FitRows rows;
     switch (set.quantity) {
       case FitQuantity::power_db:
-        rows = levels_of(sampled ? mean_of(powers_of(response, terms.pairs)) : sum_of(powers_of(terms, slopes)),
-                         scale_db, floors, scale_column);
+        rows =
+            levels_of(sampled ? mean_of(powers_of(response, terms.pairs)) : sum_of(powers_of(terms, slopes)),
+                      scale_db, floors, scale_column);
         break;
       case FitQuantity::delay_spread_ns:
         if (sampled) {
           std::vector<double> delays_s;
           for (uint32_t t = 0; t < set.band.taps; ++t)
             delays_s.push_back(t / (set.band.subcarriers * set.band.spacing_hz));
-          rows = delay_spread_of(powers_of(taps_of(response, set.band, terms.pairs), terms.pairs), delays_s, {});
+          rows =
+              delay_spread_of(powers_of(taps_of(response, set.band, terms.pairs), terms.pairs), delays_s, {});
         } else {
           rows = delay_spread_of(powers_of(terms, slopes), terms.delays_s, terms.delay_slopes);
         }
@@ -465,10 +469,10 @@ FitBlock FitModel::block(uint32_t l, const TransferSlopes& slopes_of, std::span<
 std::vector<FitBlock> FitModel::blocks(std::span<const double> coordinates, std::span<const uint32_t> links,
                                        bool slopes) const {
   const std::vector<double> values = this->values(coordinates);
-  const TransferSlopes fields(materials_, properties_, std::span(values).first(properties_.size()), slopes);
+  const TransferSlopes fields(materials_, problem_.parameters,
+                              std::span(values).first(problem_.parameters.size()), slopes);
   std::vector<FitBlock> blocks(links.size());
-  parallel_for(links.size(), 0,
-               [&](size_t i) { blocks[i] = block(links[i], fields, values, slopes); });
+  parallel_for(links.size(), 0, [&](size_t i) { blocks[i] = block(links[i], fields, values, slopes); });
   return blocks;
 }
 
@@ -544,8 +548,9 @@ std::vector<double> FitModel::start(std::span<const uint32_t> links) const {
 
 std::vector<double> FitModel::estimated(std::span<const double> from, std::span<const uint32_t> links) const {
   std::vector<double> values = this->values(from);
-  const TransferSlopes fields(materials_, properties_, std::span(values).first(properties_.size()), false);
-  const auto estimate = [&](size_t v, int SetVariables::* which, auto&& best) {
+  const TransferSlopes fields(materials_, problem_.parameters,
+                              std::span(values).first(problem_.parameters.size()), false);
+  const auto estimate = [&](size_t v, int SetVariables::*which, auto&& best) {
     std::vector<uint32_t> of;
     for (const uint32_t l : links)
       if (sets_[links_[l].set].*which == static_cast<int>(v)) of.push_back(l);
@@ -567,13 +572,14 @@ std::vector<double> FitModel::estimated(std::span<const double> from, std::span<
 
 std::vector<double> FitModel::shares(std::span<const double> coordinates, uint32_t l) const {
   const std::vector<double> values = this->values(coordinates);
-  const TransferSlopes fields(materials_, properties_, std::span(values).first(properties_.size()), false);
+  const TransferSlopes fields(materials_, problem_.parameters,
+                              std::span(values).first(problem_.parameters.size()), false);
   Columns columns;
   columns.set = &sets_[links_[l].set];
   const PathTerms terms = terms_of(l, fields, values, columns, false);
   const FitRows powers = powers_of(terms, false);
   const double total = powers.value.sum();
-  std::vector<double> shares(properties_.size());
+  std::vector<double> shares(problem_.parameters.size());
   for (const FitLink::Touched& touched : links_[l].touched)
     for (const uint32_t p : touched.parameters) shares[p] += powers.value[touched.path] / total;
   return shares;

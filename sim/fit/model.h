@@ -94,12 +94,11 @@ class FitModel {
   const FitMaterials& materials_;
   double carrier_hz_;
   std::vector<FitLink> links_;
-  std::vector<FitProperty> properties_;
   std::vector<FitVariable> variables_;
   std::vector<SetVariables> sets_;
-  std::vector<uint8_t> estimated_;  ///< [variables] 1: a scale, 2: a clock without a start
-  std::vector<uint8_t> usable_;     ///< [links]
-  std::vector<FitWeights> weights_; ///< [links]; empty where an orientation is unknown
+  std::vector<uint8_t> estimated_;   ///< [variables] 1: a scale, 2: a clock without a start
+  std::vector<uint8_t> usable_;      ///< [links]
+  std::vector<FitWeights> weights_;  ///< [links]; empty where an orientation is unknown
 };
 
 }  // namespace greatx::sim

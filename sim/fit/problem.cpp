@@ -31,18 +31,24 @@ const char* name_of(FitQuantity quantity) {
 double FitLoss::cost(double x) const {
   const double a = std::abs(x);
   switch (kind) {
-    case FitLossKind::squares: break;
-    case FitLossKind::huber: return a <= scale ? 0.5 * x * x : scale * (a - 0.5 * scale);
-    case FitLossKind::cauchy: return 0.5 * scale * scale * std::log1p((x / scale) * (x / scale));
+    case FitLossKind::squares:
+      break;
+    case FitLossKind::huber:
+      return a <= scale ? 0.5 * x * x : scale * (a - 0.5 * scale);
+    case FitLossKind::cauchy:
+      return 0.5 * scale * scale * std::log1p((x / scale) * (x / scale));
   }
   return 0.5 * x * x;
 }
 
 double FitLoss::weight(double x) const {
   switch (kind) {
-    case FitLossKind::squares: break;
-    case FitLossKind::huber: return std::abs(x) <= scale ? 1.0 : scale / std::abs(x);
-    case FitLossKind::cauchy: return 1.0 / (1.0 + (x / scale) * (x / scale));
+    case FitLossKind::squares:
+      break;
+    case FitLossKind::huber:
+      return std::abs(x) <= scale ? 1.0 : scale / std::abs(x);
+    case FitLossKind::cauchy:
+      return 1.0 / (1.0 + (x / scale) * (x / scale));
   }
   return 1.0;
 }
@@ -51,8 +57,10 @@ double FitLoss::slope(double x) const { return weight(x) * x; }
 
 double FitLoss::curvature(double x) const {
   switch (kind) {
-    case FitLossKind::squares: break;
-    case FitLossKind::huber: return std::abs(x) <= scale ? 1.0 : 0.0;
+    case FitLossKind::squares:
+      break;
+    case FitLossKind::huber:
+      return std::abs(x) <= scale ? 1.0 : 0.0;
     case FitLossKind::cauchy: {
       const double q = (x / scale) * (x / scale);
       return (1.0 - q) / ((1.0 + q) * (1.0 + q));

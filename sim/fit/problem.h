@@ -88,7 +88,7 @@ struct FitBand {
 struct FitSet {
   std::string name;
   uint32_t transmitter = 0;  ///< index in the channel
-  std::string receiver;      ///< antenna of the scenario that stands at the positions; empty: isotropic, vertical
+  std::string receiver;  ///< antenna of the scenario that stands at the positions; empty: isotropic, vertical
   FitQuantity quantity = FitQuantity::power_db;
   /// Fields of different paths add, and the power is the mean over the subcarriers and the pairs of ports;
   /// otherwise the powers of the paths add.
@@ -103,10 +103,10 @@ struct FitSet {
   /// Deviation of one value, in its unit (complex: of real and imaginary part, relative to the rms of the
   /// position); none: it is estimated.
   std::optional<double> sigma;
-  std::vector<dvec3> points;         ///< world, m
-  std::vector<dquat> orientations;   ///< of the receivers' nodes; empty: that of the antenna in the scenario
-  uint32_t width = 1;                ///< values of a position
-  std::vector<double> values;        ///< [points, width] in the unit of the quantity, dB for cir and cfr; NaN: none
+  std::vector<dvec3> points;        ///< world, m
+  std::vector<dquat> orientations;  ///< of the receivers' nodes; empty: that of the antenna in the scenario
+  uint32_t width = 1;               ///< values of a position
+  std::vector<double> values;  ///< [points, width] in the unit of the quantity, dB for cir and cfr; NaN: none
   std::vector<std::complex<double>> responses;  ///< [points, width], if complex_values: over subcarriers
 };
 
@@ -136,8 +136,8 @@ struct FitProblem {
   std::vector<FitUnknown> unknowns;
   FitLoss loss;
   FitSplit split;
-  uint64_t seed = 1;          ///< of the starts
-  uint32_t starts = 8;        ///< runs of the search for the best minimum; the first starts from the scene's values
+  uint64_t seed = 1;    ///< of the starts
+  uint32_t starts = 8;  ///< runs of the search for the best minimum; the first starts from the scene's values
   uint32_t iterations = 100;  ///< at most, of each run
 };
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
 #include <unsupported/Eigen/FFT>
 
 #include "core/phase.h"
@@ -46,10 +45,9 @@ void phasors_of(double delay_s, const FitBand& band, double carrier_hz, std::vec
   const double at_carrier = turns_of(carrier_hz, delay_s);
   Complex phasor;
   for (uint32_t k = 0; k < band.subcarriers; ++k) {
-    phasor = k % afresh == 0
-                 ? unit_phasor(-at_carrier - turns_of(subcarrier_number(k, band.subcarriers), band.spacing_hz,
-                                                      delay_s))
-                 : plain_product(phasor, step);
+    phasor = k % afresh == 0 ? unit_phasor(-at_carrier - turns_of(subcarrier_number(k, band.subcarriers),
+                                                                  band.spacing_hz, delay_s))
+                             : plain_product(phasor, step);
     out[k] = phasor;
   }
 }
@@ -114,8 +112,8 @@ Signal response_of(const PathTerms& terms, const FitBand& band, double carrier_h
     for (const PathTerms::DelaySlope& slope : terms.delay_slopes)
       for (size_t p = 0; p < pairs; ++p)
         for (size_t k = 0; k < count; ++k) {
-          const double hz = carrier_hz +
-                            subcarrier_number(static_cast<uint32_t>(k), band.subcarriers) * band.spacing_hz;
+          const double hz =
+              carrier_hz + subcarrier_number(static_cast<uint32_t>(k), band.subcarriers) * band.spacing_hz;
           signal.slopes[slope.column][p * count + k] += plain_product(
               plain_product(amplitudes[p], phasors[k]), Complex(0.0, -2.0 * pi * hz * slope.of[i]));
         }

@@ -7,10 +7,9 @@
 //                                                                      └► powers of paths ─────────► FitRows
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "core/vec.h"
 #include "sim/fit/links.h"
@@ -49,8 +48,8 @@ struct PathTerms {
 
 /// Values of a function of frequency or time, and their slopes.
 struct Signal {
-  std::vector<rf::Complex> value;                 ///< [pairs, samples]
-  std::vector<std::vector<rf::Complex>> slopes;   ///< [columns]
+  std::vector<rf::Complex> value;                ///< [pairs, samples]
+  std::vector<std::vector<rf::Complex>> slopes;  ///< [columns]
 };
 
 /// Real values and their slopes.

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/fit/solver.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/Cholesky>
 
 #include "core/error.h"
 #include "core/random.h"
@@ -79,7 +78,8 @@ std::vector<double> FitSolver::drawn_start(const FitState& state) const {
     std::vector<double> tried = state.before;
     for (size_t v = 0; v < variables.size(); ++v) {
       if (variables[v].estimated) continue;
-      double low = variables[v].coordinate(variables[v].low), high = variables[v].coordinate(variables[v].high);
+      double low = variables[v].coordinate(variables[v].low),
+             high = variables[v].coordinate(variables[v].high);
       if (const std::optional<FitPrior>& prior = variables[v].prior) {
         low = std::clamp(prior->mean - 3.0 * prior->sigma, low, high);
         high = std::clamp(prior->mean + 3.0 * prior->sigma, low, high);
@@ -240,7 +240,8 @@ void FitSolver::step(FitState& state) const {
     gradient[a] = now.gradient[free[a]] * unit[a];
   }
   for (Eigen::Index a = 0; a < count; ++a)
-    for (Eigen::Index b = 0; b < count; ++b) scaled(a, b) = now.weighted(free[a], free[b]) * unit[a] * unit[b];
+    for (Eigen::Index b = 0; b < count; ++b)
+      scaled(a, b) = now.weighted(free[a], free[b]) * unit[a] * unit[b];
   const double last_fall = state.stage == FitStage::search ? small_fall_of_search : small_fall;
   bool moved = false, last = count == 0;
   for (; count > 0 && state.lambda <= most_lambda; state.lambda *= 10.0) {

@@ -19,11 +19,10 @@
 // - everything: from the best run on.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "sim/fit/model.h"
 
@@ -38,7 +37,7 @@ struct FitState {
   uint32_t run = 0, round = 0, iteration = 0;  ///< iteration: of this run
   double lambda = 0.0;
   double cost = 0.0;
-  bool converged = false;           ///< of the stages so far
+  bool converged = false;  ///< of the stages so far
   bool done = false;
   std::vector<double> coordinates;  ///< [variables]
   std::vector<double> sigmas;       ///< [sets]

@@ -23,7 +23,8 @@ FitBlocks split_by_place(std::span<const dvec3> positions, const FitSplit& split
   std::vector<std::tuple<double, Square, uint32_t>> drawn;
   for (auto& [square, number] : numbers) {
     number = next++;
-    RandomStream random(split.seed, static_cast<uint32_t>(square.first), static_cast<uint32_t>(square.second));
+    RandomStream random(split.seed, static_cast<uint32_t>(square.first),
+                        static_cast<uint32_t>(square.second));
     drawn.emplace_back(random.uniform(), square, number);
   }
   std::ranges::sort(drawn);

@@ -15,8 +15,8 @@ namespace greatx::sim {
 
 /// The square of the plan in which a position lies.
 struct FitBlocks {
-  std::vector<uint32_t> of;     ///< [positions] number of the block
-  std::vector<bool> held_out;   ///< [blocks]
+  std::vector<uint32_t> of;    ///< [positions] number of the block
+  std::vector<bool> held_out;  ///< [blocks]
   size_t count() const { return held_out.size(); }
 };
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "rf/gradient/path_slopes.h"
 #include "rf/surface/surfaces.h"
 #include "sim/fit/links.h"
 
@@ -18,29 +19,24 @@ using FitTransfer = std::array<rf::Complex, 4>;
 
 /// The paths of a link whose field depends on parameters, in the order of FitLink::touched.
 struct FitFields {
-  std::vector<FitTransfer> transfers;             ///< [touched]
-  std::vector<std::vector<FitTransfer>> slopes;   ///< [touched][its parameters]; empty if not asked for
+  std::vector<FitTransfer> transfers;            ///< [touched]
+  std::vector<std::vector<FitTransfer>> slopes;  ///< [touched][its parameters]; empty if not asked for
 };
 
-/// Computes fields and their slopes for one set of values. Thread-safe once made.
-///
-/// The slopes are central differences of path_transfer() in fp64, with a step of 1e-5 of the value (and at
-/// least 1e-7 of its unit), and one-sided at the end of a property's range. Their error is of the order of
-/// 1e-9 of the slope; it slows the last digits of a fit and moves no minimum.
+/// Computes fields and their slopes for one set of values. The slopes are the exact derivatives of the field
+/// (rf/gradient/path_slopes.h); a value that several materials share has the sum of theirs. Thread-safe once
+/// made.
 class TransferSlopes {
  public:
-  /// `materials` outlives this. `values`: [parameters].
-  TransferSlopes(const FitMaterials& materials, std::span<const FitProperty> properties,
+  /// `values`: [parameters].
+  TransferSlopes(const FitMaterials& materials, std::span<const FitParameter> parameters,
                  std::span<const double> values, bool slopes);
   FitFields of(const FitLink& link) const;
 
  private:
-  struct Step {
-    rf::RadioSurfaces below, above;
-    double width = 0.0;
-  };
   rf::RadioSurfaces surfaces_;
-  std::vector<Step> steps_;  ///< [parameters]; empty without slopes
+  std::vector<std::vector<rf::ChannelParameter>>
+      of_parameter_;  ///< [parameters][materials]; empty: no slopes
 };
 
 }  // namespace greatx::sim

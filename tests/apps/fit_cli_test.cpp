@@ -68,25 +68,28 @@ class FitCli : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = new greatx::test::TemporaryFolder;
     // A wall of thick concrete that waves do not come through makes the power depend smoothly on it.
-    write("before_radio.yaml", "materials:\n"
-                               "  # ours\n"
-                               "  blind_plaster: {relative_permittivity: 4, conductivity: 0.1}\n"
-                               "  concrete: {relative_permittivity: 5, conductivity: 0.1, thickness_m: 0.4}\n");
-    write("truth_radio.yaml", "materials:\n"
-                              "  blind_plaster: {relative_permittivity: 6, conductivity: 0.1}\n"
-                              "  concrete: {relative_permittivity: 3.5, conductivity: 0.1, thickness_m: 0.4}\n");
+    write("before_radio.yaml",
+          "materials:\n"
+          "  # ours\n"
+          "  blind_plaster: {relative_permittivity: 4, conductivity: 0.1}\n"
+          "  concrete: {relative_permittivity: 5, conductivity: 0.1, thickness_m: 0.4}\n");
+    write("truth_radio.yaml",
+          "materials:\n"
+          "  blind_plaster: {relative_permittivity: 6, conductivity: 0.1}\n"
+          "  concrete: {relative_permittivity: 3.5, conductivity: 0.1, thickness_m: 0.4}\n");
     write("before.yaml", with(scenario, "RADIO", "before_radio.yaml"));
     write("truth.yaml", with(scenario, "RADIO", "truth_radio.yaml"));
     write("fit.yaml", with(description, "STARTS", "2"));
-    const Outcome made = greatx(fmt::format("map {} -o {} --plane 1.5 --cell 1 --quantities path_gain --no-pictures -q",
-                                            path("truth.yaml"), path("truth")));
+    const Outcome made =
+        greatx(fmt::format("map {} -o {} --plane 1.5 --cell 1 --quantities path_gain --no-pictures -q",
+                           path("truth.yaml"), path("truth")));
     ASSERT_EQ(made.code, 0) << made.err;
     std::vector<double> gains = numbers("truth/path_gain.npy");
     ASSERT_EQ(gains.size(), 96u);
     std::string csv = "x_m, y_m, z_m, gain\n# the room, every metre, 3 dB too strong\n";
     for (size_t i = 0; i < gains.size(); ++i)
-      csv += fmt::format("{}, {}, 1.5, {:.4f}\n", -5.5 + static_cast<double>(i % 12), -3.5 + static_cast<double>(i / 12),
-                         10.0 * std::log10(gains[i]) + 3.0);
+      csv += fmt::format("{}, {}, 1.5, {:.4f}\n", -5.5 + static_cast<double>(i % 12),
+                         -3.5 + static_cast<double>(i / 12), 10.0 * std::log10(gains[i]) + 3.0);
     write("walk.csv", csv);
   }
   static void TearDownTestSuite() {
@@ -129,8 +132,8 @@ TEST_F(FitCli, FindsTheMaterialsAndAScenarioTakesThem) {
   EXPECT_THAT(run.out, HasSubstr("shopfront: thickness of layer 1"));
   std::vector<std::string> names;
   for (const auto& [name, bytes] : files("out")) names.push_back(name);
-  EXPECT_THAT(names, testing::ElementsAre("correlation.png", "distributions_walk.png", "errors_walk.png", "fit.json",
-                                          "materials.yaml", "positions.csv", "report.txt"));
+  EXPECT_THAT(names, testing::ElementsAre("correlation.png", "distributions_walk.png", "errors_walk.png",
+                                          "fit.json", "materials.yaml", "positions.csv", "report.txt"));
   const json result = json::parse(read_file(path("out/fit.json")));
   const double truth[] = {6.0, 3.5, 0.016, 3.0}, within[] = {0.01, 0.01, 0.002, 0.01};
   for (size_t v = 0; v < 4; ++v)
@@ -158,8 +161,9 @@ TEST_F(FitCli, FindsTheMaterialsAndAScenarioTakesThem) {
   EXPECT_THAT(calibrate(again).err, HasSubstr("holds a finished fit: choose another folder"));
   EXPECT_THAT(calibrate(again + " --resume").out, HasSubstr("is already finished"));
   write("other.yaml", with(description, "STARTS", "3"));
-  EXPECT_THAT(calibrate(fmt::format("{} -o {} --resume", path("other.yaml"), path("out"))).err,
-              HasSubstr("holds a fit that asked for something else, which this one cannot resume: /fit: asked for"));
+  EXPECT_THAT(
+      calibrate(fmt::format("{} -o {} --resume", path("other.yaml"), path("out"))).err,
+      HasSubstr("holds a fit that asked for something else, which this one cannot resume: /fit: asked for"));
 }
 
 TEST_F(FitCli, AKilledFitGoesOnToTheSameBytes) {
@@ -177,15 +181,19 @@ TEST_F(FitCli, AKilledFitGoesOnToTheSameBytes) {
     const std::string out = path(std::string("stopped_") + signal);
     // Stops the fit once it has made some iterations.
     const std::string before = fmt::format(
-        "( while ! grep -qs '.run.: [1-9]' {}/fit.part; do sleep 0.01; done; kill -{} \\$\\$ ) & ", out, signal);
-    const Outcome stopped = calibrate(fmt::format("{} -o {} --no-pictures -q", path("long.yaml"), out), before);
+        "( while ! grep -qs '.run.: [1-9]' {}/fit.part; do sleep 0.01; done; kill -{} \\$\\$ ) & ", out,
+        signal);
+    const Outcome stopped =
+        calibrate(fmt::format("{} -o {} --no-pictures -q", path("long.yaml"), out), before);
     EXPECT_EQ(stopped.code, std::string(signal) == "INT" ? 130 : 128 + 9) << stopped.err;
     if (stopped.code == 130) {
       EXPECT_THAT(stopped.err, HasSubstr("the same command with --resume goes on"));
     }
     const Outcome refused = calibrate(fmt::format("{} -o {} -q", path("long.yaml"), out));
-    EXPECT_THAT(refused.err, HasSubstr("holds an unfinished fit: choose another folder, or add --resume to go on"));
-    const Outcome resumed = calibrate(fmt::format("{} -o {} --no-pictures --resume -q", path("long.yaml"), out));
+    EXPECT_THAT(refused.err,
+                HasSubstr("holds an unfinished fit: choose another folder, or add --resume to go on"));
+    const Outcome resumed =
+        calibrate(fmt::format("{} -o {} --no-pictures --resume -q", path("long.yaml"), out));
     ASSERT_EQ(resumed.code, 0) << resumed.err;
     for (const char* file : {"materials.yaml", "positions.csv", "report.txt"})
       EXPECT_EQ(read_file(out + "/" + file), read_file(path("whole") + "/" + file)) << file;
@@ -194,41 +202,56 @@ TEST_F(FitCli, AKilledFitGoesOnToTheSameBytes) {
 }
 
 TEST_F(FitCli, EveryFaultHasItsMessage) {
-  EXPECT_THAT(refusal("greatx_fit: 1\n", "greatx_fit: 2\n"), HasSubstr("bad.yaml:1: greatx_fit: expected 1, found '2'"));
+  EXPECT_THAT(refusal("greatx_fit: 1\n", "greatx_fit: 2\n"),
+              HasSubstr("bad.yaml:1: greatx_fit: expected 1, found '2'"));
   EXPECT_THAT(refusal("scenario: before.yaml\n", ""), HasSubstr("expected a scenario, found nothing"));
   EXPECT_THAT(refusal("scenario: before.yaml", "scenario: nowhere.yaml"), HasSubstr("no such scenario"));
   EXPECT_THAT(refusal("seed: 4", "speed: 4"), HasSubstr("bad.yaml:11: speed: expected a known key"));
-  EXPECT_THAT(refusal("file: walk.csv", "file: run.csv"), HasSubstr("measurements[0].file: expected an existing file"));
-  EXPECT_THAT(refusal("quantity: power_db", "quantity: power"), HasSubstr("measurements[0].quantity: expected one of power_db"));
-  EXPECT_THAT(refusal("quantity: power_db", "quantity: cir"),
-              HasSubstr("measurements[0].file: expected positions and values (.npy) for a cir, found a table"));
+  EXPECT_THAT(refusal("file: walk.csv", "file: run.csv"),
+              HasSubstr("measurements[0].file: expected an existing file"));
+  EXPECT_THAT(refusal("quantity: power_db", "quantity: power"),
+              HasSubstr("measurements[0].quantity: expected one of power_db"));
+  EXPECT_THAT(
+      refusal("quantity: power_db", "quantity: cir"),
+      HasSubstr("measurements[0].file: expected positions and values (.npy) for a cir, found a table"));
   EXPECT_THAT(refusal("quantity: power_db", "quantity: power_db, subcarriers: 8"),
               HasSubstr("measurements[0].subcarriers: expected average: coherent beside it"));
   EXPECT_THAT(refusal("quantity: power_db", "quantity: power_db, transmitter: bs/antena"),
               HasSubstr("measurements[0].transmitter: expected bs/antenna, found 'bs/antena' (did you mean"));
-  EXPECT_THAT(refusal("{value: gain}", "{value: power}"),
-              HasSubstr("walk.csv:1:1: value: expected a column 'power' in the header, found x_m, y_m, z_m, gain"));
-  EXPECT_THAT(refusal("[-50, 50]", "[50, -50]"), HasSubstr("unknown.scale_db.bounds: expected a least value below the greatest"));
+  EXPECT_THAT(
+      refusal("{value: gain}", "{value: power}"),
+      HasSubstr("walk.csv:1:1: value: expected a column 'power' in the header, found x_m, y_m, z_m, gain"));
+  EXPECT_THAT(refusal("[-50, 50]", "[50, -50]"),
+              HasSubstr("unknown.scale_db.bounds: expected a least value below the greatest"));
   EXPECT_THAT(refusal("scale_db:", "clock_s:"), HasSubstr("expected a number from -0.01 to 0.01"));
   EXPECT_THAT(refusal("scale_db: {bounds: [-50, 50]}", "clock_s: {bounds: [-1e-9, 1e-9]}"),
               HasSubstr("bad.yaml:6: clock_s: expected a measurement that depends on it, found none"));
-  EXPECT_THAT(refusal("material: concrete", "material: concrte"),
-              HasSubstr("bad.yaml:9: material: expected one of the scene's, found 'concrte' (did you mean 'concrete'?)"));
+  EXPECT_THAT(
+      refusal("material: concrete", "material: concrte"),
+      HasSubstr(
+          "bad.yaml:9: material: expected one of the scene's, found 'concrte' (did you mean 'concrete'?)"));
   EXPECT_THAT(refusal("property: thickness, layer: 1", "property: roughness, layer: 1"),
               HasSubstr("parameters[2].layer: expected no layer for a property of the whole surface"));
-  EXPECT_THAT(refusal("layer: 1", "layer: 3"), HasSubstr("layer: expected 0 to 2, a layer of 'shopfront', found 3"));
-  EXPECT_THAT(refusal("bounds: [0.004, 0.04]", "bounds: [0.02, 0.04]"), HasSubstr("expected bounds around the start 0.016"));
-  EXPECT_THAT(refusal("bounds: [0.004, 0.04]", "log: true, bounds: [0, 0.04]"), HasSubstr("parameters[2].bounds[0]: expected"));
-  EXPECT_THAT(refusal("starts: 1", "starts: 0"), HasSubstr("bad.yaml:12: starts: expected an integer from 1 to 10000"));
+  EXPECT_THAT(refusal("layer: 1", "layer: 3"),
+              HasSubstr("layer: expected 0 to 2, a layer of 'shopfront', found 3"));
+  EXPECT_THAT(refusal("bounds: [0.004, 0.04]", "bounds: [0.02, 0.04]"),
+              HasSubstr("expected bounds around the start 0.016"));
+  EXPECT_THAT(refusal("bounds: [0.004, 0.04]", "log: true, bounds: [0, 0.04]"),
+              HasSubstr("parameters[2].bounds[0]: expected"));
+  EXPECT_THAT(refusal("starts: 1", "starts: 0"),
+              HasSubstr("bad.yaml:12: starts: expected an integer from 1 to 10000"));
   write("walk_bad.csv", "x_m, y_m, z_m, gain\n1, 2, 1.5, -60\n1, two, 1.5, -60\n");
   EXPECT_THAT(refusal("file: walk.csv", "file: walk_bad.csv"),
               HasSubstr("walk_bad.csv:3:4: y: expected a number from -1e8 to 1e8, found 'two'"));
   write("walk_bad.csv", "x_m, y_m, z_m, gain\n1, 2, 1.5\n");
-  EXPECT_THAT(refusal("file: walk.csv", "file: walk_bad.csv"), HasSubstr("expected 4 values as in the header, found 3"));
+  EXPECT_THAT(refusal("file: walk.csv", "file: walk_bad.csv"),
+              HasSubstr("expected 4 values as in the header, found 3"));
   write("walk_bad.csv", "x_m, y_m, z_m, gain\n1, 2, 1.5, inf\n");
-  EXPECT_THAT(refusal("file: walk.csv", "file: walk_bad.csv"), HasSubstr("value: expected a finite number, nan or nothing, found 'inf'"));
+  EXPECT_THAT(refusal("file: walk.csv", "file: walk_bad.csv"),
+              HasSubstr("value: expected a finite number, nan or nothing, found 'inf'"));
   write("walk_bad.csv", "x_m, y_m, z_m, gain\n");
-  EXPECT_THAT(refusal("file: walk.csv", "file: walk_bad.csv"), HasSubstr("expected one measured position or more, found none"));
+  EXPECT_THAT(refusal("file: walk.csv", "file: walk_bad.csv"),
+              HasSubstr("expected one measured position or more, found none"));
   write("not.npy", "nothing");
   EXPECT_THAT(refusal("file: walk.csv", "positions: not.npy, values: not.npy"),
               HasSubstr("measurements[0].columns: expected a file (CSV) beside it"));
@@ -246,7 +269,8 @@ TEST_F(FitCli, ScenariosAndFitsAreToldApart) {
               HasSubstr("--again: expected a scenario beside it, found the fit"));
   EXPECT_THAT(calibrate(path("before.yaml") + " --resume").err,
               HasSubstr("--resume: expected a fit (measurements) beside it, found the scenario"));
-  EXPECT_THAT(calibrate(path("before.yaml")).err, HasSubstr("expected 'accuracy' or 'time_budget_ms_per_tick'"));
+  EXPECT_THAT(calibrate(path("before.yaml")).err,
+              HasSubstr("expected 'accuracy' or 'time_budget_ms_per_tick'"));
   EXPECT_THAT(greatx("generate " + path("fit.yaml") + " -o " + path("no")).err, HasSubstr("fit"));
 }
 

@@ -30,7 +30,9 @@ std::pair<Complex, Complex> two_rays(const dvec3& from, const dvec3& to, double 
   const double cosine = (to.z + from.z) / reflected;
   const Complex a = std::sqrt(eta - 1.0 + cosine * cosine);
   const Complex gamma = (eta * cosine - a) / (eta * cosine + a);
-  const auto ray = [&](double length) { return wavelength / (4.0 * pi) / length * std::polar(1.0, -k * length); };
+  const auto ray = [&](double length) {
+    return wavelength / (4.0 * pi) / length * std::polar(1.0, -k * length);
+  };
   // theta_hat of both ends points downwards, and the reflection turns its vertical part over: at grazing
   // incidence gamma = -1 of the field along k x s is a reflected vertical field of opposite sign.
   return {ray(direct), gamma * ray(reflected)};
@@ -63,8 +65,7 @@ TEST(FitModel, TwoRaysHaveTheClosedForm) {
     const std::vector<FitBlock> blocks =
         world.model().blocks(world.coordinates({permittivity, conductivity}), links, false);
     for (size_t i = 0; i < links.size(); ++i) {
-      const auto [direct, reflected] =
-          two_rays({-70, 0, 10}, set.points[i], permittivity, conductivity);
+      const auto [direct, reflected] = two_rays({-70, 0, 10}, set.points[i], permittivity, conductivity);
       const double expected =
           coherent ? std::norm(direct + reflected) : std::norm(direct) + std::norm(reflected);
       EXPECT_NEAR(blocks[i].residuals[0], decibels(expected), 1e-6) << i << " " << coherent;
@@ -99,7 +100,9 @@ TEST(FitModel, TapsHoldTheResponse) {
   for (size_t k = 0; k < 64; ++k) {
     of_band += std::norm(response.value[k]) / 64.0;
     of_taps += std::norm(taps.value[k]);
-    const double expected = k == 40 ? std::abs(terms.amplitudes[0]) : k == 47 ? std::abs(terms.amplitudes[1]) : 0.0;
+    const double expected = k == 40   ? std::abs(terms.amplitudes[0])
+                            : k == 47 ? std::abs(terms.amplitudes[1])
+                                      : 0.0;
     EXPECT_NEAR(std::abs(taps.value[k]), expected, 1e-15) << k;
   }
   EXPECT_NEAR(of_taps, of_band, 1e-18);
@@ -165,14 +168,16 @@ TEST(FitModel, SlopesAreThoseOfDifferences) {
     const std::vector<uint32_t> links = world.all();
     ASSERT_EQ(links.size(), 4u) << one.name;
     std::vector<double> at = model.start(links);
-    for (size_t v = 0; v < at.size(); ++v) at[v] = model.variables()[v].coordinate(model.variables()[v].start);
+    for (size_t v = 0; v < at.size(); ++v)
+      at[v] = model.variables()[v].coordinate(model.variables()[v].start);
     const std::vector<FitBlock> blocks = model.blocks(at, links, true);
     for (size_t v = 0; v < at.size(); ++v) {
       // A clock is nanoseconds, the rest is of the order of 1.
       const double step = model.variables()[v].unit == "s" ? 1e-14 : 1e-5;
       std::vector<double> below = at, above = at;
       below[v] -= step, above[v] += step;
-      const std::vector<FitBlock> low = model.blocks(below, links, false), high = model.blocks(above, links, false);
+      const std::vector<FitBlock> low = model.blocks(below, links, false),
+                                  high = model.blocks(above, links, false);
       for (size_t l = 0; l < links.size(); ++l) {
         const Eigen::VectorXd expected = (high[l].residuals - low[l].residuals) / (2.0 * step);
         const auto column = std::ranges::find(blocks[l].columns, v) - blocks[l].columns.begin();
@@ -259,19 +264,25 @@ TEST(FitMaterials, RefuseWhatCannotBeFitted) {
     return [&scene, one] { FitMaterials(scene, fit_carrier_hz, std::span(&one, 1)); };
   };
   EXPECT_THAT(refused(parameter("gruond", FitProperty::permittivity, 2, 9)),
-              ThrowsMessage<UserError>(HasSubstr("material: expected one of the scene's, found 'gruond' (did you mean 'ground'?)")));
+              ThrowsMessage<UserError>(HasSubstr(
+                  "material: expected one of the scene's, found 'gruond' (did you mean 'ground'?)")));
   EXPECT_THAT(refused(parameter("ground", FitProperty::thickness, 0.1, 9)),
-              ThrowsMessage<UserError>(HasSubstr("thickness: expected a material with a thickness, found the half-space 'ground'")));
+              ThrowsMessage<UserError>(HasSubstr(
+                  "thickness: expected a material with a thickness, found the half-space 'ground'")));
   EXPECT_THAT(refused(parameter("ground", FitProperty::permittivity, 6, 9)),
-              ThrowsMessage<UserError>(HasSubstr("permittivity: bounds: expected bounds around the start 5, found [6, 9]")));
+              ThrowsMessage<UserError>(
+                  HasSubstr("permittivity: bounds: expected bounds around the start 5, found [6, 9]")));
   EXPECT_THAT(refused(parameter("ground", FitProperty::scattering, 0, 0.9)),
               ThrowsMessage<UserError>(HasSubstr("scattering: start: expected a number above 0")));
   FitParameter layer = parameter("first pane", FitProperty::permittivity, 2, 9);
   layer.layer = 2;
-  EXPECT_THAT(refused(layer), ThrowsMessage<UserError>(HasSubstr("layer: expected 0 to 0, a layer of 'first pane', found 2")));
+  EXPECT_THAT(refused(layer), ThrowsMessage<UserError>(
+                                  HasSubstr("layer: expected 0 to 0, a layer of 'first pane', found 2")));
   FitParameter both = parameter("ground", FitProperty::permittivity, 2, 9);
   both.materials.push_back("wall");
-  EXPECT_THAT(refused(both), ThrowsMessage<UserError>(HasSubstr("start: expected a value, since the materials start from 5 and 4")));
+  EXPECT_THAT(
+      refused(both),
+      ThrowsMessage<UserError>(HasSubstr("start: expected a value, since the materials start from 5 and 4")));
   both.range.start = 4.5;
   const FitMaterials shared(scene, fit_carrier_hz, std::span(&both, 1));
   EXPECT_EQ(shared.materials(0).size(), 2u);

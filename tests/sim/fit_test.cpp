@@ -69,7 +69,8 @@ TEST(Fit, StatedDeviationsAreThoseOfTheErrors) {
         const FitState state = world.fitted(links);
         const FitAssessment assessment = world.assessed(state, links);
         for (size_t v = 0; v < truth.size(); ++v) {
-          const double error = (state.coordinates[v] - truth[v]) / assessment.estimates[v].deviation_of_residuals;
+          const double error =
+              (state.coordinates[v] - truth[v]) / assessment.estimates[v].deviation_of_residuals;
           squares += error * error;
           within += std::abs(state.coordinates[v] - truth[v]) < 2.0 * assessment.estimates[v].deviation;
           ++count;
@@ -142,8 +143,7 @@ TEST(Fit, FindsClocksPhasesAndScale) {
   set.responses.assign(24 * 32, Complex(1e-6));
   FitProblem problem = two_materials(1);
   problem.sets = {set};
-  problem.unknowns.push_back(
-      unknown(FitUnknownKind::clock_s, -300e-9, 300e-9, FitUnknown::Each::position));
+  problem.unknowns.push_back(unknown(FitUnknownKind::clock_s, -300e-9, 300e-9, FitUnknown::Each::position));
   FitWorld world(problem, fit_scene(false));
   // The response is made from path gains by an independent sum.
   const rf::RadioSurfaces surfaces = world.materials().surfaces(std::vector{9.0, 6.0});
@@ -160,12 +160,14 @@ TEST(Fit, FindsClocksPhasesAndScale) {
         Complex transfer[4];
         rf::path_transfer(geometry_of(path), fields, transfer);
         // Vertical elements meet the theta components alone.
-        sum += speed_of_light / fit_carrier_hz / (4.0 * pi) * transfer[0] *
-               std::polar(1.0, -2.0 * pi * (std::fmod(fit_carrier_hz * path.delay_s, 1.0) + hz * path.delay_s));
+        sum +=
+            speed_of_light / fit_carrier_hz / (4.0 * pi) * transfer[0] *
+            std::polar(1.0, -2.0 * pi * (std::fmod(fit_carrier_hz * path.delay_s, 1.0) + hz * path.delay_s));
       }
       const Complex noise(1e-3 * normal(random), 1e-3 * normal(random));
       world.problem().sets[0].responses[link.position * 32 + k] =
-          std::pow(10.0, -7.0 / 20.0) * std::polar(1.0, phase - 2.0 * pi * hz * clock_s) * (sum + std::abs(sum) * noise);
+          std::pow(10.0, -7.0 / 20.0) * std::polar(1.0, phase - 2.0 * pi * hz * clock_s) *
+          (sum + std::abs(sum) * noise);
     }
   }
   world.make_model();
@@ -264,7 +266,7 @@ TEST(Fit, SaysWhatTheMeasurementsDoNotTell) {
   EXPECT_EQ(assessment.estimates[1].value, 3.0);
   EXPECT_EQ(assessment.positions[1], 0u);
   EXPECT_EQ(assessment.shares[1], 0.0);
-  EXPECT_GT(assessment.shares[2], 0.99);  // every path passes the panes
+  EXPECT_GT(assessment.shares[2], 0.99);         // every path passes the panes
   EXPECT_EQ(verdict(4), FitVerdict::no_effect);  // the effect is off
   EXPECT_EQ(verdict(5), FitVerdict::at_bound);
   EXPECT_EQ(verdict(6), FitVerdict::by_prior);

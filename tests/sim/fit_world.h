@@ -29,7 +29,8 @@ inline scene::Material flat_material(const std::string& name, double permittivit
   scene::Material material;
   material.name = name;
   scene::RadioMaterial radio;
-  radio.layers.push_back({{"test", {{permittivity, 0.0, conductivity, 0.0, 0.0, INFINITY}}, false}, thickness_m});
+  radio.layers.push_back(
+      {{"test", {{permittivity, 0.0, conductivity, 0.0, 0.0, INFINITY}}, false}, thickness_m});
   material.radio = radio;
   return material;
 }
@@ -38,7 +39,8 @@ inline scene::Material flat_material(const std::string& name, double permittivit
 inline scene::Scene fit_scene(bool panes, bool slab = false) {
   test::TinyScene tiny;
   const uint32_t ground = tiny.material_as(flat_material("ground", 5.0, 0.05)),
-                 wall = tiny.material_as(slab ? flat_material("wall", 5.0, 0.02, 0.12) : flat_material("wall", 4.0, 0.02)),
+                 wall = tiny.material_as(slab ? flat_material("wall", 5.0, 0.02, 0.12)
+                                              : flat_material("wall", 4.0, 0.02)),
                  first = tiny.material_as(flat_material("first pane", 4.0, 0.05, 0.02)),
                  second = tiny.material_as(flat_material("second pane", 4.0, 0.05, 0.02)),
                  away = tiny.material_as(flat_material("away", 3.0, 0.01));
@@ -107,7 +109,8 @@ class FitWorld {
       : problem_(std::move(problem)),
         experiment_(experiment_in(scenario, scene, bounds_of(problem_.sets))),
         materials_(experiment_.scene(), fit_carrier_hz, problem_.parameters),
-        links_(*solve_links(test::device(), experiment_, 0, problem_, materials_, [](size_t) { return true; })) {
+        links_(
+            *solve_links(test::device(), experiment_, 0, problem_, materials_, [](size_t) { return true; })) {
     make_model();
   }
   FitProblem& problem() { return problem_; }
