@@ -13,15 +13,13 @@
 #include "core/phase.h"
 #include "core/units.h"
 #include "sim/fit/clock.h"
+#include "sim/fit/model_parts.h"
 
 namespace greatx::sim {
 namespace {
 
 using rf::Complex;
 using rf::plain_product;
-
-constexpr double most_clock_steps = 65536.0;
-constexpr double turn_step_rad = 1e-5;  ///< of central differences by an orientation
 
 /// Whether a quantity depends on an unknown.
 bool depends(const FitSet& set, FitUnknownKind kind) {
@@ -33,27 +31,6 @@ bool depends(const FitSet& set, FitUnknownKind kind) {
     default:
       return true;
   }
-}
-
-double median(std::vector<double> of) {
-  std::erase_if(of, [](double value) { return !std::isfinite(value); });
-  if (of.empty()) return 0.0;
-  const auto middle = of.begin() + static_cast<ptrdiff_t>(of.size() / 2);
-  std::nth_element(of.begin(), middle, of.end());
-  return *middle;
-}
-
-std::span<const double> values_at(const FitSet& set, uint32_t position) {
-  return std::span(set.values).subspan(size_t{position} * set.width, set.width);
-}
-std::span<const Complex> responses_at(const FitSet& set, uint32_t position) {
-  return std::span(set.responses).subspan(size_t{position} * set.width, set.width);
-}
-
-double rms_of(std::span<const Complex> of) {
-  double sum = 0.0;
-  for (const Complex& value : of) sum += std::norm(value);
-  return std::sqrt(sum / static_cast<double>(of.size()));
 }
 
 /// Returns the floors below which levels of a position do not count, linear; empty: there are none.
@@ -74,17 +51,6 @@ double compared(double measured, std::span<const double> floors) {
 
 double FitVariable::coordinate(double value) const { return logarithmic ? std::log(value) : value; }
 double FitVariable::value(double coordinate) const { return logarithmic ? std::exp(coordinate) : coordinate; }
-
-/// The columns of a link: its parameters and the variables of its set, ascending.
-struct FitModel::Columns {
-  std::vector<uint32_t> variables;
-  const SetVariables* set = nullptr;
-  int of(int variable) const {
-    if (variable < 0) return -1;
-    const auto found = std::ranges::find(variables, static_cast<uint32_t>(variable));
-    return found == variables.end() ? -1 : static_cast<int>(found - variables.begin());
-  }
-};
 
 void check_unknowns(const FitProblem& problem) {
   for (const FitUnknown& unknown : problem.unknowns) {
@@ -224,113 +190,6 @@ std::vector<double> FitModel::values(std::span<const double> coordinates) const 
   std::vector<double> values(variables_.size());
   for (size_t v = 0; v < values.size(); ++v) values[v] = variables_[v].value(coordinates[v]);
   return values;
-}
-
-PathTerms FitModel::terms_of(uint32_t l, const TransferSlopes& slopes_of, std::span<const double> values,
-                             const Columns& columns, bool slopes) const {
-  const FitLink& link = links_[l];
-  const FitSet& set = problem_.sets[link.set];
-  const SetVariables& own = sets_[link.set];
-  const FitFields fields = slopes_of.of(link);
-  double yaw[2] = {0.0, 0.0};  // of transmitter and receiver
-  const size_t turning = own.orientation_end == FitUnknown::End::receiver ? 1 : 0;
-  if (own.orientation >= 0) yaw[turning] = radians(values[static_cast<size_t>(own.orientation)]);
-  FitWeights fresh;
-  if (own.orientation >= 0) fresh = weights_of(link, set, carrier_hz_, yaw[0], yaw[1]);
-  const FitWeights& weights = own.orientation >= 0 ? fresh : weights_[l];
-
-  PathTerms terms;
-  terms.pairs = weights.pairs;
-  terms.columns = columns.variables.size();
-  const size_t paths = link.paths.size();
-  std::vector<FitTransfer> transfers(paths);
-  for (size_t i = 0; i < paths; ++i) std::copy_n(link.paths[i].transfer, 4, transfers[i].begin());
-  for (size_t t = 0; t < link.touched.size(); ++t) transfers[link.touched[t].path] = fields.transfers[t];
-  const auto amplitude = [&](const FitWeights& by, size_t path, size_t pair, const FitTransfer& transfer) {
-    Complex sum = 0.0;
-    for (size_t e = 0; e < 4; ++e) sum += plain_product(by.of[path * by.pairs + pair][e], transfer[e]);
-    return sum;
-  };
-  for (size_t i = 0; i < paths; ++i) {
-    terms.delays_s.push_back(link.paths[i].delay_s);
-    for (size_t p = 0; p < terms.pairs; ++p)
-      terms.amplitudes.push_back(amplitude(weights, i, p, transfers[i]));
-  }
-  // An offset of an antenna moves the delay of each path as that of an element at this place (a plane wave).
-  const size_t end = own.offset_end == FitUnknown::End::receiver ? 1 : 0;
-  const dvec3 up(0.0, 0.0, 1.0);
-  const dquat turn =
-      glm::angleAxis(yaw[end], up) * (end == 1 ? link.receiver.orientation : link.transmitter.orientation);
-  dvec3 offset(0.0);
-  if (own.offset >= 0)
-    for (int axis = 0; axis < 3; ++axis) offset[axis] = values[static_cast<size_t>(own.offset + axis)];
-  const auto direction = [&](size_t i) { return end == 1 ? link.paths[i].arrival : link.paths[i].departure; };
-  if (own.offset >= 0)
-    for (size_t i = 0; i < paths; ++i)
-      terms.delays_s[i] -= glm::dot(direction(i), turn * offset) / speed_of_light;
-  if (!slopes) return terms;
-
-  for (size_t t = 0; t < link.touched.size(); ++t)
-    for (size_t q = 0; q < link.touched[t].parameters.size(); ++q) {
-      PathTerms::AmplitudeSlope slope{
-          static_cast<uint32_t>(columns.of(static_cast<int>(link.touched[t].parameters[q]))),
-          link.touched[t].path,
-          {}};
-      for (size_t p = 0; p < terms.pairs; ++p)
-        slope.of.push_back(amplitude(weights, slope.path, p, fields.slopes[t][q]));
-      terms.amplitude_slopes.push_back(std::move(slope));
-    }
-  if (own.orientation >= 0) {
-    double below[2] = {yaw[0], yaw[1]}, above[2] = {yaw[0], yaw[1]};
-    below[turning] -= turn_step_rad, above[turning] += turn_step_rad;
-    const FitWeights at_below = weights_of(link, set, carrier_hz_, below[0], below[1]),
-                     at_above = weights_of(link, set, carrier_hz_, above[0], above[1]);
-    for (uint32_t i = 0; i < paths; ++i) {
-      PathTerms::AmplitudeSlope slope{static_cast<uint32_t>(columns.of(own.orientation)), i, {}};
-      for (size_t p = 0; p < terms.pairs; ++p)
-        slope.of.push_back(
-            (amplitude(at_above, i, p, transfers[i]) - amplitude(at_below, i, p, transfers[i])) *
-            (radians(1.0) / (2.0 * turn_step_rad)));
-      terms.amplitude_slopes.push_back(std::move(slope));
-    }
-    std::ranges::stable_sort(terms.amplitude_slopes, {}, &PathTerms::AmplitudeSlope::path);
-  }
-  if (own.offset < 0) return terms;
-  const auto add_delay = [&](int variable, const dvec3& moved) {
-    PathTerms::DelaySlope slope{static_cast<uint32_t>(columns.of(variable)), {}};
-    for (size_t i = 0; i < paths; ++i) slope.of.push_back(-glm::dot(direction(i), moved) / speed_of_light);
-    terms.delay_slopes.push_back(std::move(slope));
-  };
-  for (int axis = 0; axis < 3; ++axis) {
-    dvec3 unit(0.0);
-    unit[axis] = 1.0;
-    add_delay(own.offset + axis, turn * unit);
-  }
-  if (own.orientation >= 0 && turning == end)
-    add_delay(own.orientation, radians(1.0) * glm::cross(up, turn * offset));
-  return terms;
-}
-
-Signal FitModel::band_response(const PathTerms& terms, const FitSet& set, std::span<const double> values,
-                               const Columns& columns, bool slopes) const {
-  Signal response = response_of(terms, set.band, carrier_hz_, slopes);
-  const int clock = columns.set->clock;
-  if (clock < 0) return response;
-  const std::vector<Complex> turn = clock_turn(set.band, values[static_cast<size_t>(clock)]);
-  const size_t count = turn.size();
-  const auto delay = [&](std::vector<Complex>& of) {
-    for (size_t i = 0; i < of.size(); ++i) of[i] = plain_product(of[i], turn[i % count]);
-  };
-  delay(response.value);
-  for (std::vector<Complex>& slope : response.slopes) delay(slope);
-  if (!slopes) return response;
-  std::vector<Complex>& by_clock = response.slopes[static_cast<size_t>(columns.of(clock))];
-  for (size_t i = 0; i < by_clock.size(); ++i) {
-    const double hz = (static_cast<double>(i % count) - static_cast<double>(set.band.subcarriers / 2)) *
-                      set.band.spacing_hz;
-    by_clock[i] = plain_product(response.value[i], Complex(0.0, -2.0 * pi * hz));
-  }
-  return response;
 }
 
 FitBlock FitModel::complex_block(uint32_t l, Signal response, std::span<const double> values,
@@ -474,115 +333,6 @@ std::vector<FitBlock> FitModel::blocks(std::span<const double> coordinates, std:
   std::vector<FitBlock> blocks(links.size());
   parallel_for(links.size(), 0, [&](size_t i) { blocks[i] = block(links[i], fields, values, slopes); });
   return blocks;
-}
-
-double FitModel::best_scale_db(uint32_t l, const TransferSlopes& fields,
-                               std::span<const double> values) const {
-  const FitLink& link = links_[l];
-  const FitSet& set = problem_.sets[link.set];
-  Columns columns;
-  columns.set = &sets_[link.set];
-  const PathTerms terms = terms_of(l, fields, values, columns, false);
-  const auto response = [&] { return band_response(terms, set, values, columns, false); };
-  if (set.complex_values)
-    return 20.0 * std::log10(rms_of(responses_at(set, link.position)) / rms_of(response().value));
-  const std::span<const double> measured = values_at(set, link.position);
-  double highest = -INFINITY;
-  for (const double level : measured)
-    if (level > highest) highest = level;
-  FitRows powers;
-  if (set.quantity == FitQuantity::power_db)
-    powers = set.coherent ? mean_of(powers_of(response(), terms.pairs)) : sum_of(powers_of(terms, false));
-  else if (set.quantity == FitQuantity::cir)
-    powers = powers_of(taps_of(response(), set.band, terms.pairs), terms.pairs);
-  else
-    powers = powers_of(response(), terms.pairs);
-  return highest - decibels(powers.value.maxCoeff());
-}
-
-double FitModel::best_clock_s(uint32_t l, const TransferSlopes& fields,
-                              std::span<const double> values) const {
-  const FitLink& link = links_[l];
-  const FitSet& set = problem_.sets[link.set];
-  const FitVariable& clock = variables_[static_cast<size_t>(sets_[link.set].clock)];
-  Columns columns;
-  columns.set = &sets_[link.set];
-  const PathTerms terms = terms_of(l, fields, values, columns, false);
-  const Signal response = response_of(terms, set.band, carrier_hz_, false);
-  if (set.complex_values && clock_steps(set.band, clock.low, clock.high) <= most_clock_steps)
-    return best_clock(set.band, response.value, responses_at(set, link.position), clock.low, clock.high);
-  if (set.complex_values) return clock.start;
-  // The clock at which the magnitudes of the profiles agree best: whole taps first, then eighths about them.
-  const std::span<const double> measured = values_at(set, link.position);
-  const auto agreement = [&](double clock_s) {
-    Signal delayed = response;
-    const std::vector<Complex> turn = clock_turn(set.band, clock_s);
-    for (size_t k = 0; k < turn.size(); ++k) delayed.value[k] = plain_product(delayed.value[k], turn[k]);
-    const FitRows modelled = powers_of(taps_of(delayed, set.band, 1), 1);
-    double sum = 0.0, total = 0.0;
-    for (uint32_t t = 0; t < set.band.taps; ++t) {
-      if (!std::isfinite(measured[t])) continue;
-      sum += std::sqrt(from_decibels(measured[t]) * modelled.value[t]);
-      total += modelled.value[t];
-    }
-    return total > 0.0 ? sum / std::sqrt(total) : 0.0;
-  };
-  const double tap_s = 1.0 / (set.band.subcarriers * set.band.spacing_hz);
-  double best = clock.start, most = -1.0;
-  const auto try_clock = [&](double clock_s) {
-    const double value = agreement(std::clamp(clock_s, clock.low, clock.high));
-    if (value > most) most = value, best = std::clamp(clock_s, clock.low, clock.high);
-  };
-  const double range_s = std::min(clock.high - clock.low, set.band.subcarriers * tap_s);
-  for (double past = 0.0; past <= range_s; past += tap_s) try_clock(clock.low + past);
-  const double whole = best;
-  for (int eighth = -8; eighth <= 8; ++eighth) try_clock(whole + 0.125 * eighth * tap_s);
-  return best;
-}
-
-std::vector<double> FitModel::start(std::span<const uint32_t> links) const {
-  std::vector<double> coordinates;
-  for (const FitVariable& variable : variables_) coordinates.push_back(variable.coordinate(variable.start));
-  return estimated(coordinates, links);
-}
-
-std::vector<double> FitModel::estimated(std::span<const double> from, std::span<const uint32_t> links) const {
-  std::vector<double> values = this->values(from);
-  const TransferSlopes fields(materials_, problem_.parameters,
-                              std::span(values).first(problem_.parameters.size()), false);
-  const auto estimate = [&](size_t v, int SetVariables::*which, auto&& best) {
-    std::vector<uint32_t> of;
-    for (const uint32_t l : links)
-      if (sets_[links_[l].set].*which == static_cast<int>(v)) of.push_back(l);
-    std::vector<double> all(of.size());
-    parallel_for(of.size(), 0, [&](size_t i) { all[i] = best(of[i]); });
-    if (!of.empty()) values[v] = std::clamp(median(std::move(all)), variables_[v].low, variables_[v].high);
-  };
-  for (size_t v = 0; v < variables_.size(); ++v)
-    if (estimated_[v] == 2)
-      estimate(v, &SetVariables::clock, [&](uint32_t l) { return best_clock_s(l, fields, values); });
-  for (size_t v = 0; v < variables_.size(); ++v)
-    if (estimated_[v] == 1)
-      estimate(v, &SetVariables::scale, [&](uint32_t l) { return best_scale_db(l, fields, values); });
-  std::vector<double> coordinates(from.begin(), from.end());
-  for (size_t v = 0; v < values.size(); ++v)
-    if (estimated_[v] != 0) coordinates[v] = variables_[v].coordinate(values[v]);
-  return coordinates;
-}
-
-std::vector<double> FitModel::shares(std::span<const double> coordinates, uint32_t l) const {
-  const std::vector<double> values = this->values(coordinates);
-  const TransferSlopes fields(materials_, problem_.parameters,
-                              std::span(values).first(problem_.parameters.size()), false);
-  Columns columns;
-  columns.set = &sets_[links_[l].set];
-  const PathTerms terms = terms_of(l, fields, values, columns, false);
-  const FitRows powers = powers_of(terms, false);
-  const double total = powers.value.sum();
-  std::vector<double> shares(problem_.parameters.size());
-  for (const FitLink::Touched& touched : links_[l].touched)
-    for (const uint32_t p : touched.parameters) shares[p] += powers.value[touched.path] / total;
-  return shares;
 }
 
 }  // namespace greatx::sim

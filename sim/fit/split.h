@@ -21,8 +21,8 @@ struct FitBlocks {
 };
 
 /// Divides the plan into squares of `block_m`, whose corners are multiples of it, and holds out the share
-/// `held_out` of the occupied ones: a whole number of them, at least one if the share is above 0 and there are
-/// two or more, and never all. Which ones, depends on the seed and the numbers of the squares alone.
+/// `held_out` of the occupied ones: a whole number of them, at least one if the share is above 0 and there
+/// are two or more, and never all. Which ones, depends on the seed and the numbers of the squares alone.
 FitBlocks split_by_place(std::span<const dvec3> positions, const FitSplit& split);
 
 }  // namespace greatx::sim

@@ -51,7 +51,8 @@ unknown:
 parameters:
   - {material: blind_plaster, property: permittivity, bounds: [2, 9]}
   - {material: concrete, property: permittivity, bounds: [2, 9]}
-  - {material: shopfront, property: thickness, layer: 1, bounds: [0.004, 0.04], prior: {mean: 0.016, sigma: 0.001}}
+  - {material: shopfront, property: thickness, layer: 1, bounds: [0.004, 0.04],
+     prior: {mean: 0.016, sigma: 0.001}}
 seed: 4
 starts: STARTS
 )";
@@ -206,7 +207,7 @@ TEST_F(FitCli, EveryFaultHasItsMessage) {
               HasSubstr("bad.yaml:1: greatx_fit: expected 1, found '2'"));
   EXPECT_THAT(refusal("scenario: before.yaml\n", ""), HasSubstr("expected a scenario, found nothing"));
   EXPECT_THAT(refusal("scenario: before.yaml", "scenario: nowhere.yaml"), HasSubstr("no such scenario"));
-  EXPECT_THAT(refusal("seed: 4", "speed: 4"), HasSubstr("bad.yaml:11: speed: expected a known key"));
+  EXPECT_THAT(refusal("seed: 4", "speed: 4"), HasSubstr("bad.yaml:12: speed: expected a known key"));
   EXPECT_THAT(refusal("file: walk.csv", "file: run.csv"),
               HasSubstr("measurements[0].file: expected an existing file"));
   EXPECT_THAT(refusal("quantity: power_db", "quantity: power"),
@@ -239,7 +240,7 @@ TEST_F(FitCli, EveryFaultHasItsMessage) {
   EXPECT_THAT(refusal("bounds: [0.004, 0.04]", "log: true, bounds: [0, 0.04]"),
               HasSubstr("parameters[2].bounds[0]: expected"));
   EXPECT_THAT(refusal("starts: 1", "starts: 0"),
-              HasSubstr("bad.yaml:12: starts: expected an integer from 1 to 10000"));
+              HasSubstr("bad.yaml:13: starts: expected an integer from 1 to 10000"));
   write("walk_bad.csv", "x_m, y_m, z_m, gain\n1, 2, 1.5, -60\n1, two, 1.5, -60\n");
   EXPECT_THAT(refusal("file: walk.csv", "file: walk_bad.csv"),
               HasSubstr("walk_bad.csv:3:4: y: expected a number from -1e8 to 1e8, found 'two'"));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A closed world for fits: ground, a wall that reflects, two panes in the way, and a plate that no path meets.
-// Measurements are made by the model itself with other materials, so that the truth is known.
+// A closed world for fits: ground, a wall that reflects, two panes in the way, and a plate that no path
+// meets. Measurements are made by the model itself with other materials, so that the truth is known.
 #pragma once
 
 #include <cmath>
@@ -35,7 +35,7 @@ inline scene::Material flat_material(const std::string& name, double permittivit
   return material;
 }
 
-/// Names of the parts of the world. All materials are half-spaces but the panes and the slab.
+/// Returns the world, with or without panes; the wall is a half-space, or a slab.
 inline scene::Scene fit_scene(bool panes, bool slab = false) {
   test::TinyScene tiny;
   const uint32_t ground = tiny.material_as(flat_material("ground", 5.0, 0.05)),
@@ -67,7 +67,7 @@ inline std::string fit_scenario(const std::string& antenna = "") {
       antenna, fit_carrier_hz);
 }
 
-/// Positions of a street, with a distance of `step` between rows.
+/// Returns places that are drawn over the street.
 inline std::vector<dvec3> fit_points(size_t count) {
   std::vector<dvec3> points;
   RandomStream random(9, 1);
