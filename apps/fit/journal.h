@@ -20,10 +20,10 @@ inline constexpr const char* fit_description = "fit.json";
 /// replaced as a whole.
 class FitJournal {
  public:
-  /// Opens a journal in a new or empty folder or, with `resume`, in the folder of a fit with the same request.
-  /// Throws UserError, which names the folder, if it holds other files; if it holds a fit, finished or not,
-  /// and `resume` is off; or if the fit in it has another request. The message names the first difference as
-  /// a JSON pointer.
+  /// Opens a journal in a new or empty folder or, with `resume`, in the folder of a fit with the same
+  /// request. Throws UserError, which names the folder, if it holds other files; if it holds a fit, finished
+  /// or not, and `resume` is off; or if the fit in it has another request. The message names the first
+  /// difference as a JSON pointer.
   FitJournal(const std::filesystem::path& folder, const nlohmann::ordered_json& request, bool resume);
 
   /// Whether the folder holds the finished fit.

@@ -6,10 +6,10 @@
 //
 // The cost is sum over rows of loss(residual/sigma) + sum over priors of ((u - mean)/sigma)^2/2. An iteration
 // solves (H + lambda diag H) step = -g, with H = J^T W J and the weights W of the loss (iterative
-// reweighting: P. W. Holland, R. E. Welsch, Commun. Stat. 6(9), 1977), for the variables that are not held at a bound by
-// their gradient, clamps the result to the bounds, and takes it if the cost falls (J. J. More, "The
-// Levenberg-Marquardt algorithm", LNM 630, 1978). A deviation that is not given is estimated, between rounds
-// of iterations, as 1.4826 times the median of the magnitudes of the residuals of the set.
+// reweighting: P. W. Holland, R. E. Welsch, Commun. Stat. 6(9), 1977), for the variables that are not held at
+// a bound by their gradient, clamps the result to the bounds, and takes it if the cost falls (J. J. More,
+// "The Levenberg-Marquardt algorithm", LNM 630, 1978). A deviation that is not given is estimated, between
+// rounds of iterations, as 1.4826 times the median of the magnitudes of the residuals of the set.
 //
 // A fit has three stages.
 // - unknowns: only those of the measurement, with the materials of the scene. Its end is what "before" means.
