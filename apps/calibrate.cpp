@@ -10,6 +10,8 @@
 #include "apps/console/json_text.h"
 #include "apps/console/progress.h"
 #include "apps/console/session.h"
+#include "apps/fit/fit_file.h"
+#include "apps/fit/run.h"
 #include "core/error.h"
 #include "io/files/file.h"
 #include "sim/experiment/experiment.h"
@@ -22,10 +24,28 @@ struct CalibrateOptions {
   ScenarioOptions scenario;
   RunOptions run;
   std::string output;
-  bool again = false, json = false, quiet = false;
+  bool again = false, resume = false, no_pictures = false, json = false, quiet = false;
 };
 
+/// Refuses the options of one meaning beside a file of the other.
+void check_options(const CalibrateOptions& options, bool fit) {
+  const auto refuse = [&](bool given, const char* option) {
+    if (given)
+      throw_user_error("{}: expected a {} beside it, found the {} {}", option,
+                       fit ? "scenario" : "fit (measurements)", fit ? "fit" : "scenario",
+                       options.scenario.scenario);
+  };
+  if (fit) return refuse(options.again, "--again");
+  refuse(options.resume, "--resume");
+  refuse(options.no_pictures, "--no-pictures");
+}
+
 void run_calibrate(const CalibrateOptions& options) {
+  const bool fit = is_fit_file(options.scenario.scenario);
+  check_options(options, fit);
+  if (fit)
+    return run_fit({options.scenario, options.run, options.output, options.resume, options.no_pictures,
+                    options.json, options.quiet});
   const sim::Experiment experiment = sim::make_experiment(load_scenario(options.scenario, true));
   if (experiment.scenario.accuracy.empty())
     throw_user_error("{}: expected 'accuracy' or 'time_budget_ms_per_tick', found neither",
@@ -46,14 +66,21 @@ void run_calibrate(const CalibrateOptions& options) {
 }  // namespace
 
 void add_calibrate(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "calibrate", "choose settings for a scenario that gives errors (accuracy) or a time budget");
+  CLI::App* command =
+      app.add_subcommand("calibrate",
+                         "fit materials to measurements (a file with 'greatx_fit: 1' and -o DIR; "
+                         "docs/fit.md), or choose settings "
+                         "for a scenario that gives errors (accuracy) or a time budget (docs/accuracy.md)");
   auto options = std::make_shared<CalibrateOptions>();
   options->scenario.add_to(*command);
   options->run.add_to(*command);
-  command->add_option("-o,--output", options->output, "file for the scenario with the choice");
-  command->add_flag("--again", options->again, "calibrate even if the cache has the choice");
-  command->add_flag("--json", options->json, "print one JSON object with the choice");
+  command->add_option("-o,--output", options->output,
+                      "of a fit: folder for materials.yaml, report and pictures; of a scenario: file for the "
+                      "scenario with the choice");
+  command->add_flag("--again", options->again, "of a scenario: calibrate even if the cache has the choice");
+  command->add_flag("--resume", options->resume, "of a fit: go on with the fit in the folder");
+  command->add_flag("--no-pictures", options->no_pictures, "of a fit: write no pictures");
+  command->add_flag("--json", options->json, "print one JSON object with the result");
   command->add_flag("-q,--quiet", options->quiet, "print nothing but warnings and errors");
   command->callback([options] { run_calibrate(*options); });
 }

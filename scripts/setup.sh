@@ -16,7 +16,7 @@ packages=(
   libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libspdlog-dev libssl-dev zlib1g-dev libpng-dev
   libjpeg-dev libdeflate-dev libwebp-dev libpugixml-dev libkissfft-dev libglfw3-dev libimgui-dev
   libgdal-dev libproj-dev libgeos-dev libosmium2-dev libexpat1-dev libbz2-dev
-  libsqlite3-dev libgtest-dev libgmock-dev pybind11-dev python3-dev python3-numpy python3-h5py
+  libeigen3-dev libsqlite3-dev libgtest-dev libgmock-dev pybind11-dev python3-dev python3-numpy python3-h5py
   python3-jsonschema python3-yaml xvfb xauth fonts-dejavu-core zsh fish
 )
 [ "${GREATX_PACKAGES-all}" = all ] || packages=()
