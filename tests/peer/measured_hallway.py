@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Holds greatx against a measured hallway: DICHASUS dc01 as NVlabs/diff-rt-calibration publishes it.
 
-    python3 tests/peer/measured_hallway.py FOLDER -o out/hallway                   # everything: about half an hour
+    python3 tests/peer/measured_hallway.py FOLDER -o out/hallway                   # every step: half an hour
     python3 tests/peer/measured_hallway.py FOLDER -o out/hallway --steps itu,ends  # some steps
     python3 tests/peer/measured_hallway.py FOLDER -o out/hallway --every 8         # every eighth cell
 

@@ -44,7 +44,8 @@ def layer(permittivity, conductivity, thickness_m):
 BOARD, GLASS = layer(2.73, 0.027, 0.0125), layer(6.31, 0.019, 0.004)
 CONCRETE = layer(5.24, 0.121, 0.2)
 #: where the fit begins: partitions of boards with a cavity, a covered floor and a suspended ceiling below
-#: slabs of concrete, and panes at the ends of the corridor. The media are those of ITU-R P.2040 at the carrier.
+#: slabs of concrete, and panes at the ends of the corridor. The media are those of ITU-R P.2040 at the
+#: carrier.
 START = {
     "walls": {"layers": [BOARD, layer(1.0, 0.0, 0.075), layer(2.73, 0.027, 0.0125)]},
     "north": {"layers": [GLASS]},
@@ -55,7 +56,8 @@ START = {
 
 
 def antenna(name, pattern, rows=1, columns=1):
-    return f"{{name: {name}, type: antenna, pattern: {pattern}, polarization: v, rows: {rows}, columns: {columns}}}"
+    fields = f"pattern: {pattern}, polarization: v, rows: {rows}, columns: {columns}"
+    return f"{{name: {name}, type: antenna, {fields}}}"
 
 
 def write_scenario(world, hall, sidecar, folder):

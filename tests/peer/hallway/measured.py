@@ -77,7 +77,7 @@ class Measured:
         self.arrays = self._arrays()
 
     def _survey(self):
-        """Returns surveyed points by name, (west, south, height) m; points that were not seen are left out."""
+        """Returns surveyed points by name, (west, south, height) m, without those that were not seen."""
         points = {}
         with open(self.folder / "data/coordinates.csv", newline="") as file:
             for row in csv.DictReader(file):

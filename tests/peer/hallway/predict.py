@@ -71,8 +71,8 @@ def delay_spread_ns(response):
 
 
 def predict(measured, sim, cells, *, places=7, subcarriers=m.SUBCARRIERS, batch=64):
-    """Runs the channel at `places` positions in each of the cells [n, 2]. Fewer subcarriers over the same band
-    give the same powers and spreads as long as no path is longer than their spacing allows."""
+    """Runs the channel at `places` positions in each of the cells [n, 2]. Fewer subcarriers over the same
+    band give the same powers and spreads as long as no path is longer than their spacing allows."""
     at = places_in_cells(cells, places)
     points = at.reshape(-1, 3)
     robot = greatx.Array(pattern="short_dipole", polarization="v")
