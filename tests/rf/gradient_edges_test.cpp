@@ -183,6 +183,15 @@ TEST(PathSlopes, OverTwoScreens) {
     link.solve = over_edges(upper[0], upper[1]);
     expect_true_slopes(link, 0.1);
   }
+  // A wall between them, and rain.
+  link.hand.itu_material("glass", 0.01);
+  link.hand.quad({3, -20, 0}, {3.5, 20, 0}, {3.5, 20, 20}, {3, -20, 20}, 1);
+  link.hand.quad({10, -20, 0}, {10.5, 20, 0}, {10.5, 20, 20}, {10, -20, 20}, 1);
+  link.effects.rain = true;
+  link.weather.rain_mm_h = 30.0;
+  link.carrier_hz = 28e9;
+  link.solve = testing::through(over_edges(upper[0], upper[1]), {2, 3});
+  expect_true_slopes(link, 0.03);
 }
 
 TEST(PathSlopes, APatchAndAnEdge) {
