@@ -61,6 +61,15 @@ def is_tensor(value: Any) -> bool:
     return torch is not None and isinstance(value, torch.Tensor)
 
 
+def _callers_level() -> int:
+    """Returns the stack level of the first frame outside this package and torch, for warnings.warn() of the
+    caller."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back and frame.f_globals.get("__name__", "").split(".")[0] in ("greatx", "torch"):
+        level, frame = level + 1, frame.f_back
+    return level
+
+
 class Variation:
     """Holds the paths of a Paths at other values of its parameters. The set of paths stays the same: each
     sequence of interactions is solved again, exactly.
@@ -80,7 +89,7 @@ class Variation:
                 f"{channel}: of {self.facts['paths']} paths, "
                 + ", ".join(f"{count} are {what}" for what, count in gone.items())
                 + " at these values of the parameters: Simulation.paths() there finds those that exist",
-                stacklevel=4,
+                stacklevel=_callers_level(),
             )
 
     def response(self, request: Request) -> np.ndarray:
