@@ -14,9 +14,9 @@
 // A fit has three stages.
 // - unknowns: only those of the measurement, with the materials of the scene. Its end is what "before" means.
 // - search: some runs over everything, with the deviations of the stage before, so that their costs compare,
-//   and on every nth position, so that 256 to 512 remain. Walls of finite thickness give the cost many minima.
-//   The first run begins at the end of the stage before, each other one at the best of some random draws
-//   within the bounds.
+//   and on every nth position, so that 256 to 512 remain. Walls of finite thickness give the cost many
+//   minima. The first run begins at the end of the stage before, each other one at the best of some random
+//   draws within the bounds.
 // - everything: from the best run on.
 #pragma once
 
