@@ -74,6 +74,18 @@ std::vector<sim::FitLink> solve_paths(const FitOptions& options, gpu::Device& de
   return std::move(*links);
 }
 
+/// Throws UserError unless the lists of a state that was read have the lengths of this fit.
+void check_state(const sim::FitState& state, const sim::FitModel& model, const std::string& folder) {
+  const size_t variables = model.variables().size(), sets = model.problem().sets.size();
+  const auto fits = [&](const std::vector<double>& of, bool may_be_empty) {
+    return of.size() == variables || (may_be_empty && of.empty());
+  };
+  if (!fits(state.coordinates, false) || !fits(state.best, true) || state.sigmas.size() != sets ||
+      !fits(state.before, state.stage == sim::FitStage::unknowns))
+    throw_user_error("{}: expected the state of a fit of {} variables, found another one in fit.part", folder,
+                     variables);
+}
+
 void iterate(const FitOptions& options, const sim::FitSolver& solver, FitJournal& journal,
              sim::FitState& state) {
   Progress progress("fit", static_cast<int64_t>(solver.runs()), options.quiet, "runs");
@@ -170,6 +182,7 @@ void run_fit(const FitOptions& options) {
   }
   result.fitted = fitted.size();
   const sim::FitSolver solver(model, fitted);
+  if (journal.state()) check_state(*journal.state(), model, options.output);
   result.state = journal.state() ? *journal.state() : solver.begin();
   if (!journal.state()) journal.write(result.state);
   iterate(options, solver, journal, result.state);

@@ -20,9 +20,19 @@ constexpr double small_step = 1e-6, small_fall = 1e-7;
 constexpr double small_fall_of_search = 1e-3;
 /// Deviations that change by less than this part are settled.
 constexpr double settled = 1e-2;
-constexpr uint32_t most_rounds = 12, draws_of_start = 16, links_of_draw = 64, stream_of_starts = 0x66697473;
+constexpr uint32_t most_rounds = 12, draws_of_start = 16, stream_of_starts = 0x66697473;
+/// At least this many links tell minima apart, and good draws from bad ones.
+constexpr size_t links_of_search = 256, links_of_draw = 64;
 /// Smallest deviations that are estimated: dB, ns, dB, dB, and relative for complex values.
 constexpr double least_sigma = 1e-4, least_relative_sigma = 1e-6;
+
+/// Returns every nth link, at least `least` of them.
+std::vector<uint32_t> every_nth(std::span<const uint32_t> links, size_t least) {
+  const size_t step = std::max<size_t>(1, links.size() / least);
+  std::vector<uint32_t> some;
+  for (size_t l = 0; l < links.size(); l += step) some.push_back(links[l]);
+  return some;
+}
 
 }  // namespace
 
@@ -32,7 +42,7 @@ const char* name_of(FitStage stage) {
 }
 
 FitSolver::FitSolver(const FitModel& model, std::vector<uint32_t> links)
-    : model_(model), links_(std::move(links)) {
+    : model_(model), links_(std::move(links)), some_(every_nth(links_, links_of_search)) {
   if (links_.empty())
     throw_user_error("measurements: expected a position that paths reach, found none among those to fit");
 }
@@ -47,9 +57,9 @@ void FitSolver::begin_run(FitState& state, FitStage stage, uint32_t run) const {
   state.run = run;
   state.round = state.iteration = 0;
   state.lambda = first_lambda;
-  const std::vector<FitBlock> blocks = model_.blocks(state.coordinates, links_, false);
+  const std::vector<FitBlock> blocks = model_.blocks(state.coordinates, links_of(stage), false);
   if (stage != FitStage::search) state.sigmas = estimated_sigmas(blocks);
-  state.cost = sums(blocks, links_, state.coordinates, state.sigmas).cost;
+  state.cost = sums(blocks, links_of(stage), state.coordinates, state.sigmas).cost;
 }
 
 FitState FitSolver::begin() const {
@@ -70,8 +80,7 @@ uint32_t FitSolver::runs_done(const FitState& state) const {
 std::vector<double> FitSolver::drawn_start(const FitState& state) const {
   const std::vector<FitVariable>& variables = model_.variables();
   RandomStream random(model_.problem().seed, stream_of_starts, state.run);
-  std::vector<uint32_t> some;  // enough to tell a good draw from a bad one
-  for (size_t l = 0; l < links_.size(); l += 1 + links_.size() / links_of_draw) some.push_back(links_[l]);
+  const std::vector<uint32_t> some = every_nth(some_, links_of_draw);
   std::vector<double> best;
   double least = INFINITY;
   for (uint32_t draw = 0; draw < draws_of_start; ++draw) {
@@ -170,8 +179,14 @@ FitSums FitSolver::sums(std::span<const FitBlock> blocks, std::span<const uint32
   return sums;
 }
 
-double FitSolver::cost(std::span<const double> coordinates, std::span<const double> sigmas) const {
-  return sums(model_.blocks(coordinates, links_, false), links_, coordinates, sigmas).cost;
+std::span<const uint32_t> FitSolver::links_of(FitStage stage) const {
+  return stage == FitStage::search ? some_ : links_;
+}
+
+double FitSolver::cost(FitStage stage, std::span<const double> coordinates,
+                       std::span<const double> sigmas) const {
+  const std::span<const uint32_t> links = links_of(stage);
+  return sums(model_.blocks(coordinates, links, false), links, coordinates, sigmas).cost;
 }
 
 FitSums FitSolver::sums(const FitState& state) const {
@@ -218,8 +233,9 @@ void FitSolver::end_round(FitState& state, std::span<const FitBlock> blocks) con
 void FitSolver::step(FitState& state) const {
   if (state.done) return;
   const std::vector<FitVariable>& variables = model_.variables();
-  const std::vector<FitBlock> blocks = model_.blocks(state.coordinates, links_, true);
-  const FitSums now = sums(blocks, links_, state.coordinates, state.sigmas);
+  const std::span<const uint32_t> links = links_of(state.stage);
+  const std::vector<FitBlock> blocks = model_.blocks(state.coordinates, links, true);
+  const FitSums now = sums(blocks, links, state.coordinates, state.sigmas);
   std::vector<Eigen::Index> free;
   std::vector<double> low, high;
   for (size_t v = 0; v < variables.size(); ++v) {
@@ -257,7 +273,7 @@ void FitSolver::step(FitState& state) const {
       length = std::max(length, std::abs(tried[v] - state.coordinates[v]) / unit[a]);
     }
     last = length <= small_step || promised <= last_fall;
-    const double cost_there = cost(tried, state.sigmas);
+    const double cost_there = cost(state.stage, tried, state.sigmas);
     if (!(cost_there < state.cost)) {
       if (last) break;
       continue;
@@ -272,7 +288,7 @@ void FitSolver::step(FitState& state) const {
   const bool out_of_iterations = state.iteration >= model_.problem().iterations;
   if (!last && !out_of_iterations) return;
   if (!last && state.stage != FitStage::search) state.converged = false;
-  end_round(state, moved ? model_.blocks(state.coordinates, links_, false) : blocks);
+  end_round(state, moved ? model_.blocks(state.coordinates, links, false) : blocks);
 }
 
 }  // namespace greatx::sim

@@ -13,9 +13,10 @@
 //
 // A fit has three stages.
 // - unknowns: only those of the measurement, with the materials of the scene. Its end is what "before" means.
-// - search: some runs over everything, with the deviations of the stage before, so that their costs compare.
-//   Walls of finite thickness give the cost many minima. The first run begins at the end of the stage before,
-//   each other one at the best of some random draws within the bounds.
+// - search: some runs over everything, with the deviations of the stage before, so that their costs compare,
+//   and on every nth position, so that 256 to 512 remain. Walls of finite thickness give the cost many
+//   minima. The first run begins at the end of the stage before, each other one at the best of some random
+//   draws within the bounds.
 // - everything: from the best run on.
 #pragma once
 
@@ -75,7 +76,9 @@ class FitSolver {
   FitSums sums(const FitState& state) const;
 
  private:
-  double cost(std::span<const double> coordinates, std::span<const double> sigmas) const;
+  /// Returns the links that a stage uses.
+  std::span<const uint32_t> links_of(FitStage stage) const;
+  double cost(FitStage stage, std::span<const double> coordinates, std::span<const double> sigmas) const;
   FitSums sums(std::span<const FitBlock> blocks, std::span<const uint32_t> links,
                std::span<const double> coordinates, std::span<const double> sigmas) const;
   std::vector<double> estimated_sigmas(std::span<const FitBlock> blocks) const;
@@ -86,7 +89,7 @@ class FitSolver {
   void end_round(FitState& state, std::span<const FitBlock> blocks) const;
 
   const FitModel& model_;
-  std::vector<uint32_t> links_;
+  std::vector<uint32_t> links_, some_;  ///< to fit; every nth of them, for the search
 };
 
 }  // namespace greatx::sim

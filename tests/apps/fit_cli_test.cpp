@@ -175,7 +175,7 @@ TEST_F(FitCli, AKilledFitGoesOnToTheSameBytes) {
   for (int cpu = 0; cpu < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++cpu)
     if (CPU_ISSET(cpu, &all)) CPU_SET(cpu, &one);
   ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);  // one thread; the others have all
-  const Outcome whole = calibrate(fmt::format("{} -o {} -q", path("long.yaml"), path("whole")));
+  const Outcome whole = calibrate(fmt::format("{} -o {} --no-pictures -q", path("long.yaml"), path("whole")));
   ASSERT_EQ(sched_setaffinity(0, sizeof all, &all), 0);
   ASSERT_EQ(whole.code, 0) << whole.err;
   for (const char* signal : {"INT", "KILL"}) {
@@ -196,7 +196,7 @@ TEST_F(FitCli, AKilledFitGoesOnToTheSameBytes) {
     const Outcome resumed =
         calibrate(fmt::format("{} -o {} --no-pictures --resume -q", path("long.yaml"), out));
     ASSERT_EQ(resumed.code, 0) << resumed.err;
-    for (const char* file : {"materials.yaml", "positions.csv", "report.txt"})
+    for (const char* file : {"fit.json", "materials.yaml", "positions.csv", "report.txt"})
       EXPECT_EQ(read_file(out + "/" + file), read_file(path("whole") + "/" + file)) << file;
     EXPECT_FALSE(fs::exists(out + "/fit.part"));
   }
