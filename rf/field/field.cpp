@@ -277,14 +277,12 @@ ComplexOf<R> reflection_weight(const Places<R>& places, const FieldModelOf<R>& m
   const R wave_number = 2.0 * pi / model.surfaces->wavelength_m();
   const uint32_t facet = path.interactions[i].element;
   const bool edges_diffract = path.edges_diffract >> i & 1u;
-  if constexpr (std::is_same_v<R, double>) {
-    if (!model.weights.empty()) return model.weights[i];
-  } else if (all_constant(sight.point, in, out, before_m, sight.after_m, wave_number)) {
-    if (!model.weights.empty()) return model.weights[i];
-    return model.reflectors->weight(
-        *model.world, facet,
-        {value_of(sight.point), value_of(in), value_of(out), before_m.value, sight.after_m.value},
-        wave_number.value, edges_diffract);
+  if constexpr (!std::is_same_v<R, double>) {
+    if (all_constant(sight.point, in, out, before_m, sight.after_m, wave_number))
+      return model.reflectors->weight(
+          *model.world, facet,
+          {value_of(sight.point), value_of(in), value_of(out), before_m.value, sight.after_m.value},
+          wave_number.value, edges_diffract);
   }
   return model.reflectors->template weight<R>(*model.world, facet, sight, wave_number, edges_diffract);
 }
@@ -436,29 +434,6 @@ void with_wave(const GeometricPath& geometry, std::span<const Vec3Of<R>> vertice
 }
 
 }  // namespace
-
-std::vector<Complex> reflection_weights(const GeometricPath& geometry, const FieldModel& model) {
-  std::vector<Complex> weights;
-  if (model.reflectors == nullptr) return weights;
-  with_wave<double>(geometry, geometry.vertices, geometry.length_m, [&](const Places<double>& places) {
-    const GeometricPath& path = places.path;
-    const Runs<double> runs = runs_of(places, *model.world);
-    size_t run = 0, part = 0;
-    double before_m = 0.0;
-    for (size_t i = 0; i < path.interactions.size(); ++i) {
-      before_m += length(places.vertices[i + 1] - places.vertices[i]);
-      const InteractionType type = path.interactions[i].type;
-      const dvec3& in = runs.directions[run];
-      if (type != InteractionType::transmission) ++run;
-      weights.push_back(type == InteractionType::reflection
-                            ? reflection_weight<double>(places, model, i, in, runs.directions[run], before_m,
-                                                        runs.parts_m[part])
-                            : 1.0);
-      if (bends(type)) ++part, before_m = 0.0;
-    }
-  });
-  return weights;
-}
 
 template <typename R>
 PathValuesOf<R> path_values(const GeometricPath& geometry, const PathPlacesOf<R>& given,

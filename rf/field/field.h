@@ -7,7 +7,6 @@
 
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "rf/atmosphere/path_attenuation.h"
 #include "rf/facets/facet_world.h"
@@ -42,9 +41,6 @@ struct FieldModelOf {
   /// The foliage of GeometricPath::foliage_m. It must have a value if effects.foliage is on.
   std::optional<scene::Foliage> foliage;
   const FiniteReflectors* reflectors = nullptr;  ///< set if and only if effects.finite_reflectors is on
-  /// reflection_weights() of the one path that this copy of the model is for; empty: they are computed. They
-  /// take most of the time of a field, and depend on no material.
-  std::span<const Complex> weights;
 };
 using FieldModel = FieldModelOf<double>;
 
@@ -114,11 +110,6 @@ struct PathValuesOf {
 template <typename R>
 PathValuesOf<R> path_values(const GeometricPath& geometry, const PathPlacesOf<R>& places,
                             const FieldModelOf<R>& model);
-
-/// Returns [interactions] the weights of finite reflectors (FiniteReflectors::weight) at the reflections of a
-/// path, in the order in which its wave meets them; 1 for other interactions. Empty if the model has no such
-/// effect.
-std::vector<Complex> reflection_weights(const GeometricPath& geometry, const FieldModel& model);
 
 /// Computes Path::transfer alone with another model of the same world, as for another frequency.
 void path_transfer(const GeometricPath& geometry, const FieldModel& model, Complex (&transfer)[4]);

@@ -251,8 +251,7 @@ class ChunkSlopes {
                                    model_.wedges,
                                    dual_attenuation(model_.attenuation, chunk, carrier_),
                                    model_.foliage,
-                                   model_.reflectors,
-                                   model_.weights};
+                                   model_.reflectors};
     const PathValuesOf<Dual> values =
         path_values<Dual>(path_, {places.vertices, places.length_m, velocities_[0], velocities_[1]}, model);
     for (int slot = 0; slot < static_cast<int>(chunk.size()); ++slot) {

@@ -77,9 +77,7 @@ void find_touched(FitLink& link, const FitMaterials& materials) {
     std::ranges::sort(parameters);
     const auto repeated = std::ranges::unique(parameters);
     parameters.erase(repeated.begin(), repeated.end());
-    if (parameters.empty()) continue;
-    link.touched.push_back(
-        {i, std::move(parameters), rf::reflection_weights(geometry_of(link.paths[i]), link.fields)});
+    if (!parameters.empty()) link.touched.push_back({i, std::move(parameters)});
   }
 }
 

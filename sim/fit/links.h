@@ -33,7 +33,6 @@ struct FitLink {
   struct Touched {
     uint32_t path = 0;
     std::vector<uint32_t> parameters;  ///< ascending
-    std::vector<rf::Complex> weights;  ///< rf::reflection_weights(), which no parameter changes
   };
   std::vector<Touched> touched;
 };

@@ -40,7 +40,6 @@ FitFields TransferSlopes::of(const FitLink& link) const {
   std::vector<rf::ChannelParameter> asked;
   for (const FitLink::Touched& touched : link.touched) {
     const rf::GeometricPath path = geometry_of(link.paths[touched.path]);
-    model.weights = touched.weights;
     rf::Complex transfer[4];
     rf::path_transfer(path, model, transfer);
     fields.transfers.push_back({transfer[0], transfer[1], transfer[2], transfer[3]});

@@ -429,39 +429,6 @@ TEST(FiniteReflectors, FieldsCarryTheWeights) {
               1e-14 * std::abs(endless.transfer[3]));
 }
 
-TEST(FiniteReflectors, WeightsThatAreKeptGiveTheSameBits) {
-  // A ground of 3 m and a small ceiling, from either end.
-  Solved solved;
-  solved.hand.material("concrete", 5.24, 0.1);
-  solved.hand.ground(3.0);
-  solved.hand.quad({28, -3, 31}, {32, -3, 31}, {32, 3, 31}, {28, 3, 31});
-  solved.build(false);
-  GeometricPath path{{{InteractionType::reflection, 0}, {InteractionType::reflection, 1}},
-                     {{-20, 0, 20}, {0, 0, 0}, {31, 0, 31}, {40, 0, 22}},
-                     std::sqrt(800.0) + std::sqrt(2.0) * 40.0};
-  for (const bool back : {false, true}) {
-    path.from_receiver = back;
-    FieldModel kept = solved.model;
-    kept.weights = {};
-    const std::vector<Complex> weights = reflection_weights(path, kept);
-    ASSERT_EQ(weights.size(), 2u);
-    EXPECT_GT(std::abs(weights[0] - weights[1]), 0.1);
-    kept.weights = weights;
-    Complex computed[4], known[4];
-    path_transfer(path, solved.model, computed);
-    path_transfer(path, kept, known);
-    for (int i = 0; i < 4; ++i) EXPECT_EQ(computed[i], known[i]) << back << ' ' << i;
-    // They are indeed taken from there.
-    std::vector<Complex> doubled = weights;
-    for (Complex& weight : doubled) weight *= 2.0;
-    kept.weights = doubled;
-    path_transfer(path, kept, known);
-    EXPECT_NEAR(std::abs(known[3]), 4.0 * std::abs(computed[3]), 1e-12 * std::abs(computed[3]));
-  }
-  solved.model.reflectors = nullptr;
-  EXPECT_TRUE(reflection_weights(path, solved.model).empty());
-}
-
 TEST(FiniteReflectors, DiffractedPathsAreNotCountedTwice) {
   // A receiver moves over a conducting strip of 4 wavelengths. Once the reflection is weighed alone; once its
   // edges diffract as paths of their own and the weight leaves their waves out. Both give the same field, to
