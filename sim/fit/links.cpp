@@ -36,6 +36,17 @@ void add_parameters(uint32_t facet, const rf::FacetWorld& world, const FitMateri
   parameters.insert(parameters.end(), of.begin(), of.end());
 }
 
+/// Returns the factor between two fields of which one is a multiple of the other.
+rf::Complex factor_between(const rf::Complex (&of)[4], const rf::Complex (&with)[4]) {
+  rf::Complex product = 0.0;
+  double power = 0.0;
+  for (size_t e = 0; e < 4; ++e) {
+    product += std::conj(of[e]) * with[e];
+    power += std::norm(of[e]);
+  }
+  return power > 0.0 ? product / power : rf::Complex(1.0);
+}
+
 }  // namespace
 
 scene::Bounds bounds_of(std::span<const FitSet> sets) {
@@ -77,7 +88,16 @@ void find_touched(FitLink& link, const FitMaterials& materials) {
     std::ranges::sort(parameters);
     const auto repeated = std::ranges::unique(parameters);
     parameters.erase(repeated.begin(), repeated.end());
-    if (!parameters.empty()) link.touched.push_back({i, std::move(parameters)});
+    if (!parameters.empty()) link.touched.push_back({i, std::move(parameters), 1.0});
+  }
+  if (link.fields.reflectors == nullptr) return;
+  link.fields.reflectors = nullptr;
+  link.fields.effects.finite_reflectors = false;
+  for (FitLink::Touched& touched : link.touched) {
+    const rf::Path& path = link.paths[touched.path];
+    rf::Complex endless[4];
+    rf::path_transfer(geometry_of(path), link.fields, endless);
+    touched.weight = factor_between(endless, path.transfer);
   }
 }
 

@@ -27,12 +27,15 @@ struct FitLink {
   /// The facets for which the paths were solved, and the models that their fields need.
   std::shared_ptr<const rf::FacetWorld> world;
   std::shared_ptr<const RadioWorld> radio;
-  rf::FieldModel fields;  ///< of `radio` and `world`
+  rf::FieldModel fields;  ///< of `radio` and `world`, with endless reflectors
 
   /// A path whose field depends on parameters.
   struct Touched {
     uint32_t path = 0;
     std::vector<uint32_t> parameters;  ///< ascending
+    /// The weights of its finite reflectors, which no material changes: a factor of the whole field, which
+    /// `fields` leave out.
+    rf::Complex weight = 1.0;
   };
   std::vector<Touched> touched;
 };
@@ -50,7 +53,7 @@ std::optional<std::vector<FitLink>> solve_links(gpu::Device& device, const Exper
                                                 const std::function<bool(size_t done)>& go_on);
 
 /// Lists the paths of a link whose field depends on a parameter: those that meet a facet or an edge of one of
-/// its materials.
+/// its materials. Also moves the weights of finite reflectors from `fields` to the paths.
 void find_touched(FitLink& link, const FitMaterials& materials);
 
 /// Returns the geometry of a path.

@@ -326,10 +326,10 @@ FitBlock FitModel::block(uint32_t l, const TransferSlopes& slopes_of, std::span<
 }
 
 std::vector<FitBlock> FitModel::blocks(std::span<const double> coordinates, std::span<const uint32_t> links,
-                                       bool slopes) const {
+                                       bool slopes, bool of_materials) const {
   const std::vector<double> values = this->values(coordinates);
   const TransferSlopes fields(materials_, problem_.parameters,
-                              std::span(values).first(problem_.parameters.size()), slopes);
+                              std::span(values).first(problem_.parameters.size()), slopes && of_materials);
   std::vector<FitBlock> blocks(links.size());
   parallel_for(links.size(), 0, [&](size_t i) { blocks[i] = block(links[i], fields, values, slopes); });
   return blocks;

@@ -63,9 +63,9 @@ class FitModel {
   std::vector<double> values(std::span<const double> coordinates) const;
 
   /// Returns the blocks of `links` (indices of usable ones), in their order. The result does not depend on
-  /// the number of threads.
+  /// the number of threads. Without `of_materials` the slopes by parameters of materials are 0.
   std::vector<FitBlock> blocks(std::span<const double> coordinates, std::span<const uint32_t> links,
-                               bool slopes) const;
+                               bool slopes, bool of_materials = true) const;
   /// Returns the share of a link's power on paths that depend on a parameter, [parameters].
   std::vector<double> shares(std::span<const double> coordinates, uint32_t link) const;
 

@@ -62,7 +62,7 @@ PathTerms FitModel::terms_of(uint32_t l, const TransferSlopes& slopes_of, std::s
       terms.delays_s[i] -= glm::dot(direction(i), turn * offset) / speed_of_light;
   if (!slopes) return terms;
 
-  for (size_t t = 0; t < link.touched.size(); ++t)
+  for (size_t t = 0; t < fields.slopes.size(); ++t)
     for (size_t q = 0; q < link.touched[t].parameters.size(); ++q) {
       PathTerms::AmplitudeSlope slope{
           static_cast<uint32_t>(columns.of(static_cast<int>(link.touched[t].parameters[q]))),

@@ -234,7 +234,8 @@ void FitSolver::step(FitState& state) const {
   if (state.done) return;
   const std::vector<FitVariable>& variables = model_.variables();
   const std::span<const uint32_t> links = links_of(state.stage);
-  const std::vector<FitBlock> blocks = model_.blocks(state.coordinates, links, true);
+  const bool of_materials = state.stage != FitStage::unknowns;
+  const std::vector<FitBlock> blocks = model_.blocks(state.coordinates, links, true, of_materials);
   const FitSums now = sums(blocks, links, state.coordinates, state.sigmas);
   std::vector<Eigen::Index> free;
   std::vector<double> low, high;

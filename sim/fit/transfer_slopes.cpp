@@ -42,7 +42,9 @@ FitFields TransferSlopes::of(const FitLink& link) const {
     const rf::GeometricPath path = geometry_of(link.paths[touched.path]);
     rf::Complex transfer[4];
     rf::path_transfer(path, model, transfer);
-    fields.transfers.push_back({transfer[0], transfer[1], transfer[2], transfer[3]});
+    const rf::Complex& weight = touched.weight;
+    fields.transfers.push_back(
+        {weight * transfer[0], weight * transfer[1], weight * transfer[2], weight * transfer[3]});
     if (of_parameter_.empty()) continue;
     asked.clear();
     for (const uint32_t p : touched.parameters)
@@ -53,7 +55,7 @@ FitFields TransferSlopes::of(const FitLink& link) const {
     for (const uint32_t p : touched.parameters) {
       FitTransfer& sum = slopes.emplace_back();
       for (size_t m = 0; m < of_parameter_[p].size(); ++m, ++next)
-        for (size_t e = 0; e < 4; ++e) sum[e] += all[next].transfer[e];
+        for (size_t e = 0; e < 4; ++e) sum[e] += weight * all[next].transfer[e];
     }
   }
   return fields;

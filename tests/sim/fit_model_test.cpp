@@ -192,6 +192,36 @@ TEST(FitModel, SlopesAreThoseOfDifferences) {
   }
 }
 
+/// The weights of finite reflectors are factors of the fields, so that fields without them, times the weight,
+/// are the fields of the solver, also with other materials.
+TEST(FitModel, FiniteReflectorsAreFactors) {
+  FitProblem problem = ground_problem(fit_set(FitQuantity::power_db, 10));
+  problem.parameters.push_back(parameter("wall", FitProperty::permittivity, 1.5, 20.0));
+  std::string scenario = fit_scenario();
+  scenario.replace(scenario.find("finite_reflectors: off"), 22, "finite_reflectors: on");
+  const FitWorld world(problem, fit_scene(true), scenario);
+  const std::vector<double> values{9.0, 0.2, 7.0};
+  const TransferSlopes fields(world.materials(), problem.parameters, values, false);
+  const rf::RadioSurfaces surfaces = world.materials().surfaces(values);
+  size_t weighted = 0;
+  for (const FitLink& link : world.model().links()) {
+    rf::FieldModel whole = link.radio->model().field_model();
+    whole.world = link.world.get();
+    whole.surfaces = &surfaces;
+    ASSERT_TRUE(whole.effects.finite_reflectors);
+    const FitFields got = fields.of(link);
+    for (size_t t = 0; t < link.touched.size(); ++t) {
+      rf::Complex expected[4];
+      rf::path_transfer(geometry_of(link.paths[link.touched[t].path]), whole, expected);
+      double size = 0.0;
+      for (const rf::Complex& entry : expected) size += std::abs(entry);
+      for (size_t e = 0; e < 4; ++e) EXPECT_LT(std::abs(got.transfers[t][e] - expected[e]), 1e-12 * size);
+      weighted += std::abs(link.touched[t].weight - 1.0) > 1e-3;
+    }
+  }
+  EXPECT_GT(weighted, 5u);
+}
+
 TEST(FitModel, ClocksAndPhasesOfPositionsAreFound) {
   FitBand band{64, 1e6, false, 0, 64};
   std::vector<Complex> modelled, measured;
