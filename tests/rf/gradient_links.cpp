@@ -198,7 +198,7 @@ double scale_of(const Link& link, const Made& made, const ChannelParameter& p, d
   const double wavelength_m = speed_of_light / link.carrier_hz;
   if (p.kind == Kind::transmitter_position || p.kind == Kind::receiver_position) return position_m;
   if (p.kind == Kind::transmitter_velocity || p.kind == Kind::receiver_velocity) return 1.0;
-  if (p.kind == Kind::carrier) return 0.01 * link.carrier_hz;
+  if (p.kind == Kind::carrier) return 2e-4 * link.carrier_hz;
   if (p.kind >= Kind::roughness) {
     if (p.kind == Kind::roughness)
       return 0.2 * made.surfaces.surface(p.index).roughness_m + 1e-3 * wavelength_m;
