@@ -255,7 +255,7 @@ NamedArrays VariedPaths::gradient(const ResponseRequest& request, const std::vec
     throw_user_error("cotangent: expected {} complex numbers, as many as the response has, found {}",
                      links_.size() * rx_ports * row, cotangent.size() / 2);
   std::vector<std::vector<std::vector<double>>> of_links(links_.size());
-  for_links(go_on, [&](const Link& link, size_t number) {
+  const bool all = for_links(go_on, [&](const Link& link, size_t number) {
     std::vector<rf::Complex> block;
     block.reserve(rx_ports * row);
     for (size_t port = 0; port < rx_ports; ++port) {
@@ -264,6 +264,7 @@ NamedArrays VariedPaths::gradient(const ResponseRequest& request, const std::vec
     }
     of_links[number] = gradient_rows(link, columns, response_gradient(link, grid, request).pull_back(block));
   });
+  if (!all) return {};  // the caller has stopped the work
   // The sum over links does not depend on the threads.
   NamedArrays arrays;
   for (size_t p = 0; p < columns.parameters.size(); ++p) {

@@ -206,8 +206,8 @@ class Paths:
         select: str = "all",
     ) -> Dict[str, np.ndarray]:
         """Returns the gradient of a real loss L by the named parameters, each in the shape of the parameter,
-        from cotangent = dL/d Re H + j dL/d Im H in the shape of cfr(). It costs about as much as H, whatever
-        the number of parameters.
+        from cotangent = dL/d Re H + j dL/d Im H in the shape of cfr(). Besides the slopes of the paths it
+        costs about twice as much as H, whatever the number of parameters.
         """
         names = [names] if isinstance(names, str) else list(names)
         request = self._request(

@@ -289,6 +289,53 @@ class Derivatives(unittest.TestCase):
             solved(room(dispersion="on")).jacobian(["receiver.position"])
 
 
+class Street(unittest.TestCase):
+    def test_every_effect_against_differences(self):
+        effects = (
+            "diffraction",
+            "corner_diffraction",
+            "scattering",
+            "roughness",
+            "wave_curvature",
+            "beam_squint",
+        )
+        street = {"greatx": 1, "name": "street", "ticks": 1}
+        street["scene"] = {"generate": {"kind": "canyon", "seed": 9, "size_m": 60}}
+        sim = greatx.Simulation(street, effects=dict.fromkeys(effects, "on"))
+        panel = greatx.Array(rows=1, columns=2, polarization="slant")
+        sim.place_transmitter("mast", [6.3, -21.7, 9.4], array=panel)
+        sim.add_channel(
+            "csi", receivers=[], bandwidth_hz=100e6, subcarriers=4, max_depth=2, scattering_patch_m=8
+        )
+        paths = sim.paths(receivers=[[2.4, -12, 1.6], [-3.1, 5.2, 1.3]], array=greatx.Array(rows=2))
+        kinds = paths["interaction"]
+        for kind in (1, 3, 4):
+            self.assertTrue(np.any(kinds == kind))
+        known = paths.parameters()
+        names = ["receiver.position", "transmitter.attitude", "material:asphalt.scattering", "carrier"]
+        found = paths.jacobian(names, subcarriers=2)
+        for column, name in enumerate(found.columns):
+            parameter, _, axis = name.rpartition(".") if name[-2:] in (".x", ".y", ".z") else (name, "", "")
+            value = known[parameter]
+            direction = np.eye(3)["xyz".index(axis)] if axis else 1.0
+            expected = numeric(
+                lambda by: paths.cfr(parameters={parameter: value + by * direction}, subcarriers=2),
+                steps(parameter, np.abs(value).max()),
+            )
+            with self.subTest(name):
+                error = np.abs(found.values[..., column] - expected).max()
+                self.assertLess(error, 1e-8 * np.abs(expected).max() + 1e-15)
+
+    def test_the_same_bytes_again(self):
+        sim = room()
+        paths = solved(sim)
+        loss = paths.cfr() * (1 + 2j)
+        names = list(paths.parameters())
+        first, second = paths.gradient(names, loss), paths.gradient(names, loss)
+        for name in names:
+            self.assertEqual(first[name].tobytes(), second[name].tobytes(), name)
+
+
 @unittest.skipIf(torch is None, "no torch")
 class Torch(unittest.TestCase):
     @classmethod

@@ -65,14 +65,27 @@ template <typename Width>
 }  // namespace
 
 void set_path_phasors(const ChannelGrid& grid, double delay_s, BlockedRow& phasors) {
-  Complex places[sum_lanes];
-  for (size_t lane = 0; lane < sum_lanes; ++lane)
-    places[lane] = unit_phasor(-turns_of(static_cast<double>(lane), grid.subcarrier_spacing_hz, delay_s));
-  for (uint32_t first = 0; first < grid.subcarriers; first += sum_lanes) {
-    const Complex start =
-        unit_phasor(-turns_of(grid.subcarrier_number(first), grid.subcarrier_spacing_hz, delay_s));
+  static_assert(sum_lanes == 8);
+  constexpr size_t blocks_between = 8;  // those whose turns are reduced
+  Complex places[sum_lanes] = {1.0, unit_phasor(-turns_of(grid.subcarrier_spacing_hz, delay_s))};
+  for (size_t power = 2; power < sum_lanes; power *= 2) {
+    places[power] = plain_product(places[power / 2], places[power / 2]);
+    for (size_t i = 1; i < power; ++i) places[power + i] = plain_product(places[power], places[i]);
+  }
+  const Complex step = unit_phasor(-turns_of(sum_lanes, grid.subcarrier_spacing_hz, delay_s));
+  Complex start;
+  for (size_t block = 0; block < phasors.blocks(); ++block) {
+    const auto first = static_cast<uint32_t>(block * sum_lanes);
+    start = block % blocks_between == 0
+                ? unit_phasor(-turns_of(grid.subcarrier_number(first), grid.subcarrier_spacing_hz, delay_s))
+                : plain_product(start, step);
     const size_t count = std::min<size_t>(sum_lanes, grid.subcarriers - first);
-    for (size_t lane = 0; lane < count; ++lane) phasors.set(first + lane, plain_product(start, places[lane]));
+    double* const to = phasors.block(block);
+    for (size_t lane = 0; lane < count; ++lane) {
+      const Complex phasor = plain_product(start, places[lane]);
+      to[lane] = phasor.real();
+      to[sum_lanes + lane] = phasor.imag();
+    }
   }
 }
 

@@ -23,20 +23,17 @@ class BlockedRow {
       : blocks_((subcarriers + sum_lanes - 1) / sum_lanes), values_(blocks_ * 2 * sum_lanes) {}
   size_t blocks() const { return blocks_; }
   const double* data() const { return values_.data(); }
-  void set(size_t subcarrier, Complex value) {
-    double* const at = place(subcarrier);
-    at[0] = value.real();
-    at[sum_lanes] = value.imag();
-  }
+  /// Returns the real parts of a block; its imaginary parts follow.
+  double* block(size_t index) { return values_.data() + index * 2 * sum_lanes; }
 
  private:
-  double* place(size_t k) { return values_.data() + k / sum_lanes * 2 * sum_lanes + k % sum_lanes; }
   size_t blocks_;
   std::vector<double> values_;
 };
 
 /// Sets the phasors e^{-j 2 pi f tau} of a delay at all subcarriers, to about 1e-15: the product of the
-/// phasor of a block and that of a place in the block, each from turns that are reduced exactly.
+/// phasor of a block and that of a place in the block. The turns of every eighth block are reduced exactly;
+/// the others follow by products.
 void set_path_phasors(const ChannelGrid& grid, double delay_s, BlockedRow& phasors);
 
 /// Holds the sums over subcarriers of conj(G) P and of f conj(G) P, with f counted from the carrier, Hz.

@@ -15,7 +15,7 @@
 // (rf/channel/wavefront.h). The phase of the carrier at a path of tau turns by 2 pi f_c per second: this term
 // makes gradients by positions large and periodic with the wavelength.
 //
-// pull_back costs about one and a half forward sums, whatever the number of parameters. It goes first to
+// pull_back costs about two forward sums, whatever the number of parameters. It goes first to
 // paths, and only there to parameters: dL/dp = sum over paths of <cotangent of the path, its slope by p>.
 #pragma once
 
