@@ -193,10 +193,22 @@ FitSums FitSolver::sums(const FitState& state) const {
   return sums(model_.blocks(state.coordinates, links_, true), links_, state.coordinates, state.sigmas);
 }
 
+/// Gives variables on which nothing depends the values that they had before: a draw may have moved them.
+void FitSolver::reset_without_effect(FitState& state) const {
+  const FitSums now = sums(state);
+  std::vector<double> reset = state.coordinates;
+  for (size_t v = 0; v < reset.size(); ++v)
+    if (now.weighted(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(v)) == 0.0)
+      reset[v] = state.before[v];
+  if (reset != state.coordinates && cost(state.stage, reset, state.sigmas) <= state.cost)
+    state.coordinates = std::move(reset);
+}
+
 /// Ends a run, and begins the next one.
 void FitSolver::end_run(FitState& state) const {
   const uint32_t starts = model_.problem().starts;
   if (state.stage == FitStage::everything) {
+    reset_without_effect(state);
     state.done = true;
     return;
   }

@@ -85,6 +85,7 @@ class FitSolver {
   bool is_free(size_t variable, FitStage stage) const;
   std::vector<double> drawn_start(const FitState& state) const;
   void begin_run(FitState& state, FitStage stage, uint32_t run) const;
+  void reset_without_effect(FitState& state) const;
   void end_run(FitState& state) const;
   void end_round(FitState& state, std::span<const FitBlock> blocks) const;
 

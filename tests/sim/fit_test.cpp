@@ -255,7 +255,7 @@ TEST(Fit, SaysWhatTheMeasurementsDoNotTell) {
                         parameter("wall", FitProperty::permittivity, 3.0, 5.0),
                         parameter("wall", FitProperty::conductivity, 1e-3, 1.0)};
   problem.parameters[6].range.prior = FitPrior{0.02, 0.3};
-  problem.starts = 1;
+  problem.starts = 4;  // draws move what has no effect, and the end moves it back
   FitWorld world(problem, fit_scene(true));
   world.measure({9.0, 3.0, 0.05, 0.05, 0.0, 7.0, 0.02}, 0.3, 5);
   const std::vector<uint32_t> links = world.all();
@@ -268,6 +268,7 @@ TEST(Fit, SaysWhatTheMeasurementsDoNotTell) {
   EXPECT_EQ(assessment.shares[1], 0.0);
   EXPECT_GT(assessment.shares[2], 0.99);         // every path passes the panes
   EXPECT_EQ(verdict(4), FitVerdict::no_effect);  // the effect is off
+  EXPECT_EQ(assessment.estimates[4].value, 0.0);
   EXPECT_EQ(verdict(5), FitVerdict::at_bound);
   EXPECT_EQ(verdict(6), FitVerdict::by_prior);
   ASSERT_FALSE(assessment.pairs.empty());
