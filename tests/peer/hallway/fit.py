@@ -6,11 +6,12 @@ scores them on the other half.
 
 import csv
 import subprocess
+import time
 
 import numpy as np
 
 from hallway import measured as m
-from hallway import pictures, predict, steps
+from hallway import pictures, predict, run, steps
 
 #: side of a field of the checkerboard, m
 BLOCK_M = 4.0
@@ -19,17 +20,18 @@ PLACES = 2
 #: subcarriers over the band at which the fit computes H; paths up to 0.3 us do not wrap
 SUBCARRIERS = 16
 
-#: what may change: materials, property, layer, bounds
+#: what may change: materials, property, layer, bounds, what is known beforehand, and its relative deviation
 SIDES = ["east", "west", "side_rooms"]
 ENDS = ["north", "south"]
 PARAMETERS = [
-    (SIDES, "thickness", 0, (0.008, 0.04)),
-    (SIDES, "thickness", 1, (0.03, 0.2)),
-    (ENDS, "thickness", 0, (0.001, 0.012)),
-    (["floor"], "permittivity", 0, (1.5, 12.0)),
-    (["floor"], "thickness", 0, (0.005, 0.08)),
-    (["ceiling"], "permittivity", 0, (1.1, 4.0)),
-    (["ceiling"], "thickness", 1, (0.05, 0.6)),
+    (SIDES, "thickness", 0, (0.006, 0.03), 0.0125, 0.3),
+    (SIDES, "thickness", 1, (0.03, 0.2), 0.075, 0.3),
+    (SIDES, "permittivity", 0, (1.5, 5.0), 2.73, 0.2),
+    (ENDS, "thickness", 0, (0.001, 0.012), 0.004, 0.5),
+    (["floor"], "permittivity", 0, (1.5, 6.0), 2.6, 0.2),
+    (["floor"], "thickness", 0, (0.01, 0.08), 0.03, 0.3),
+    (["ceiling"], "permittivity", 0, (1.1, 3.0), 1.48, 0.1),
+    (["ceiling"], "thickness", 1, (0.1, 0.6), 0.3, 0.3),
 ]
 
 
@@ -93,14 +95,14 @@ def write_table(path, column, points, values):
         rows.writerows([*(f"{p:.17g}" for p in point), f"{v:.17g}"] for point, v in zip(points, values))
 
 
-def write_fit(world, cells, scenario, folder):
+def write_fit(world, cells, scenario, folder, average):
     """Writes the description of the fit. The measured distribution of delay spreads names no places, so its
     mean stands at every fourth cell: it decides the mean of the spreads alone."""
     points = predict.places_in_cells(world.cells[cells], PLACES).reshape(-1, 3)
     few = predict.places_in_cells(world.cells[cells[::4]], 1).reshape(-1, 3)
-    band = f"subcarriers: {SUBCARRIERS}, subcarrier_spacing_hz: {m.BANDWIDTH_HZ / SUBCARRIERS:g}"
+    band = f", subcarriers: {SUBCARRIERS}, subcarrier_spacing_hz: {m.BANDWIDTH_HZ / SUBCARRIERS:g}"
     lines = [
-        f"greatx_fit: 1\nscenario: {scenario.resolve()}\nchannel: csi\nseed: 1\nstarts: 2\nmeasurements:\n"
+        f"greatx_fit: 1\nscenario: {scenario.resolve()}\nchannel: csi\nseed: 1\nstarts: 1\nmeasurements:\n"
     ]
     for number in range(len(world.arrays)):
         write_table(
@@ -118,16 +120,16 @@ def write_fit(world, cells, scenario, folder):
         to = f"transmitter: array{number + 1}/panel, receiver: robot/dipole"
         lines.append(
             f"  - {{name: power{number + 1}, file: power{number + 1}.csv, quantity: power_db, {to}, "
-            f"average: coherent, {band}}}\n"
+            f"average: {average}{band if average == 'coherent' else ''}}}\n"
             f"  - {{name: spread{number + 1}, file: spread{number + 1}.csv, quantity: delay_spread_ns, {to}, "
-            "spread_of: response, subcarriers: 64, "
-            f"subcarrier_spacing_hz: {m.BANDWIDTH_HZ / 64:g}}}\n"
+            f"spread_of: response, taps: [{m.TAPS[0]}, {len(m.TAPS)}], subcarriers: 128, "
+            f"subcarrier_spacing_hz: {m.BANDWIDTH_HZ / 128:g}}}\n"
         )
     lines.append("unknown:\n  scale_db: {bounds: [-20, 20], each: all}\nparameters:\n")
-    for materials, name, number, (low, high) in PARAMETERS:
+    for materials, name, number, (low, high), mean, deviation in PARAMETERS:
         lines.append(
             f"  - {{material: [{', '.join(materials)}], property: {name}, layer: {number}, "
-            f"bounds: [{low}, {high}], log: true}}\n"
+            f"bounds: [{low}, {high}], prior: {{mean: {mean}, sigma: {deviation}}}, log: true}}\n"
         )
     lines.append("loss: {kind: huber, scale: 1.345}\nsplit: {held_out: 0}\n")
     path = folder / "fit.yaml"
@@ -136,27 +138,35 @@ def write_fit(world, cells, scenario, folder):
 
 
 def fit(options, world, hall_of, cells):
-    folder = options.output / "fit"
-    folder.mkdir(parents=True, exist_ok=True)
-    step = steps.Step("calibrated", "materials fitted to the other half of the cells", START, 5, 3)
+    """Fits once to mean powers, in which the phases of paths do not count, and once to H itself."""
+    step = steps.Step("start", "", START, 5, 3)
     hall = hall_of(step)
-    scenario = write_scenario(world, hall, hall.write_materials("start", START), folder)
     side = world.blocks(BLOCK_M)[cells]
     inside, held_out = cells[side == 0], cells[side == 1]
     print(f"fit: {len(inside)} cells, held out: {len(held_out)}, fields of {BLOCK_M:g} m", flush=True)
-    description = write_fit(world, inside, scenario, folder)
     program = options.build.resolve() / "greatx"
-    subprocess.run([program, "calibrate", description, "-o", folder / "result"], check=True)
-    from hallway import run
+    for average in ("incoherent", "coherent"):
+        folder = options.output / f"fit_{average}"
+        folder.mkdir(parents=True, exist_ok=True)
+        scenario = write_scenario(world, hall, hall.write_materials("start", START), folder)
+        description = write_fit(world, inside, scenario, folder, average)
+        begin = time.perf_counter()
+        subprocess.run([program, "calibrate", "-q", description, "-o", folder / "result"], check=True)
+        print(f"{average}: fitted in {time.perf_counter() - begin:.0f} s", flush=True)
+        judge(options, world, hall, step, average, (inside, held_out))
 
-    sim = run.simulation_of(world, hall, step, folder / "result/materials.yaml")
-    constant = None
-    for name, part in (("calibrated_fit", inside), ("calibrated", held_out)):
+
+def judge(options, world, hall, step, average, parts):
+    """Scores a fit on the cells that it has seen and, with their constant, on those that it has not."""
+    sidecar = options.output / f"fit_{average}/result/materials.yaml"
+    sim = run.simulation_of(world, hall, step, sidecar)
+    score = None
+    for name, part in zip((f"{average}_seen", f"{average}_held_out"), parts):
         found = predict.predict(
             world, sim, world.cells[part], places=options.places, subcarriers=run.SUBCARRIERS
         )
-        score = predict.score(world, found, part, constant)
-        constant = score.constant_db
+        score = predict.score(world, found, part, score)
         print(f"{name:21} {score}  {found.paths:5.0f} paths {found.wall_s:6.1f} s", flush=True)
-        run.record(options, name, step.words, score, found)
+        words = "materials fitted to the other half of the cells"
+        run.record(options, name, words, score, found)
         pictures.draw(options.output, name, world, found, part, score)

@@ -115,6 +115,7 @@ class Score:
     spread_ns: tuple  # quantiles 0.25, 0.5, 0.75
     distance: float  # Kolmogorov-Smirnov, of the delay spread
     mean_median_db: float  # median error of powers without phases, with a constant of their own
+    mean_constant_db: float
     dark: int  # pairs of cell and array with a position that no path reaches; the mean error leaves them out
 
     def __str__(self):
@@ -131,14 +132,15 @@ def constant_of(predicted_db, measured_db):
     return float(np.median(measured_db - predicted_db))
 
 
-def score(measured, prediction, cells, constant_db=None):
-    """Compares a prediction for `cells` (indices) with the measurement. `constant_db`: the constant of other
-    cells, for cells that are held out."""
+def score(measured, prediction, cells, seen=None):
+    """Compares a prediction for `cells` (indices) with the measurement. `seen`: the score of other cells, the
+    constants of which hold for cells that are held out."""
     there = measured.power_db[:, cells]
-    constant = constant_of(prediction.power_db, there) if constant_db is None else constant_db
+    constant = constant_of(prediction.power_db, there) if seen is None else seen.constant_db
+    mean_constant = constant_of(prediction.mean_power_db, there) if seen is None else seen.mean_constant_db
     errors = np.abs(prediction.power_db + constant - there)
     lit = np.isfinite(errors)
-    mean_errors = np.abs(prediction.mean_power_db + constant_of(prediction.mean_power_db, there) - there)
+    mean_errors = np.abs(prediction.mean_power_db + mean_constant - there)
     spreads = prediction.delay_spread_ns[np.isfinite(prediction.delay_spread_ns)]
     return Score(
         constant_db=constant,
@@ -148,5 +150,6 @@ def score(measured, prediction, cells, constant_db=None):
         spread_ns=tuple(np.quantile(spreads, (0.25, 0.5, 0.75))),
         distance=measured.delay_spread_ns.distance(spreads),
         mean_median_db=float(np.median(mean_errors)),
+        mean_constant_db=mean_constant,
         dark=int((~lit).sum()),
     )

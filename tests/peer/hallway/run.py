@@ -8,7 +8,7 @@ import os
 
 import numpy as np
 
-from hallway import fit, measured, model, pictures, predict, steps
+from hallway import measured, model, pictures, predict, steps
 
 #: subcarriers over the band: paths up to 2.5 us long do not wrap, and those of 8 interactions take 1.5 us
 SUBCARRIERS = 128
@@ -80,5 +80,7 @@ def run(options):
         record(options, step.name, step.words, score, found)
         pictures.draw(options.output, step.name, world, found, cells, score)
     if options.fit:
+        from hallway import fit  # it uses this module
+
         fit.fit(options, world, hall_of, cells)
     return 0
