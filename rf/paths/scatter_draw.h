@@ -48,8 +48,8 @@ struct ScatterDraw {
 /// Width of the bins of delay, as a length: 10 ns of light.
 inline constexpr double delay_bin_m = 2.99792458;
 
-/// Returns the share of the power that passes what never moves between a patch and the target, 0 to 1. `view`:
-/// as ScatterDraw::view; 1 if the patch does not reach the target in this way.
+/// Returns the share of the power that passes what never moves between a patch and the target, 0 to 1, on the
+/// way of a ScatterDraw::view; 1 if the patch does not reach the target in this way.
 using Sight = std::function<double(const LitPatch& patch, uint32_t view)>;
 
 /// Returns at most `budget` draws from the patches of the tree, which send straight to a target, and from

@@ -155,6 +155,41 @@ TEST(ReflectedTarget, TheMeanOverSeedsIsThePowerOfAllChainsInEveryBin) {
   }
 }
 
+TEST(ReflectedTarget, AWallMayBePassedBehindTheScattering) {
+  // source and target are in front of a rough plate, and a thin wall is between it and a mirror behind them.
+  TinyScene tiny = rough_materials(ScatteringPattern::lambertian);
+  scene::Material pane;
+  pane.name = "pane";
+  pane.radio.emplace().layers.push_back({*scene::itu_medium("glass"), 0.004});
+  tiny.material_as(pane);
+  tiny.object("plate", 0, 1).quad({0, -20, 0}, {0, 20, 0}, {0, 20, 20}, {0, -20, 20});
+  tiny.object("pane", 0, 3).quad({12, -60, -40}, {12, -60, 60}, {12, 60, 60}, {12, 60, -40});
+  tiny.object("mirror", 0, 2).quad({15, -60, -40}, {15, -60, 60}, {15, 60, 60}, {15, 60, -40});
+  const scene::Scene scene = tiny.build();
+  RadioEffects effects = with_scattering();
+  effects.transmission = true;
+  Obstacles obstacles(scene, effects);
+  const dvec3 source(9, -4, 6), target(6, 8, 11);
+  PathLimits limits{.max_depth = 4,
+                    .max_transmissions = 2,
+                    .max_reflections_after = 1,
+                    .max_reflections_before_scattering = 0,
+                    .patch_m = 2.0};
+  const auto behind_the_pane = [&](uint32_t budget) {
+    limits.scattering_budget = budget;
+    double power = 0.0;
+    for (const Path& path : Links(scene, source, limits, effects).lit(target, obstacles))
+      if (path.interactions.size() == 4 && scatters(path.interactions) &&
+          path.interactions[2].type == InteractionType::reflection)
+        power += power_of(path);
+    return power;
+  };
+  const double all = behind_the_pane(0);
+  EXPECT_GT(all, 0.0);
+  EXPECT_EQ(all, behind_the_pane(1'000'000));
+  EXPECT_NEAR(behind_the_pane(400) / all, 1.0, 0.1);
+}
+
 TEST(ReflectedTarget, DrawsDependOnTheLinkAlone) {
   const scene::Scene scene = corridor().build();
   const PathLimits limits{.max_depth = 4,
