@@ -157,7 +157,7 @@ void IndirectLight::solve(const Origin& origin, const dvec3& target, std::vector
   }
   if (tree_.empty()) return;
   const uint32_t walls = walls_allowed(*model_, limits_, 2), before = strata_before(paths);
-  const auto sight = [&](const LitPatch& patch) {
+  const auto sight = [&](const LitPatch& patch, uint32_t) {
     return origin.scatterers.passes_what_rests(
         {.a = patch.position, .b = target, .facet_a = patch.facet, .walls = walls});
   };

@@ -123,12 +123,14 @@ void ScatterTree::sum_up(Node& node) const {
     const double peak = peak_of(s);
     node.mean_peak += s.power * peak;
     node.peak = std::max(node.peak, peak);
+    node.least_depth = std::min(node.least_depth, s.depth);
     node.one_plane = node.one_plane && s.facet == head.facet && glm::dot(s.normal, head.normal) > 0.0;
     if (s.power > strongest) strongest = s.power, node.surface = s.surface;
   }
   const double share = 1.0 / node.power;
   node.center *= share, node.normal *= share, node.specular *= share;
   node.length_m *= share, node.mean_peak *= share;
+  node.middle = 0.5 * (least + most);
   node.radius_m = 0.5 * glm::length(most - least);
   node.drawn = node.first;
   node.clock = head.clock / head.power;

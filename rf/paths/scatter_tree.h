@@ -29,6 +29,7 @@ struct LitPatch {
   const DiffuseScattering* surface = nullptr;
   uint32_t facet = 0, patch = 0;  ///< the facet, and the index of the patch among all
   uint32_t arrival = 0;           ///< index of the way from the source to the patch
+  uint32_t depth = 0;             ///< reflections on this way
   double clock = 0.0;             ///< an exponential variable of mean 1 that belongs to patch and way
 };
 
@@ -40,14 +41,16 @@ class ScatterTree {
  public:
   static constexpr uint32_t none = ~0u;
   struct Node {
-    dvec3 center{0.0};  ///< weighted by power
-    double radius_m = 0.0;
+    dvec3 center{0.0};                 ///< weighted by power
+    dvec3 middle{0.0};                 ///< of the box around the patches
+    double radius_m = 0.0;             ///< of the sphere around this box
     dvec3 normal{0.0}, specular{0.0};  ///< weighted by power; unit if all are the same
     double power = 0.0;                ///< sum
     double length_m = 0.0;             ///< mean, weighted by power
     double peak = 0.0;                 ///< the largest value of a lobe, 1/sr
     double mean_peak = 0.0;            ///< mean, weighted by power
     uint32_t first = 0, last = 0;      ///< range of patches
+    uint32_t least_depth = ~0u;        ///< of a patch
     uint32_t second = none;            ///< the second child; the first is the next node; none: a single patch
     /// The patch whose clock, divided by its power, is the least of the node's, and this quotient. Each patch
     /// is it with the probability of its share of the power.

@@ -3,14 +3,12 @@
 #include "rf/paths/scatterers.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/watch.h"
-#include "rf/search/beam_search.h"
 
 namespace greatx::rf {
 
@@ -43,7 +41,11 @@ Scatterers::Scatterers(const RadioModel& model, const PathLimits& limits, bool m
       limits_(limits),
       moving_bodies_(moving_bodies),
       patches_(scattering_patches(*model.scene, model.kinds, limits.patch_m)) {
+  if (most_after() > 0 && !moving_bodies)
+    beams_ =
+        std::make_shared<const BeamScene>(model.facets, model.kinds, std::span<const scene::Wedge>{}, false);
   if (limits.scattering_budget == 0) return;
+  if (most_after() > 0) shares_.emplace(model);
   FacetKinds kinds = model.kinds;
   for (uint32_t i = 0; i < kinds.size(); ++i)
     if (model.facets.facet(i).body != 0) kinds[i] = FacetKind::absent;
@@ -223,6 +225,7 @@ std::optional<LitPatch> Scatterers::lit_patch(uint32_t number, uint32_t arrival,
   if (!lit) return std::nullopt;
   lit->length_m = way.length_m;
   lit->arrival = arrival;
+  lit->depth = way.depth;
   lit->clock = exponential(RandomStream(key, patch.facet, patch.number));
   return lit;
 }
@@ -254,136 +257,6 @@ void Scatterers::append_way(const LitPatch& lit, GeometricPath& path) const {
     path.interactions.push_back({InteractionType::reflection, at_patches_.facets[i]});
     path.vertices.push_back(at_patches_.points[i]);
   }
-}
-
-/// Appends the path of a prefix and a suffix that meet at a patch, if both reach its centre from the same
-/// side.
-void Scatterers::join(const ImageTree& tree, const dvec3& target, size_t number, const PatchArrival& before,
-                      const PatchArrival& after, const PatchArrivals& suffixes,
-                      std::vector<GeometricPath>& paths) const {
-  const Patch& patch = patches_[number];
-  const PosedFacet& facet = model_->facets.facet(patch.facet);
-  const double to = facet.distance(after.from);
-  if (std::abs(to) <= facet.tolerance_m) return;
-  const size_t count = before.depth + 1 + after.depth;
-  if (count > limits_.max_depth) return;
-  const double from = facet.distance(before.from);
-  if (std::abs(from) <= facet.tolerance_m || from * to < 0.0) return;
-  GeometricPath& path = paths.emplace_back();
-  path.interactions.reserve(count);
-  path.vertices.reserve(count + 2);
-  path.vertices.push_back(tree.source());
-  for (uint32_t i = before.first; i < before.first + before.depth; ++i) {
-    path.interactions.push_back({InteractionType::reflection, at_patches_.facets[i]});
-    path.vertices.push_back(at_patches_.points[i]);
-  }
-  path.interactions.push_back({InteractionType::scattering, patch.facet, patch.number});
-  path.vertices.push_back(center(patch));
-  for (uint32_t i = after.first + after.depth; i-- > after.first;) {
-    path.interactions.push_back({InteractionType::reflection, suffixes.facets[i]});
-    path.vertices.push_back(suffixes.points[i]);
-  }
-  path.vertices.push_back(target);
-  path.length_m = before.length_m + after.length_m;
-  path.patch_area_m2 = patch.area_m2;
-  if (tree.end() == Source::receiver) turn_to_transmitter(path);
-}
-
-/// Searches for the ways from a target to patches.
-Scatterers::PatchArrivals Scatterers::ways_to(const ImageTree& tree, const dvec3& target, uint32_t body,
-                                              uint32_t threads, LeftOut& left_out) const {
-  BeamSearchOptions search;
-  search.max_depth = limits_.max_reflections_after + 1;
-  search.max_transmissions = model_->effects.transmission ? limits_.max_transmissions : 0;
-  search.moving_bodies = moving_bodies_;
-  search.source_body = body;
-  search.threads = threads;
-  const BeamSearchResult result = BeamSearch(model_->facets, model_->kinds, {}, search).search(target);
-  left_out = {result.overflow(), result.complete_depth()};
-  std::vector<PlaneWindow> windows;
-  const Arrivals facets = arrivals_at_facets(result.list, limits_.max_reflections_after, windows);
-  return arrivals_at_patches(facets, windows,
-                             ImageTree(model_->facets, target, result.list, opposite(tree.end())));
-}
-
-/// Lists the lit patches together with each way with reflections that leads from the target to them.
-std::vector<SingleScattering> Scatterers::bounces(const PatchArrivals& suffixes,
-                                                  std::vector<Bounce>& pairs) const {
-  std::vector<SingleScattering> all;
-  if (suffixes.arrivals.empty()) return all;
-  for (uint32_t i = 0; i < tree_.patches().size(); ++i) {
-    const LitPatch& lit = tree_.patches()[i];
-    const uint32_t before = at_patches_.arrivals[lit.arrival].depth;
-    for (uint32_t s = suffixes.offsets[lit.patch]; s < suffixes.offsets[lit.patch + 1]; ++s) {
-      const PatchArrival& after = suffixes.arrivals[s];
-      if (after.depth == 0 || before + 1 + after.depth > limits_.max_depth || after.from == lit.position)
-        continue;
-      const dvec3 out = glm::normalize(after.from - lit.position);
-      double power = scattered_power(lit, out, after.length_m);
-      if (!(power > 0.0)) continue;
-      uint64_t key = std::bit_cast<uint64_t>(lit.clock);
-      dvec3 from = lit.position;
-      for (uint32_t k = after.first + after.depth; k-- > after.first;) {
-        const dvec3& to = suffixes.points[k];
-        if (to != from) power *= reflected(suffixes.facets[k], glm::normalize(to - from));
-        from = to;
-        key = RandomStream(key, suffixes.facets[k], k - after.first).bits();
-      }
-      all.push_back({power, lit.length_m + after.length_m, exponential(RandomStream(key, lit.facet))});
-      pairs.push_back({i, s});
-    }
-  }
-  return all;
-}
-
-/// Appends the paths of the draws for a target. Patches send to it straight and on the ways of `suffixes`
-/// with reflections.
-void Scatterers::draw(const ImageTree& tree, const dvec3& target, const PatchArrivals& suffixes,
-                      std::vector<GeometricPath>& paths) const {
-  std::vector<Bounce> pairs;
-  const std::vector<SingleScattering> singles = bounces(suffixes, pairs);
-  const size_t straight = tree_.patches().size();
-  const auto sight = [&](const LitPatch& patch) {
-    return passes_what_rests({.a = patch.position,
-                              .b = target,
-                              .facet_a = patch.facet,
-                              .walls = walls_allowed(*model_, limits_, 1)});
-  };
-  for (const ScatterDraw& draw : draw_scatterings(tree_, target, singles, limits_.scattering_budget, sight)) {
-    const bool bent = draw.index >= straight;
-    const Bounce pair = bent ? pairs[draw.index - straight] : Bounce{draw.index};
-    const LitPatch& lit = tree_.patches()[pair.patch];
-    const size_t known = paths.size();
-    join(tree, target, lit.patch, at_patches_.arrivals[lit.arrival],
-         bent ? suffixes.arrivals[pair.suffix]
-              : PatchArrival{0, 0, target, glm::length(target - lit.position)},
-         suffixes, paths);
-    if (paths.size() == known) continue;
-    paths.back().patch_area_m2 *= draw.factor;
-    paths.back().stratum = draw.stratum;
-  }
-}
-
-LeftOut Scatterers::solve(const ImageTree& tree, const dvec3& target, uint32_t target_body, uint32_t threads,
-                          std::vector<GeometricPath>& paths) const {
-  LeftOut left_out;
-  if (at_patches_.arrivals.empty()) return left_out;
-  PatchArrivals suffixes;
-  if (limits_.max_reflections_after > 0)
-    suffixes = ways_to(tree, target, target_body, threads, left_out);
-  else if (!at_rest_)
-    suffixes = straight_to_patches(target);
-  if (at_rest_) {
-    draw(tree, target, suffixes, paths);
-    return left_out;
-  }
-  for (size_t patch = 0; patch < patches_.size(); ++patch) {
-    checkpoint();
-    for (const PatchArrival& after : suffixes.of(patch))
-      for (const PatchArrival& before : at_patches_.of(patch))
-        join(tree, target, patch, before, after, suffixes, paths);
-  }
-  return left_out;
 }
 
 }  // namespace greatx::rf

@@ -4,10 +4,11 @@
 // Finds paths with a scattering in the middle: reflections lead from the source to a patch (prefix) and from
 // there to the target (suffix). Prefixes come from the source's candidates, and suffixes from a search at the
 // target. With PathLimits::scattering_budget the patches that their prefixes light are in a ScatterTree, and
-// each target draws some of them.
+// each target draws some of them, straight and over reflections (ReflectedTarget).
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,9 +19,11 @@
 #include "rf/geometry/path.h"
 #include "rf/paths/exact_crossings.h"
 #include "rf/paths/radio_model.h"
+#include "rf/paths/reflected_target.h"
 #include "rf/paths/scatter_draw.h"
 #include "rf/paths/scatter_tree.h"
 #include "rf/paths/scattering_patches.h"
+#include "rf/search/beam_scene.h"
 
 namespace greatx::rf {
 
@@ -93,9 +96,20 @@ class Scatterers {
   void place_ways(const ImageTree& tree, const std::vector<PlaneWindow>& windows);
   double reaches(const PatchArrival& way, const Patch& patch, const dvec3& source) const;
   std::optional<LitPatch> lit_patch(uint32_t patch, uint32_t arrival, const dvec3& source) const;
+  /// The way from the target to a patch, outwards from the target.
+  struct Suffix {
+    std::span<const uint32_t> facets;
+    std::span<const dvec3> points;
+    dvec3 from{0.0};        ///< vertex before the patch
+    double length_m = 0.0;  ///< unfolded length to the patch's centre
+  };
   void join(const ImageTree& tree, const dvec3& target, size_t patch, const PatchArrival& before,
-            const PatchArrival& after, const PatchArrivals& suffixes,
-            std::vector<GeometricPath>& paths) const;
+            const Suffix& after, std::vector<GeometricPath>& paths) const;
+  static Suffix suffix_of(const PatchArrivals& suffixes, const PatchArrival& after);
+  Suffix straight_from(const dvec3& target, const LitPatch& lit) const;
+  uint32_t most_after() const;
+  CandidateList ways_from(const dvec3& target, uint32_t body, uint32_t most_facets, uint32_t threads,
+                          LeftOut& left_out) const;
   PatchArrivals ways_to(const ImageTree& tree, const dvec3& target, uint32_t body, uint32_t threads,
                         LeftOut& left_out) const;
   /// A patch of the tree and a way with reflections that leads from the target to it.
@@ -105,6 +119,10 @@ class Scatterers {
   std::vector<SingleScattering> bounces(const PatchArrivals& suffixes, std::vector<Bounce>& pairs) const;
   void draw(const ImageTree& tree, const dvec3& target, const PatchArrivals& suffixes,
             std::vector<GeometricPath>& paths) const;
+  void draw(const ImageTree& tree, const dvec3& target, const ReflectedTarget& views,
+            std::vector<GeometricPath>& paths) const;
+  double sight_over(const ReflectedTarget& views, uint32_t view, const LitPatch& patch) const;
+  double sight_from(const dvec3& target, const LitPatch& patch) const;
 
   const RadioModel* model_;
   PathLimits limits_;
@@ -112,8 +130,10 @@ class Scatterers {
   std::vector<Patch> patches_;
   Arrivals at_facets_;
   PatchArrivals at_patches_;
-  std::optional<ExactCrossings> at_rest_;  ///< what never moves, as obstacles; set if there is a budget
-  ScatterTree tree_;                       ///< of `at_patches_`, if there is a budget
+  std::optional<ExactCrossings> at_rest_;   ///< what never moves, as obstacles; set if there is a budget
+  ScatterTree tree_;                        ///< of `at_patches_`, if there is a budget
+  std::optional<ReflectedShares> shares_;   ///< set if there is a budget, and reflections behind a scattering
+  std::shared_ptr<const BeamScene> beams_;  ///< set if these are searched in a scene that does not move
 };
 
 }  // namespace greatx::rf

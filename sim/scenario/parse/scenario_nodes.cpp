@@ -270,7 +270,7 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
   if (const auto f = map.find("max_reflections_beside_diffraction"))
     channel.limits.max_reflections_beside_diffraction = f->integer32(0, 4);
   if (const auto f = map.find("max_reflections_after"))
-    channel.limits.max_reflections_after = f->integer32(0, 4);
+    channel.limits.max_reflections_after = f->integer32(0, 8);
   if (const auto f = map.find("max_reflections_before_scattering"))
     channel.limits.max_reflections_before_scattering = f->integer32(0, 16);
   if (const auto f = map.find("scattering_patch_m")) channel.limits.patch_m = f->positive(1e-3, 1e8);
