@@ -77,6 +77,7 @@ def run(options):
         )
         score = predict.score(world, found, cells)
         print(f"{step.name:21} {score}  {found.paths:5.0f} paths {found.wall_s:6.1f} s", flush=True)
+        np.savez_compressed(options.output / f"{step.name}.npz", **dataclasses.asdict(found))
         record(options, step.name, step.words, score, found)
         pictures.draw(options.output, step.name, world, found, cells, score)
     if options.fit:

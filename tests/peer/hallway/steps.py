@@ -30,6 +30,14 @@ LAYERS = {
     "ceiling": {"layers": [CEILING, air(0.3), {"itu": "concrete", "thickness_m": 0.2}]},
     "walls": {"layers": [boards(0.0125)["walls"], air(0.075), boards(0.0125)["walls"]]},
 }
+#: a raised floor: boards on pedestals above a slab
+RAISED = {
+    "layers": [
+        {"itu": "chipboard", "thickness_m": 0.038, "extrapolate": True},
+        air(0.2),
+        {"itu": "concrete", "thickness_m": 0.2},
+    ]
+}
 PANE = {"itu": "glass", "thickness_m": 0.004}
 ENDS = {"north": PANE, "south": PANE}
 
@@ -76,6 +84,7 @@ STEPS = [
     Step("itu_scattering", "itu and scattering, S = 0.3", scattering(BOARDS, 0.3, 0.1), **SCATTERING),
     Step("layers", "itu, partitions and ceiling in layers", LAYERS, walls_passed=3),
     Step("ends", "layers, panes of 4 mm at both ends of the corridor", GLAZED, walls_passed=3),
+    Step("raised", "ends, and a raised floor", {**GLAZED, "floor": RAISED}, walls_passed=3),
     Step("ends_8", "the same, 8 interactions", GLAZED, 8, 3),
     Step(
         "ends_diffraction",
