@@ -56,21 +56,6 @@ scene::Bounds bounds_of(std::span<const FitSet> sets) {
   return bounds;
 }
 
-rf::GeometricPath geometry_of(const rf::Path& path) {
-  return {.interactions = path.interactions,
-          .vertices = path.vertices,
-          .length_m = path.length_m,
-          .foliage_m = path.foliage_m,
-          .patch_area_m2 = path.patch_area_m2,
-          .edges_diffract = path.edges_diffract,
-          .edge_sides = path.edge_sides,
-          .keller_side = path.keller_side,
-          .from_receiver = path.from_receiver,
-          .stratum = path.stratum,
-          .second_patch_area_m2 = path.second_patch_area_m2,
-          .draw_variance = path.draw_variance};
-}
-
 void find_touched(FitLink& link, const FitMaterials& materials) {
   link.touched.clear();
   const rf::RadioModel& model = link.radio->model();

@@ -13,6 +13,7 @@
 #include "gpu/device.h"
 #include "rf/channel/frequency_response.h"
 #include "rf/geometry/path.h"
+#include "rf/gradient/path_continuation.h"  // geometry_of
 #include "sim/channel/channel_snapshot.h"
 #include "sim/fit/materials.h"
 
@@ -55,8 +56,5 @@ std::optional<std::vector<FitLink>> solve_links(gpu::Device& device, const Exper
 /// Lists the paths of a link whose field depends on a parameter: those that meet a facet or an edge of one of
 /// its materials. Also moves the weights of finite reflectors from `fields` to the paths.
 void find_touched(FitLink& link, const FitMaterials& materials);
-
-/// Returns the geometry of a path.
-rf::GeometricPath geometry_of(const rf::Path& path);
 
 }  // namespace greatx::sim

@@ -67,6 +67,7 @@ class Step:
 
 ON_BUDGET = {"scattering_patch_m": 0.5, "scattering_budget": 1000, "max_reflections_before_scattering": 1}
 BOARDS, GLAZED = boards(0.0125), {**LAYERS, **ENDS}
+BUILT = {**GLAZED, "floor": RAISED}
 LATER = {**ON_BUDGET, "max_reflections_before_scattering": 2, "max_reflections_after": 1}
 SCATTERING = {"effects": {"scattering": "on"}, "channel": ON_BUDGET, "walls_passed": 3}
 
@@ -84,21 +85,15 @@ STEPS = [
     Step("itu_scattering", "itu and scattering, S = 0.3", scattering(BOARDS, 0.3, 0.1), **SCATTERING),
     Step("layers", "itu, partitions and ceiling in layers", LAYERS, walls_passed=3),
     Step("ends", "layers, panes of 4 mm at both ends of the corridor", GLAZED, walls_passed=3),
-    Step("raised", "ends, and a raised floor", {**GLAZED, "floor": RAISED}, walls_passed=3),
-    Step("ends_8", "the same, 8 interactions", GLAZED, 8, 3),
+    Step("raised", "ends, and a raised floor", BUILT, walls_passed=3),
+    Step("raised_8", "the same, 8 interactions", BUILT, 8, 3),
+    Step("raised_4", "the same, 4 interactions", BUILT, 4, 2),
+    Step("raised_diffraction", "the same and diffraction", BUILT, 4, 2, effects={"diffraction": "on"}),
+    Step("raised_scattering", "raised and scattering, S = 0.3", scattering(BUILT, 0.3, 0.1), **SCATTERING),
     Step(
-        "ends_diffraction",
-        "ends and diffraction, 4 interactions",
-        GLAZED,
-        4,
-        2,
-        effects={"diffraction": "on"},
-    ),
-    Step("ends_scattering", "ends and scattering, S = 0.3", scattering(GLAZED, 0.3, 0.1), **SCATTERING),
-    Step(
-        "ends_scattering_later",
+        "raised_scattering_later",
         "the same, 2 reflections before and 1 behind a scattering",
-        scattering(GLAZED, 0.3, 0.1),
+        scattering(BUILT, 0.3, 0.1),
         **{**SCATTERING, "channel": LATER},
     ),
 ]
