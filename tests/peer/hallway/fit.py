@@ -26,6 +26,7 @@ SIDES = ["east", "west", "side_rooms"]
 PARAMETERS = [
     (SIDES, "thickness", 0, (0.006, 0.03), 0.0125, 0.2),
     (SIDES, "thickness", 1, (0.03, 0.2), 0.075, 0.3),
+    (SIDES, "permittivity", 0, (1.5, 5.0), 2.73, 0.2),
     (["floor"], "thickness", 0, (0.02, 0.06), 0.038, 0.15),
     (["floor"], "thickness", 1, (0.05, 0.5), 0.2, 0.4),
     (["ceiling"], "permittivity", 0, (1.1, 3.0), 1.48, 0.1),
@@ -95,9 +96,8 @@ def write_fit(world, cells, scenario, folder):
     """Writes the description of the fit."""
     points = predict.places_in_cells(world.cells[cells], PLACES).reshape(-1, 3)
     band = f"subcarriers: {SUBCARRIERS}, subcarrier_spacing_hz: {m.BANDWIDTH_HZ / SUBCARRIERS:g}"
-    lines = [
-        f"greatx_fit: 1\nscenario: {scenario.resolve()}\nchannel: csi\nseed: 1\nstarts: 1\niterations: 40\nmeasurements:\n"
-    ]
+    search = "seed: 1\nstarts: 1\niterations: 40"
+    lines = [f"greatx_fit: 1\nscenario: {scenario.resolve()}\nchannel: csi\n{search}\nmeasurements:\n"]
     for number in range(len(world.arrays)):
         write_table(
             folder / f"power{number + 1}.csv",
@@ -116,7 +116,7 @@ def write_fit(world, cells, scenario, folder):
             f"  - {{material: [{', '.join(materials)}], property: {name}, layer: {number}, "
             f"bounds: [{low}, {high}], prior: {{mean: {mean}, sigma: {deviation}}}, log: true}}\n"
         )
-    lines.append("loss: {kind: cauchy, scale: 1}\nsplit: {held_out: 0}\n")
+    lines.append("loss: {kind: huber, scale: 1.345}\nsplit: {held_out: 0}\n")
     path = folder / "fit.yaml"
     path.write_text("".join(lines))
     return path
