@@ -50,7 +50,9 @@ class SimulationExamples(unittest.TestCase):
         )
 
     def test_localise(self):
-        self.run_example("localise.py", r"5\.9 m away", r"misfit .*e-1\d, 0\.00000\d mm away; 0 paths born")
+        self.run_example(
+            "localise.py", r"start: 5918\.\d+ mm away", r"H, 0 paths born, 0 died: 0\.00000\d mm"
+        )
 
     def test_stream(self):
         self.run_example("stream.py", r"1\.90 s: ", "a beam that is a tick old loses")
