@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "io/files/file.h"
+#include "io/files/same_request.h"
 #include "io/files/untrusted_json.h"
 
 namespace greatx::apps {
@@ -15,16 +16,6 @@ using Json = nlohmann::ordered_json;
 constexpr const char* journal_file = "fit.part";
 constexpr double any_number = 1e300;
 constexpr int64_t most_count = 1'000'000'000;
-
-/// Returns the first difference, by its JSON pointer.
-std::string first_difference(const Json& asked, const Json& found) {
-  const Json a = asked.flatten(), b = found.is_structured() ? found.flatten() : Json::object();
-  for (const auto& [key, value] : a.items())
-    if (!b.contains(key) || b[key] != value)
-      return fmt::format("{}: asked for {}, the folder's has {}", key, value.dump(),
-                         b.contains(key) ? b[key].dump() : "none");
-  return "it has more in it";
-}
 
 std::vector<double> numbers(const io::JsonValue& value) {
   std::vector<double> all;
@@ -49,9 +40,7 @@ FitJournal::FitJournal(const fs::path& folder, const Json& request, bool resume)
   const fs::path file = complete ? whole : part;
   const io::JsonDocument document(io::read_text_file(file, io::JsonLimits{}.bytes), {file.string(), 0});
   const io::JsonValue found = document.root().at("request");
-  if (found.json() != request)
-    throw_user_error("{}: holds a fit that asked for something else, which this one cannot resume: {}",
-                     folder.string(), first_difference(request, found.json()));
+  io::check_same_request(folder, "a fit", request, found.json());
   finished_ = complete;
   if (complete) return;
   const io::JsonValue state = document.root().at("state");

@@ -9,6 +9,7 @@
 
 #include "core/hash.h"
 #include "io/files/inside.h"
+#include "io/files/same_request.h"
 #include "io/files/untrusted_json.h"
 
 namespace greatx::apps {
@@ -73,22 +74,6 @@ BlockHead head_of(uint64_t offset, std::span<const std::byte> payload, uint64_t 
   return head;
 }
 
-/// Returns the first difference, by its JSON pointer: "/grid/cell_m: asked for 1, the folder's has 2".
-std::string difference(const Json& asked, const Json& found) {
-  const Json a = asked.flatten(), b = found.is_structured() ? found.flatten() : Json::object();
-  for (const auto& [key, value] : a.items())
-    if (!b.contains(key) || b[key] != value)
-      return fmt::format("{}: asked for {}, the folder's has {}", key, value.dump(),
-                         b.contains(key) ? b[key].dump() : "none");
-  return "it has more in it";
-}
-
-void check_same(const fs::path& folder, const Json& request, const Json& found) {
-  if (found == request) return;
-  throw_user_error("{}: holds a radio map that asked for something else, which this one cannot resume: {}",
-                   folder.string(), difference(request, found));
-}
-
 }  // namespace
 
 MapJournal::MapJournal(const fs::path& folder, const Json& request, bool resume) : folder_(folder) {
@@ -101,7 +86,7 @@ MapJournal::MapJournal(const fs::path& folder, const Json& request, bool resume)
                        folder.string());
     const io::JsonDocument finished(io::read_text_file(description, io::JsonLimits{}.bytes),
                                     {description.string(), 1});
-    check_same(folder, request, finished.root().at("request").json());
+    io::check_same_request(folder, "a radio map", request, finished.root().at("request").json());
     finished_ = true;
     fs::remove(journal);  // left if the program was killed after the last file and before finish()
     return;
@@ -141,7 +126,7 @@ MapJournal::MapJournal(const fs::path& folder, const Json& request, bool resume)
   text.resize(length);
   file_.read_at(head, std::as_writable_bytes(std::span(text)));
   const io::JsonDocument asked(text, {journal.string(), 0});
-  check_same(folder, request, asked.root().json());
+  io::check_same_request(folder, "a radio map", request, asked.root().json());
   read_blocks(head + length);
 }
 
