@@ -9,7 +9,6 @@
 #include "apps/bench/recall_scene.h"
 #include "core/random.h"
 #include "rf/gradient/changed_surfaces.h"
-#include "rf/gradient/path_continuation.h"
 #include "rf/gradient/response_gradient.h"
 #include "sim/channel/blocks.h"
 #include "sim/channel/link_ends.h"
@@ -67,8 +66,7 @@ class GradientBench {
   /// Returns the paths with fields of a model.
   std::vector<rf::Path> fields(const rf::FieldModel& model) const {
     std::vector<rf::Path> fields;
-    for (const rf::Path& path : paths_)
-      fields.push_back(rf::path_field(rf::geometry_of(path), model, dvec3(0.0), dvec3(0.0)));
+    for (const rf::Path& path : paths_) fields.push_back(rf::path_field(path, model, dvec3(0.0), dvec3(0.0)));
     return fields;
   }
   std::vector<rf::Path> fields() const { return fields(field_); }
@@ -81,7 +79,7 @@ class GradientBench {
     std::vector<double> gradient(parameters_.size());
     for (size_t i = 0; i < paths_.size(); ++i) {
       const std::vector<rf::PathSlope> slopes =
-          rf::path_slopes(rf::geometry_of(paths_[i]), field_, dvec3(0.0), dvec3(0.0), parameters_);
+          rf::path_slopes(paths_[i], field_, dvec3(0.0), dvec3(0.0), parameters_);
       for (size_t p = 0; p < slopes.size(); ++p) gradient[p] += cotangent.paths[i].along({slopes[p]});
     }
     return gradient;

@@ -51,14 +51,15 @@ void check_count(const char* name, uint32_t count) {
     throw_user_error("{}: expected an integer from 1 to {}, found {}", name, most_samples, count);
 }
 
-rf::ChannelGrid grid_of(const ResponseRequest& request, const sim::ChannelConfig& config, bool doppler) {
+rf::ChannelGrid grid_of(const ResponseRequest& request, const sim::ChannelConfig& config, double carrier_hz,
+                        bool doppler) {
   // A caller that asks for time samples wants their phases to turn with time, even if the scenario's own
   // samples do not.
   const bool turns = doppler || request.time_samples || request.time_spacing_s;
-  const rf::ChannelGrid grid{
-      config.carrier_hz, request.subcarrier_spacing_hz.value_or(config.subcarrier_spacing_hz),
-      request.subcarriers.value_or(config.subcarriers), request.time_samples.value_or(config.time_samples),
-      turns ? request.time_spacing_s.value_or(config.time_spacing_s) : 0.0};
+  const rf::ChannelGrid grid{carrier_hz, request.subcarrier_spacing_hz.value_or(config.subcarrier_spacing_hz),
+                             request.subcarriers.value_or(config.subcarriers),
+                             request.time_samples.value_or(config.time_samples),
+                             turns ? request.time_spacing_s.value_or(config.time_spacing_s) : 0.0};
   check_above_0("subcarrier_spacing_hz", grid.subcarrier_spacing_hz);
   check_count("subcarriers", grid.subcarriers);
   check_count("time_samples", grid.time_samples);
@@ -246,12 +247,12 @@ Array PathSet::blocks(std::vector<int64_t> columns, const GoOn& go_on,
   return array;
 }
 
-rf::ChannelGrid PathSet::grid(const ResponseRequest& request) const {
-  return grid_of(request, config_, experiment_->plan.doppler.on);
+rf::ChannelGrid PathSet::grid(const ResponseRequest& request, double carrier_hz) const {
+  return grid_of(request, config_, carrier_hz, experiment_->plan.doppler.on);
 }
 
 Array PathSet::response(const ResponseRequest& request, const GoOn& go_on) const {
-  const rf::ChannelGrid grid = this->grid(request);
+  const rf::ChannelGrid grid = this->grid(request, config_.carrier_hz);
   std::optional<rf::Dispersion> dispersion;
   if (experiment_->plan.dispersion.on)
     dispersion.emplace(experiment_->scene(), radio_->model().field_model(), radio_->model().effects.weather,

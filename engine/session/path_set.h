@@ -98,7 +98,8 @@ class PathSet {
   const rf::AntennaArray& receiver_array(const Link& link) const;
   /// Returns the ends of a link for the channel's band or a wider one.
   sim::LinkEnds ends(const Link& link, double half_band_hz = 0.0) const;
-  rf::ChannelGrid grid(const ResponseRequest& request) const;
+  /// Throws UserError if the grid is not valid at this carrier.
+  rf::ChannelGrid grid(const ResponseRequest& request, double carrier_hz) const;
   std::vector<double> powers(const Link& link) const;
   void fill_arrays(const sim::ChannelSnapshot& snapshot);
   void describe(const sim::ChannelSnapshot& snapshot, const std::map<std::string, uint64_t>& before);

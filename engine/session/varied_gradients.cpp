@@ -10,7 +10,6 @@
 #include "core/units.h"
 #include "engine/session/varied_paths.h"
 #include "rf/channel/statistics.h"
-#include "rf/gradient/path_continuation.h"
 
 namespace greatx::engine {
 namespace {
@@ -93,9 +92,8 @@ std::vector<std::vector<rf::PathSlope>> VariedPaths::slopes_of(const Link& link,
   for (size_t i = 0; i < slopes.size(); ++i) {
     const rf::Path& path = link.paths()[i];
     if (moves) check_foliage(path);
-    slopes[i] =
-        rf::path_slopes(rf::geometry_of(path), model, link.transmitter_velocity, link.receiver_velocity,
-                        columns.of_paths, columns.carrier ? &*columns.carrier : nullptr);
+    slopes[i] = rf::path_slopes(path, model, link.transmitter_velocity, link.receiver_velocity,
+                                columns.of_paths, columns.carrier ? &*columns.carrier : nullptr);
   }
   return slopes;
 }

@@ -9,8 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "core/parallel.h"
-#include "core/units.h"
 #include "rf/atmosphere/fog.h"
 #include "rf/atmosphere/gas.h"
 #include "rf/atmosphere/rain.h"
@@ -153,12 +151,8 @@ void VariedPaths::set_surfaces() {
   }
   if (values.empty()) return;
   const auto name_of = [&](const rf::ChannelParameter& wanted) {
-    for (const PathParameter& parameter : set_->parameters()) {
-      const rf::ChannelParameter& of = parameter.of_material;
-      if (parameter.role == Role::material && of.kind == wanted.kind && of.index == wanted.index &&
-          of.layer == wanted.layer && of.windows == wanted.windows)
-        return parameter.name;
-    }
+    for (const PathParameter& parameter : set_->parameters())
+      if (parameter.role == Role::material && parameter.of_material == wanted) return parameter.name;
     return std::string("a material");
   };
   const rf::RadioSurfaces& surfaces = surfaces_ ? *surfaces_ : model.surfaces;
@@ -182,11 +176,7 @@ rf::FieldModel VariedPaths::field_model(const Link& link) const {
 
 void VariedPaths::solve() {
   for (const PathSet::Link& from : set_->links_) links_.push_back({&from});
-  if (links_.empty()) return;
-  for_links({}, [this](const Link& link, size_t number) {
-    (void)link;
-    solve_link(links_[number]);
-  });
+  set_->for_links({}, [this](const PathSet::Link&, size_t number) { solve_link(links_[number]); });
   for (const Link& link : links_) {
     paths_ += link.from->solved.paths.size();
     beyond_ += link.beyond;
@@ -215,8 +205,8 @@ void VariedPaths::solve_link(Link& link) const {
   for (size_t i = 0; i < solved.paths.size(); ++i) {
     const rf::Path& path = solved.paths[i];
     if (moved) check_foliage(path);
-    rf::ContinuedPath continued = rf::continued_path(rf::geometry_of(path), *model.world, model.wedges,
-                                                     link.transmitter, link.receiver);
+    rf::ContinuedPath continued =
+        rf::continued_path(path, *model.world, model.wedges, link.transmitter, link.receiver);
     if (continued.state == rf::Continuation::lost) {
       ++link.lost;
       continue;
@@ -280,9 +270,7 @@ bool VariedPaths::for_links(const GoOn& go_on, const std::function<void(const Li
 }
 
 rf::ChannelGrid VariedPaths::grid(const ResponseRequest& request) const {
-  rf::ChannelGrid grid = set_->grid(request);
-  grid.carrier_hz = carrier_hz_;
-  return grid;
+  return set_->grid(request, carrier_hz_);
 }
 
 rf::ResponseLink VariedPaths::response_link(const Link& link, double half_band_hz) const {

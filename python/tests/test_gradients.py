@@ -279,6 +279,10 @@ class Derivatives(unittest.TestCase):
                 lambda: paths.cfr(parameters={"material:concrete.permittivity": 5.0, "carrier": 3e9}),
                 "carrier: expected materials with their own",
             ),
+            (  # above 0 Hz at the scenario's carrier, but not at this one
+                lambda: paths.cfr(bandwidth_hz=3e9, subcarriers=4, parameters={"carrier": 1.2e9}),
+                "subcarriers: expected every one above 0 Hz",
+            ),
             (lambda: paths.cfr(parameters={}, normalize_delays=True), "normalize_delays: expected False"),
             (lambda: paths.jacobian(["carrier"], "pwer"), "of: expected one of .*did you mean 'power'"),
             (lambda: paths.gradient(["carrier"], h[..., :3]), "cotangent: expected [0-9]+ complex numbers"),

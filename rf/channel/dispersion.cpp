@@ -57,17 +57,6 @@ TransferSpectrum Dispersion::echo_spectrum(const TargetEcho& echo, const FacetWo
 
 TransferSpectrum Dispersion::spectrum(const Path& path, const FacetWorld& world) const {
   if (path.echo && path.echo->has_legs()) return echo_spectrum(*path.echo, world);
-  const GeometricPath geometry{.interactions = path.interactions,
-                               .vertices = path.vertices,
-                               .length_m = path.length_m,
-                               .foliage_m = path.foliage_m,
-                               .patch_area_m2 = path.patch_area_m2,
-                               .edges_diffract = path.edges_diffract,
-                               .edge_sides = path.edge_sides,
-                               .keller_side = path.keller_side,
-                               .from_receiver = path.from_receiver,
-                               .stratum = path.stratum,
-                               .second_patch_area_m2 = path.second_patch_area_m2};
   TransferSpectrum spectrum(subcarriers_.size());
   // The line of sight in air that attenuates nothing is the same at every frequency. An echo of surfaces
   // keeps the carrier's values.
@@ -81,7 +70,7 @@ TransferSpectrum Dispersion::spectrum(const Path& path, const FacetWorld& world)
     model.surfaces = &subcarriers_[k].surfaces;
     model.attenuation = subcarriers_[k].attenuation;
     Complex transfer[4];
-    path_transfer(geometry, model, transfer);
+    path_transfer(path, model, transfer);
     std::copy_n(transfer, 4, spectrum[k].begin());
   }
   return spectrum;

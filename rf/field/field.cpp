@@ -474,19 +474,7 @@ Path path_field(const GeometricPath& geometry, const FieldModel& model, const dv
                 const dvec3& receiver_velocity) {
   const PathValuesOf<double> values = path_values<double>(
       geometry, {geometry.vertices, geometry.length_m, transmitter_velocity, receiver_velocity}, model);
-  Path path;
-  path.interactions = geometry.interactions;
-  path.vertices = geometry.vertices;
-  path.length_m = geometry.length_m;
-  path.foliage_m = geometry.foliage_m;
-  path.patch_area_m2 = geometry.patch_area_m2;
-  path.edges_diffract = geometry.edges_diffract;
-  path.edge_sides = geometry.edge_sides;
-  path.keller_side = geometry.keller_side;
-  path.from_receiver = geometry.from_receiver;
-  path.stratum = geometry.stratum;
-  path.second_patch_area_m2 = geometry.second_patch_area_m2;
-  path.draw_variance = geometry.draw_variance;
+  Path path{geometry};
   path.delay_s = geometry.length_m / speed_of_light;
   path.doppler_hz = values.doppler_hz;
   path.departure = values.departure;

@@ -114,20 +114,8 @@ struct GeometricPath {
 struct TargetEcho;
 
 /// Holds a path as seen from one transmitter and one receiver (their reference points).
-struct Path {
-  std::vector<Interaction> interactions;
-  std::vector<dvec3> vertices;  ///< [interactions + 2], local coordinates
-  double length_m = 0.0;
-  double foliage_m = 0.0;
-  double patch_area_m2 = 0.0;                     ///< as in GeometricPath
-  uint32_t edges_diffract = 0;                    ///< as in GeometricPath
-  std::array<EdgeSides, 2> edge_sides = {};       ///< as in GeometricPath
-  KellerSide keller_side = KellerSide::by_place;  ///< as in GeometricPath
-  bool from_receiver = false;                     ///< as in GeometricPath
-  uint32_t stratum = 0;                           ///< as in GeometricPath
-  double second_patch_area_m2 = 0.0;              ///< as in GeometricPath
-  double draw_variance = 0.0;                     ///< as in GeometricPath
-  double delay_s = 0.0;                           ///< length / c
+struct Path : GeometricPath {
+  double delay_s = 0.0;  ///< length / c
   /// nu = (1/lambda)(v_tx . k_0 - v_rx . k_n + sum v_i . (k_i - k_{i-1})); approaching ends give nu > 0.
   double doppler_hz = 0.0;
   dvec3 departure{0.0};  ///< unit, world axes, leaving the transmitter
@@ -138,7 +126,6 @@ struct Path {
   Complex transfer[4]{};
   std::shared_ptr<const TargetEcho> echo;  ///< set if and only if the path leads over a target
   uint64_t id() const { return path_id(interactions); }
-  FacetSequence facets() const { return reflecting_facets(interactions); }
 };
 
 /// Holds the parts of a path over a target.

@@ -219,19 +219,4 @@ ContinuedPath continued_path(const GeometricPath& path, const FacetWorld& world,
   return Continuer(path, world, wedges, transmitter, receiver).solve();
 }
 
-GeometricPath geometry_of(const Path& path) {
-  return {.interactions = path.interactions,
-          .vertices = path.vertices,
-          .length_m = path.length_m,
-          .foliage_m = path.foliage_m,
-          .patch_area_m2 = path.patch_area_m2,
-          .edges_diffract = path.edges_diffract,
-          .edge_sides = path.edge_sides,
-          .keller_side = path.keller_side,
-          .from_receiver = path.from_receiver,
-          .stratum = path.stratum,
-          .second_patch_area_m2 = path.second_patch_area_m2,
-          .draw_variance = path.draw_variance};
-}
-
 }  // namespace greatx::rf

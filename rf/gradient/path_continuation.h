@@ -38,7 +38,4 @@ ContinuedPath continued_path(const GeometricPath& path, const FacetWorld& world,
                              std::span<const scene::Wedge> wedges, const dvec3& transmitter,
                              const dvec3& receiver);
 
-/// Returns the geometry of a path that was solved.
-GeometricPath geometry_of(const Path& path);
-
 }  // namespace greatx::rf

@@ -81,7 +81,7 @@ void find_touched(FitLink& link, const FitMaterials& materials) {
   for (FitLink::Touched& touched : link.touched) {
     const rf::Path& path = link.paths[touched.path];
     rf::Complex endless[4];
-    rf::path_transfer(geometry_of(path), link.fields, endless);
+    rf::path_transfer(path, link.fields, endless);
     touched.weight = factor_between(endless, path.transfer);
   }
 }

@@ -13,7 +13,6 @@
 #include "gpu/device.h"
 #include "rf/channel/frequency_response.h"
 #include "rf/geometry/path.h"
-#include "rf/gradient/path_continuation.h"  // geometry_of
 #include "sim/channel/channel_snapshot.h"
 #include "sim/fit/materials.h"
 

@@ -39,7 +39,7 @@ FitFields TransferSlopes::of(const FitLink& link) const {
   FitFields fields;
   std::vector<rf::ChannelParameter> asked;
   for (const FitLink::Touched& touched : link.touched) {
-    const rf::GeometricPath path = geometry_of(link.paths[touched.path]);
+    const rf::GeometricPath& path = link.paths[touched.path];
     rf::Complex transfer[4];
     rf::path_transfer(path, model, transfer);
     const rf::Complex& weight = touched.weight;

@@ -158,7 +158,7 @@ TEST(Fit, FindsClocksPhasesAndScale) {
       Complex sum = 0.0;
       for (const rf::Path& path : link.paths) {
         Complex transfer[4];
-        rf::path_transfer(geometry_of(path), fields, transfer);
+        rf::path_transfer(path, fields, transfer);
         // Vertical elements meet the theta components alone.
         sum +=
             speed_of_light / fit_carrier_hz / (4.0 * pi) * transfer[0] *
