@@ -20,11 +20,8 @@ namespace greatx::apps {
 
 namespace {
 
-struct CalibrateOptions {
-  ScenarioOptions scenario;
-  RunOptions run;
-  std::string output;
-  bool again = false, resume = false, no_pictures = false, json = false, quiet = false;
+struct CalibrateOptions : FitOptions {
+  bool again = false;
 };
 
 /// Refuses the options of one meaning beside a file of the other.
@@ -43,9 +40,7 @@ void check_options(const CalibrateOptions& options, bool fit) {
 void run_calibrate(const CalibrateOptions& options) {
   const bool fit = is_fit_file(options.scenario.scenario);
   check_options(options, fit);
-  if (fit)
-    return run_fit({options.scenario, options.run, options.output, options.resume, options.no_pictures,
-                    options.json, options.quiet});
+  if (fit) return run_fit(options);
   const sim::Experiment experiment = sim::make_experiment(load_scenario(options.scenario, true));
   if (experiment.scenario.accuracy.empty())
     throw_user_error("{}: expected 'accuracy' or 'time_budget_ms_per_tick', found neither",

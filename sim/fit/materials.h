@@ -22,7 +22,6 @@ class FitMaterials {
   /// then).
   FitMaterials(const scene::Scene& scene, double carrier_hz, std::span<const FitParameter> parameters);
 
-  size_t parameters() const { return parameters_.size(); }
   /// Returns the value of each parameter before the fit.
   const std::vector<double>& start() const { return start_; }
   /// Returns the indices of the scene's materials that have parameter `parameter`.

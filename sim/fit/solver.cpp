@@ -36,11 +36,6 @@ std::vector<uint32_t> every_nth(std::span<const uint32_t> links, size_t least) {
 
 }  // namespace
 
-const char* name_of(FitStage stage) {
-  constexpr const char* names[] = {"unknowns", "search", "everything"};
-  return names[static_cast<size_t>(stage)];
-}
-
 FitSolver::FitSolver(const FitModel& model, std::vector<uint32_t> links)
     : model_(model), links_(std::move(links)), some_(every_nth(links_, links_of_search)) {
   if (links_.empty())
@@ -229,7 +224,6 @@ void FitSolver::end_run(FitState& state) const {
 
 /// Ends a round of iterations: the deviations are estimated afresh, and the run ends once they are settled.
 void FitSolver::end_round(FitState& state, std::span<const FitBlock> blocks) const {
-  if (state.stage == FitStage::search) return end_run(state);
   const std::vector<double> sigmas = estimated_sigmas(blocks);
   bool same = true;
   for (size_t s = 0; s < sigmas.size(); ++s)
@@ -301,6 +295,7 @@ void FitSolver::step(FitState& state) const {
   const bool out_of_iterations = state.iteration >= model_.problem().iterations;
   if (!last && !out_of_iterations) return;
   if (!last && state.stage != FitStage::search) state.converged = false;
+  if (state.stage == FitStage::search) return end_run(state);
   end_round(state, moved ? model_.blocks(state.coordinates, links, false) : blocks);
 }
 

@@ -30,7 +30,6 @@
 namespace greatx::sim {
 
 enum class FitStage : uint8_t { unknowns, search, everything };
-const char* name_of(FitStage stage);
 
 /// Where a fit stands. A fit goes on from it with the same bits as if it had never been stopped.
 struct FitState {

@@ -116,7 +116,6 @@ class FitWorld {
   FitProblem& problem() { return problem_; }
   const FitModel& model() const { return *model_; }
   const FitMaterials& materials() const { return materials_; }
-  const Experiment& experiment() const { return experiment_; }
   /// Makes the model anew after a change of the problem's measurements.
   void make_model() { model_ = std::make_unique<FitModel>(problem_, materials_, fit_carrier_hz, links_); }
   std::vector<uint32_t> all() const {
