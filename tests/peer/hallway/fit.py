@@ -11,7 +11,7 @@ import time
 import numpy as np
 
 from hallway import measured as m
-from hallway import pictures, predict, run, steps
+from hallway import predict, report, steps
 
 #: side of a field of the checkerboard, m
 BLOCK_M = 4.0
@@ -46,11 +46,11 @@ BOARD, GLASS = layer(2.73, 0.027, 0.0125), layer(6.31, 0.019, 0.004)
 CONCRETE = layer(5.24, 0.121, 0.2)
 #: where the fit begins: the step "raised". The media are those of ITU-R P.2040 at the carrier.
 START = {
-    "walls": {"layers": [BOARD, layer(1.0, 0.0, 0.075), layer(2.73, 0.027, 0.0125)]},
+    "walls": {"layers": [BOARD, steps.air(0.075), BOARD]},
     "north": {"layers": [GLASS]},
     "south": {"layers": [GLASS]},
-    "floor": {"layers": [layer(2.58, 0.057, 0.038), layer(1.0, 0.0, 0.2), CONCRETE]},
-    "ceiling": {"layers": [layer(1.48, 0.0042, 0.02), layer(1.0, 0.0, 0.3), CONCRETE]},
+    "floor": {"layers": [layer(2.58, 0.057, 0.038), steps.air(0.2), CONCRETE]},
+    "ceiling": {"layers": [layer(1.48, 0.0042, 0.02), steps.air(0.3), CONCRETE]},
 }
 
 
@@ -142,14 +142,8 @@ def fit(options, world, hall_of, cells):
 
 def judge(options, world, hall, step, name, sidecar, parts):
     """Scores materials on the cells that a fit sees and, with their constant, on those that it does not."""
-    sim = run.simulation_of(world, hall, step, sidecar)
+    sim = report.simulation_of(world, hall, step, sidecar)
     score = None
     for half, part in zip(("seen", "held_out"), parts):
-        row = f"{name}_{half}"
-        found = predict.predict(
-            world, sim, world.cells[part], places=options.places, subcarriers=run.SUBCARRIERS
-        )
-        score = predict.score(world, found, part, score)
-        print(f"{row:21} {score}  {found.paths:5.0f} paths {found.wall_s:6.1f} s", flush=True)
-        run.record(options, row, f"{name}, cells that are {half}", score, found)
-        pictures.draw(options.output, row, world, found, part, score)
+        words = f"{name}, cells that are {half}"
+        score, _ = report.judge(options, world, sim, f"{name}_{half}", words, part, score)

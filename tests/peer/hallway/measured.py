@@ -47,16 +47,10 @@ class Distribution:
         apart = np.maximum(np.abs(there - ranks[:-1]), np.abs(there - ranks[1:]))
         return float(apart[inside].max(initial=0.0))
 
-    def mean(self):
-        """Returns the mean; what lies beyond the last value counts as the last value."""
-        share = np.diff(self.cdf, prepend=0.0)
-        return float((share * self.value).sum() + (1.0 - self.cdf[-1]) * self.value[-1])
-
 
 @dataclasses.dataclass
 class ArrayPlace:
     center: np.ndarray  # m, scene
-    direction: np.ndarray  # unit, scene: as surveyed
     along: np.ndarray  # unit, scene: along the corridor, as the paper takes it
 
 
@@ -72,8 +66,6 @@ class Measured:
         self.power_db = np.stack([m["measured_dB"] for m in maps])
         spread = table(self.folder / "cdf_delay_spread_measured.csv")
         self.delay_spread_ns = Distribution(spread["delay_spread_ns"], spread["cdf"])
-        power = table(self.folder / "cdf_power_measured.csv")
-        self.element_power_db = Distribution(power["power_dB"], power["cdf"])
         self.arrays = self._arrays()
 
     def _survey(self):
@@ -102,7 +94,6 @@ class Measured:
             places.append(
                 ArrayPlace(
                     center=to_scene @ (np.array(antenna["location"]) - origin),
-                    direction=direction,
                     along=np.array([0.0, np.sign(direction[1]), 0.0]),
                 )
             )

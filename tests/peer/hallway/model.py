@@ -66,7 +66,7 @@ class Hall:
 
     def __init__(self, measured, folder, program, floor_m=0.0):
         """`floor_m`: height of the floor. The model has it 0.1 m too high, and the survey at 0."""
-        self.folder, self.program = pathlib.Path(folder), program
+        self.folder = pathlib.Path(folder)
         (self.folder / "meshes").mkdir(parents=True, exist_ok=True)
         meshes = measured.folder / "scenes/inue_simple/meshes"
         for name in ("floor", "ceiling"):
