@@ -11,15 +11,12 @@ import functools
 import json
 import sys
 import warnings
-from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
 from .errors import Error, nearest
 from .tables import Arrays
-
-if TYPE_CHECKING:
-    from .paths import Paths
 
 #: What jacobian() differentiates: quantities of the response, of paths and of links.
 QUANTITIES = ("cfr", "power", "delay", "path_gain", "mean_delay", "delay_spread")
@@ -147,27 +144,28 @@ def _shapes(native: Any, parameters: Mapping[str, Any]) -> Dict[str, Tuple[int, 
     return {name: known[name].shape for name in parameters}
 
 
-def vary(paths: "Paths", parameters: Optional[Mapping[str, Any]]) -> Variation:
+def vary(native: Any, channel: str, parameters: Optional[Mapping[str, Any]]) -> Variation:
+    """Returns the paths of the engine's set `native` at these values."""
     parameters = parameters or {}
-    shapes = _shapes(paths._native, parameters)
+    shapes = _shapes(native, parameters)
     values = {
         name: _as_numbers(name, value.detach().cpu().numpy() if is_tensor(value) else value, shapes[name])
         for name, value in parameters.items()
     }
-    return Variation(paths._native, values, paths.channel)
+    return Variation(native, values, channel)
 
 
-def response(paths: "Paths", request: Request, parameters: Mapping[str, Any]) -> Any:
+def response(native: Any, channel: str, request: Request, parameters: Mapping[str, Any]) -> Any:
     """Returns H at these values: a torch tensor if a value is one, else complex128."""
     if not any(is_tensor(value) for value in parameters.values()):
-        return vary(paths, parameters).response(request)
-    return _torch_response(paths, request, parameters)
+        return vary(native, channel, parameters).response(request)
+    return _torch_response(native, channel, request, parameters)
 
 
-def _torch_response(paths: "Paths", request: Request, parameters: Mapping[str, Any]) -> Any:
+def _torch_response(native: Any, channel: str, request: Request, parameters: Mapping[str, Any]) -> Any:
     import torch
 
-    shapes = _shapes(paths._native, parameters)
+    shapes = _shapes(native, parameters)
     constants: Dict[str, np.ndarray] = {}
     tensors = {}
     for name, value in parameters.items():
@@ -186,7 +184,7 @@ def _torch_response(paths: "Paths", request: Request, parameters: Mapping[str, A
             ) from None
     single = all(t.dtype in (torch.float32, torch.complex64) for t in tensors.values())
     dtype = torch.complex64 if single else torch.complex128
-    call = (paths, request, constants, list(tensors), dtype)
+    call = (native, channel, request, constants, list(tensors), dtype)
     return _response_function().apply(call, *tensors.values())
 
 
@@ -198,9 +196,9 @@ def _response_function() -> Any:
     class Response(torch.autograd.Function):
         @staticmethod
         def forward(ctx: Any, call: Any, *tensors: Any) -> Any:
-            paths, request, constants, names, dtype = call
+            native, channel, request, constants, names, dtype = call
             values = {name: t.detach().resolve_conj().cpu().numpy() for name, t in zip(names, tensors)}
-            ctx.variation = Variation(paths._native, {**constants, **values}, paths.channel)
+            ctx.variation = Variation(native, {**constants, **values}, channel)
             ctx.call = call
             ctx.kinds = [(t.dtype, t.device) for t in tensors]
             return torch.from_numpy(np.ascontiguousarray(ctx.variation.response(request))).to(dtype)
@@ -208,7 +206,7 @@ def _response_function() -> Any:
         @staticmethod
         @torch.autograd.function.once_differentiable
         def backward(ctx: Any, gradient: Any) -> Any:
-            _, request, _, names, _ = ctx.call
+            _, _, request, _, names, _ = ctx.call
             wanted = [i for i in range(len(names)) if ctx.needs_input_grad[1 + i]]
             cotangent = gradient.detach().resolve_conj().cpu().numpy()
             found = ctx.variation.gradient(request, [names[i] for i in wanted], cotangent)
@@ -219,14 +217,3 @@ def _response_function() -> Any:
             return tuple(out)
 
     return Response
-
-
-def changes(paths: "Paths", before: "Paths") -> Changes:
-    if paths.shape != before.shape:
-        raise Error(f"changes_since: expected paths of {before.shape} links, found {paths.shape}")
-    counts = np.zeros((3, *paths.shape), np.int64)
-    for rx in range(paths.shape[0]):
-        for tx in range(paths.shape[1]):
-            now, then = (set(of.link(rx, tx)["id"].tolist()) for of in (paths, before))
-            counts[:, rx, tx] = len(now - then), len(then - now), len(now & then)
-    return Changes(*counts)

@@ -140,7 +140,7 @@ class Paths:
         if parameters is not None:
             if normalize_delays:
                 raise Error("normalize_delays: expected False with parameters, found True")
-            return gradients.response(self, request, parameters)
+            return gradients.response(self._native, self.channel, request, parameters)
         response = self._native.cfr(*request)
         if not normalize_delays:
             return response
@@ -159,7 +159,7 @@ class Paths:
     def vary(self, parameters: Optional[Mapping[str, Any]] = None) -> Variation:
         """Returns the same paths at other values of parameters. Its `facts` count those that do not exist
         there, and its quantities() are powers, delays and spreads."""
-        return gradients.vary(self, parameters)
+        return gradients.vary(self._native, self.channel, parameters)
 
     def jacobian(
         self,
@@ -190,7 +190,7 @@ class Paths:
         )
         if of == "cfr":
             self._warn_of_near_links()
-        return gradients.vary(self, parameters).jacobian(request, names, of)
+        return self.vary(parameters).jacobian(request, names, of)
 
     def gradient(
         self,
@@ -214,12 +214,21 @@ class Paths:
             bandwidth_hz, subcarriers, subcarrier_spacing_hz, time_samples, time_spacing_s, select
         )
         self._warn_of_near_links()
-        return dict(zip(names, gradients.vary(self, parameters).gradient(request, names, cotangent)))
+        return dict(zip(names, self.vary(parameters).gradient(request, names, cotangent)))
 
     def changes_since(self, before: "Paths") -> Changes:
         """Counts the paths of each link that were `born` since `before`, `died` or were `kept`, int64 [rx,
         tx], by their identities: where a path is born or dies, the channel jumps."""
-        return gradients.changes(self, before)
+        if self.shape != before.shape:
+            raise Error(f"changes_since: expected paths of {before.shape} links, found {self.shape}")
+        counts = np.zeros((3, self.shape[0] * self.shape[1]), np.int64)
+        for link in range(counts.shape[1]):
+            now, then = (
+                set(of.arrays["id"][slice(*of.arrays["offsets"][link : link + 2])].tolist())
+                for of in (self, before)
+            )
+            counts[:, link] = len(now - then), len(then - now), len(now & then)
+        return Changes(*counts.reshape(3, *self.shape))
 
     def _request(
         self,

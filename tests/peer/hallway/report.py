@@ -42,8 +42,9 @@ def record(options, name, words, score, prediction):
 
 
 def judge(options, world, sim, name, words, cells, seen=None):
-    """Predicts what was measured in the cells (indices) and prints, keeps and draws how far it is off. `seen`:
-    the score of other cells, with whose constants these are judged. Returns the score and the prediction."""
+    """Predicts what was measured in the cells (indices), and prints, keeps and draws how far it is off.
+    `seen`: the score of other cells, with whose constants these are judged. Returns the score and the
+    prediction."""
     found = predict.predict(world, sim, world.cells[cells], places=options.places, subcarriers=SUBCARRIERS)
     score = predict.score(world, found, cells, seen)
     print(f"{name:21} {score}  {found.paths:5.0f} paths {found.wall_s:6.1f} s", flush=True)
