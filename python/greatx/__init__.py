@@ -14,6 +14,7 @@ from typing import Any
 from . import geodesy
 from .antenna import Array
 from .arrays import Frames, Ragged
+from .batch_reader import batches
 from .campaign import Campaign, campaign
 from .campaign_samples import CampaignSamples, ShuffledSamples
 from .dataset import Dataset, Record, Sensor, Sequence, Tick
@@ -51,6 +52,7 @@ __all__ = [
     "Sequence",
     "ShuffledSamples",
     "Tick",
+    "batches",
     "campaign",
     "geodesy",
     "load",
