@@ -28,12 +28,12 @@ def similar_pictures(
     """Returns the mean powers, over the best beam's, of the `count` training items whose pictures [n, ...]
     are nearest by the sum of squared differences."""
     known = pictures[train].reshape(len(train), -1).astype(np.float32)
-    share = power / power.max(-1, keepdims=True)
+    share = power[train] / power[train].max(-1, keepdims=True)
     square = np.sum(known**2, axis=1)
     out = np.empty((len(items), power.shape[1]))
     for first in range(0, len(items), 256):
         part = items[first : first + 256]
         asked = pictures[part].reshape(len(part), -1).astype(np.float32)
         nearest = np.argsort(square - 2 * asked @ known.T, axis=1, kind="stable")[:, :count]
-        out[first : first + len(part)] = share[train[nearest]].mean(1)
+        out[first : first + len(part)] = share[nearest].mean(1)
     return out

@@ -132,13 +132,39 @@ def score_network(problem: Problem, names: List[str], context: Context):
     def gather(items: np.ndarray) -> Dict[str, torch.Tensor]:
         return problem.gather(names, items)
 
+    def change(batch: Dict[str, torch.Tensor], generator: np.random.Generator) -> Dict[str, torch.Tensor]:
+        return mirrored(batch, generator.random(len(batch["label"])) < 0.5, problem.past)
+
     probability, fits = [], []
     for seed in context.seeds:
-        done = learning.train(context, names, seed, gather, problem.first, problem.most + 1, problem.split)
+        of_mirror = change if context.config.mirror else None
+        done = learning.train(
+            context, names, seed, gather, problem.first, problem.most + 1, problem.split, of_mirror
+        )
         logits = learning.predict(done.model, gather, _scored(problem), context.device)
         probability.append(within(logits))
         fits.append(done)
     return np.stack(probability), fits
+
+
+def mirrored(batch: Dict[str, torch.Tensor], which: np.ndarray, past: int) -> Dict[str, torch.Tensor]:
+    """Returns a batch of which some items, bool [n], are seen in a mirror: the event camera, the radar and the
+    panel look along one axis, so that right and left change places. Powers, range-velocity maps and labels
+    stay what they are."""
+    chosen = torch.from_numpy(which)
+    out = {}
+    for name, value in batch.items():
+        other = value
+        if name == "events":
+            other = value.flip(-1)
+        elif name == "radar":
+            azimuth = (torch.arange(value.shape[1]) % 2 == 0).reshape(1, -1, 1, 1)
+            other = torch.where(azimuth, value.flip(-1), value)
+        elif name == "csi":
+            beams = value.reshape(len(value), past, -1)
+            other = beams[:, :, -torch.arange(beams.shape[2]) % beams.shape[2]].reshape(value.shape)
+        out[name] = torch.where(chosen.reshape(-1, *[1] * (value.dim() - 1)), other, value)
+    return out
 
 
 def within(logits: np.ndarray) -> np.ndarray:

@@ -47,6 +47,7 @@ class Settings:
     networks: List[List[str]]
     network: Network
     training: Training
+    mirror: bool
     draws: int
 
     def __post_init__(self) -> None:
