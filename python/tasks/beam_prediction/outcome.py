@@ -13,6 +13,7 @@ from tasks.common.command import Context
 from tasks.common.report import Table, write
 from tasks.common.statistics import Interval, bootstrap, mean, percentile
 from tasks.street import inputs, learning
+from tasks.street.pictures import intervals
 
 from . import measures
 
@@ -31,9 +32,9 @@ class Outcome:
         """Returns how often the best beam is among the first k, %."""
         return self._of(100.0 * self.hit[:, items, k - 1], mean, items)
 
-    def loss(self, statistic, items: Any = slice(None)) -> Interval:
-        """Returns a statistic of the loss of the first beam, dB."""
-        return self._of(self.loss_db[:, items, 0], statistic, items)
+    def loss(self, statistic, items: Any = slice(None), k: int = 1) -> Interval:
+        """Returns a statistic of the loss if the best of the first k beams is used, dB."""
+        return self._of(self.loss_db[:, items, k - 1], statistic, items)
 
     def saved(self, limit_db: float) -> Interval:
         """Returns the share of the sweep that is saved at a mean loss, %."""
@@ -63,25 +64,14 @@ def report(context: Context, problem: Any, ranks: Dict[str, np.ndarray], fits, n
     top = context.out / "top_k.png"
     sweep = context.out / "sweep.png"
     count = min(CURVE, power.shape[1])
-    shown = [name for name in outcomes if name != "most frequent beam"]
-    _curves(
-        top,
-        outcomes,
-        shown,
-        count,
-        lambda o, k: o.accuracy(k),
-        "best beam among the first k, %",
-        "Beams tried and the best one found",
-    )
-    _curves(
-        sweep,
-        outcomes,
-        shown,
-        count,
-        lambda o, k: o._of(o.loss_db[:, :, k - 1], mean, slice(None)),
-        "mean loss of power, dB",
-        "Beams tried and the power that is lost",
-    )
+    shown = {name: o for name, o in outcomes.items() if name != "most frequent beam"}
+    tried = list(range(1, count + 1))
+    curves = {name: [o.accuracy(k) for k in tried] for name, o in shown.items()}
+    label = "best beam among the first k, %"
+    intervals(top, tried, curves, "k, beams tried", label, "Beams tried and the best one found")
+    curves = {name: [o.loss(mean, k=k) for k in tried] for name, o in shown.items()}
+    label = "mean loss of power, dB"
+    intervals(sweep, tried, curves, "k, beams tried", label, "Beams tried and the power that is lost")
     strip = context.out / "example.png"
     main = list(fits)[-1]
     example(strip, problem, test, ranks[main][0][:, 0], main)
@@ -137,15 +127,6 @@ def _conditions(outcomes: Dict[str, Outcome], problem: Any, test: np.ndarray) ->
     ]
     header = ["top 1, %; mean loss, dB", *(f"{name} ({len(items)})" for name, items in conditions.items())]
     return Table("By condition", header, rows)
-
-
-def _curves(path: pathlib.Path, outcomes, names, count: int, figure, label: str, title: str) -> None:
-    x = np.arange(1, count + 1)
-    curves = {}
-    for name in names:
-        intervals = [figure(outcomes[name], int(k)) for k in x]
-        curves[name] = tuple(zip(*intervals))
-    plots.lines(path, x, curves, "k, beams tried", label, title)
 
 
 def example(path: pathlib.Path, problem: Any, test: np.ndarray, predicted: np.ndarray, name: str) -> None:

@@ -1,21 +1,19 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Tables and pictures of what the methods reached."""
+"""What the methods reached: intervals, tables, lead times."""
 from __future__ import annotations
 
-import pathlib
 from typing import Any, Dict, List, Optional
 
 import numpy as np
 
-from tasks.common import plots
 from tasks.common.command import Context
 from tasks.common.report import Table, write
 from tasks.common.statistics import Interval, bootstrap
 from tasks.common.training import Fit
 from tasks.street import learning
 
-from . import labels, measures
+from . import labels, measures, pictures
 
 
 class Scored:
@@ -94,10 +92,10 @@ def report(context: Context, problem: Any, probability, items: np.ndarray, fits,
     paths = {
         name: context.out / f"{name}.png" for name in ("horizon", "precision_recall", "lead", "timeline")
     }
-    _draw_horizons(paths["horizon"], precision, config, notes)
-    _draw_precision(paths["precision_recall"], scored, config)
-    _draw_leads(paths["lead"], leads, config)
-    timeline(paths["timeline"], problem, scored, config, best_network(fits, problem, scored, config))
+    pictures.horizons(paths["horizon"], precision, config)
+    pictures.precision_recall(paths["precision_recall"], scored, config)
+    pictures.lead_times(paths["lead"], leads, config)
+    pictures.timeline(paths["timeline"], problem, scored, config, best_network(fits, problem, scored, config))
     results = {
         name: {
             "average_precision": dict(zip(config.horizons, precision[name])),
@@ -191,119 +189,3 @@ def _lead_table(leads: Dict[str, List[Interval]], problem: Any) -> Table:
     rows = [[name, *(f"{100 * i.value:.0f}" for i in of)] for name, of in leads.items()]
     header = ["blockages with an alarm so many ticks before, %", *(str(j + 1) for j in range(steps))]
     return Table("Lead time", header, rows)
-
-
-def _draw_horizons(path: pathlib.Path, precision: Dict[str, List[Interval]], config: Any, notes) -> None:
-    curves = {name: tuple(zip(*of)) for name, of in precision.items()}
-    plots.lines(
-        path,
-        config.horizons,
-        curves,
-        "horizon, ticks",
-        "average precision",
-        "Will the line of sight be blocked within k ticks?",
-    )
-
-
-def _draw_precision(path: pathlib.Path, scored: Dict[str, Scored], config: Any) -> None:
-    with plots.figure(path) as axes:
-        for name, s in scored.items():
-            truth = s.truth("test", config.shown)
-            score = s.score("test", config.shown)
-            precision, recall, _ = measures.precision_recall(score.ravel(), np.tile(truth, len(score)))
-            axes.plot(recall, precision, label=name, marker="." if len(recall) < 20 else None)
-        axes.set(
-            xlim=(0, 1),
-            ylim=(0, 1.02),
-            xlabel="recall",
-            ylabel="precision",
-            title=f"Blocked within {config.shown} ticks, all seeds together",
-        )
-        axes.grid(alpha=0.3)
-        axes.legend(fontsize=8)
-
-
-def _draw_leads(path: pathlib.Path, leads: Dict[str, List[Interval]], config: Any) -> None:
-    curves = {name: tuple(zip(*of)) for name, of in leads.items() if of}
-    if not curves:
-        curves = {"no blockage": ([0.0], [0.0], [0.0])}
-    x = np.arange(1, max(len(of[0]) for of in curves.values()) + 1)
-    share = f"alarms at {100 * config.false_alarms:g} % of the other ticks"
-    plots.lines(
-        path,
-        x,
-        curves,
-        "ticks before the blockage",
-        "share of blockages with an alarm",
-        f"How early an alarm comes ({share})",
-    )
-
-
-def timeline(path: pathlib.Path, problem: Any, scored: Dict[str, Scored], config: Any, name: str) -> None:
-    """Draws a test drive with a blockage: events at four ticks, the probability, the truth, the power."""
-    drives = problem.drives
-    asked = np.unique(drives.drive[problem.asked])
-
-    def wanted(drive: int) -> tuple:
-        mine = drives.drive == drive
-        begins = labels.onsets(problem.line_of_sight[mine])
-        early = [b for b in begins if b >= problem.past + problem.most // 2]
-        return len(early) > 0, -len(begins), problem.line_of_sight[mine].sum()
-
-    drive = max(asked, key=wanted)
-    mine = np.flatnonzero(drives.drive == drive)
-    sight = problem.line_of_sight[mine]
-    begins = labels.onsets(sight)
-    onset = int(begins[-1]) if len(begins) else len(mine) - 1
-    shown = np.clip(onset + np.array([-6, -3, -1, 1]), 0, len(mine) - 1)
-    tick = drives.tick[mine]
-    mosaic = [["e0", "e1", "e2", "e3"], ["p"] * 4, ["g"] * 4]
-    with _mosaic(path, mosaic) as axes:
-        for i, at in enumerate(shown):
-            events = np.asarray(problem.arrays["events"][mine[at]]).astype(np.float32)
-            colour = np.stack([events[1], 0 * events[0], events[0]], -1) / max(events.max(), 1e-6)
-            axes[f"e{i}"].imshow(colour)
-            axes[f"e{i}"].set_title(f"events, tick {tick[at]}", fontsize=9)
-            axes[f"e{i}"].set_axis_off()
-        for of, style in ((name, "-o"), ("true motion, straight on", ":")):
-            axes["p"].plot(
-                tick, scored[of].asked_probability(config.shown)[mine], style, markersize=3, label=of
-            )
-        axes["p"].set(ylim=(-0.03, 1.03), ylabel=f"blocked within\n{config.shown} ticks")
-        axes["g"].plot(tick, problem.gain_db[mine], "-", color="0.3")
-        axes["g"].set(xlabel="tick", ylabel="path gain, dB")
-        for part in ("p", "g"):
-            for at in np.flatnonzero(~sight):
-                axes[part].axvspan(tick[at] - 0.5, tick[at] + 0.5, color="tab:red", alpha=0.15, linewidth=0)
-            for at in begins:
-                axes[part].axvspan(
-                    tick[at] - 0.5 - config.shown, tick[at] - 0.5, color="tab:orange", alpha=0.15, linewidth=0
-                )
-            axes[part].set_xlim(tick[0] - 0.5, tick[-1] + 0.5)
-        axes["p"].legend(fontsize=7, loc="upper left")
-        axes["p"].set_title("red: blocked; orange: the ticks before, at which an alarm is right", fontsize=9)
-
-
-def _mosaic(path: pathlib.Path, mosaic):
-    import contextlib
-
-    @contextlib.contextmanager
-    def drawn():
-        import matplotlib
-
-        matplotlib.use("Agg")
-        from matplotlib import pyplot
-
-        from tasks.common.files import write_whole
-
-        figure, axes = pyplot.subplot_mosaic(
-            mosaic, figsize=(9, 6), gridspec_kw={"height_ratios": [1, 2, 1.3]}
-        )
-        try:
-            yield axes
-            figure.tight_layout()
-            write_whole(path, lambda part: figure.savefig(part, dpi=90, metadata={"Software": "greatx"}))
-        finally:
-            pyplot.close(figure)
-
-    return drawn()
