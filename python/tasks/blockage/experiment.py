@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a vehicle is about to block the line of sight, from the event camera and the radar beside the panel.
+"""Whether a vehicle is about to block the line of sight, from the event camera and the radar at the panel.
 
 DATA is a merged campaign such as `street`, or a data set. OUT gets results.md, results.json, pictures, the
 probabilities of all methods (probabilities.npz), and the trainings.
@@ -148,9 +148,9 @@ def score_network(problem: Problem, names: List[str], context: Context):
 
 
 def mirrored(batch: Dict[str, torch.Tensor], which: np.ndarray, past: int) -> Dict[str, torch.Tensor]:
-    """Returns a batch of which some items, bool [n], are seen in a mirror: the event camera, the radar and the
-    panel look along one axis, so that right and left change places. Powers, range-velocity maps and labels
-    stay what they are."""
+    """Returns a batch of which some items, bool [n], are seen in a mirror: the event camera, the radar and
+    the panel look along one axis, so that right and left change places. Powers, range-velocity maps and
+    labels stay what they are."""
     chosen = torch.from_numpy(which)
     out = {}
     for name, value in batch.items():
@@ -181,6 +181,6 @@ def _notes(problem: Problem, context: Context, seconds: float, cpu: float) -> Li
     )
     return [
         *learning.notes(context, problem.drives.drive, problem.split, seconds, cpu),
-        f"An item is a tick with line of sight, {problem.past - 1} ticks before it and {problem.most} after it "
-        f"in its drive. Blocked of the test items: {rates} ticks.  ",
+        f"An item is a tick with line of sight, {problem.past - 1} ticks before it and {problem.most} after "
+        f"it in its drive. Blocked of the test items: {rates} ticks.  ",
     ]

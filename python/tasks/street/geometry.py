@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the true poses say about a link: where the car is seen from the panel, and whether the box of a vehicle
-stands between both. No network sees any of this: it checks labels, and gives the floors that know the poses.
+"""What the true poses say about a link: where the car is seen from the panel, and whether the box of a
+vehicle stands between both. No network sees any of this: it checks labels, and gives the baselines that know
+the poses.
 """
 from __future__ import annotations
 
@@ -95,8 +96,8 @@ def bodies(drives: Drives) -> List[Body]:
 
 
 def crosses(a_m: np.ndarray, b_m: np.ndarray, low_m: np.ndarray, high_m: np.ndarray) -> np.ndarray:
-    """Returns whether the segments from a to b [..., 3] meet an axis-parallel box (the slab method: T. L. Kay,
-    J. T. Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986)."""
+    """Returns whether the segments from a to b [..., 3] meet an axis-parallel box (the slab method: T. L.
+    Kay, J. T. Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986)."""
     along = b_m - a_m
     with np.errstate(divide="ignore", invalid="ignore"):
         first, second = (low_m - a_m) / along, (high_m - a_m) / along
