@@ -16,7 +16,7 @@ import contextlib
 import os
 import queue
 import threading
-from typing import Any, Dict, Iterable, Iterator, List, Mapping, NamedTuple, Tuple, Union
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
@@ -159,6 +159,7 @@ class Stream:
                 f"modalities: expected names SENSOR/ARRAY or a dict of modalities, found {modalities!r}"
             )
         self.names = wanted
+        self._engine: Optional[Tuple[int, "_Engine"]] = None  #: with the process that made it
         self._state = State(Position(0, 0), 0, ())
 
     def sequence_of(self, round_: int) -> int:
@@ -211,9 +212,18 @@ class Stream:
                 self._state = state
                 yield item
 
+    def _own_engine(self) -> "_Engine":
+        """Returns the engine of this process: that of the last iteration, if there was one."""
+        if self._engine is None or self._engine[0] != os.getpid():
+            self._engine = (os.getpid(), _Engine(self))
+        return self._engine[1]
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {**self.__dict__, "_engine": None}
+
     def _mixed(self) -> Iterator[Tuple[Item, State]]:
         """Draws items from a buffer through which they go. With a buffer of 1, they stay in order."""
-        engine = _Engine(self)
+        engine = self._own_engine()
         (round_, tick), given, places = self._state
         again = engine.again(places) if places else {}
         held: List[Item] = [again[place] for place in places]

@@ -42,15 +42,34 @@ channels:
   - {name: csi, tx: bs/panel, rx: [uav/antenna], rate_hz: 20, bandwidth_hz: 20e6, subcarriers: 16, \
 max_depth: 1}
 """
+# The channel alone, in free space, whose sequences begin at once.
+LINK = """
+greatx: 1
+name: link
+seed: 4
+ticks: 6
+tick_rate_hz: 20
+nodes:
+  - name: bs
+    trajectory: {type: static, position_m: [0, 0, 10]}
+    sensors: [{name: antenna, type: antenna, columns: 4}]
+  - name: uav
+    trajectory: {type: bezier, box: {min_m: [10, -15, 3], max_m: [30, 15, 8]}}
+    sensors: [{name: antenna, type: antenna}]
+channels:
+  - {name: csi, tx: bs/antenna, rx: [uav/antenna], rate_hz: 10, bandwidth_hz: 20e6, subcarriers: 16}
+"""
+CSI = {"csi": CsiMap("csi", 8)}
 MODALITIES = {"rgb": Picture("uav/cam", 8), "csi": CsiMap("csi", 8), "events": EventVoxels("uav/dvs", 3, 8)}
 
 
-def scenario():
-    return support.scenario_file("flight", FLIGHT)
+def open_link(modalities=None, **options):
+    return greatx.stream(support.scenario_file("link", LINK), modalities or CSI, **{"seed": 4, **options})
 
 
-def open_stream(modalities=None, **options):
-    return greatx.stream(scenario(), modalities or MODALITIES, **{"seed": 4, **options})
+def open_flight(modalities=None, **options):
+    file = support.scenario_file("flight", FLIGHT)
+    return greatx.stream(file, modalities or MODALITIES, **{"seed": 4, **options})
 
 
 def take(stream, count):
@@ -76,47 +95,51 @@ class Streams(unittest.TestCase):
         self.assertEqual(count, 9)
         expected = reader.empty(count)
         reader.read(np.arange(count), expected)
-        items = take(open_stream(), count)
+        stream = open_flight()
+        items = take(stream, count)
         for name, value in expected.items():
             np.testing.assert_array_equal(np.stack([item[name] for item in items]), value, name)
         self.assertTrue(expected["events"].any())
+        # The third item of a sequence, whose event camera remembers the first two.
+        stream.load_state_dict({**stream.state_dict(), "round": 1, "tick": 3, "given": 5})
+        np.testing.assert_array_equal(take(stream, 1)[0]["events"], expected["events"][5])
         # As they are recorded.
         names = ["csi/cfr", "csi/paths/delay", "uav/dvs/t"]
-        for item, sample in zip(open_stream(names), ds.samples(names)):
+        for item, sample in zip(open_flight(names), ds.samples(names, [0])):
             self.assertEqual(item.keys(), sample.keys())
             for name in sample:
                 np.testing.assert_array_equal(item[name], sample[name], name)
 
     def test_it_has_no_end_and_its_seed_decides(self):
-        items = take(open_stream(ticks=1), 7)
+        items = take(open_link(ticks=1), 7)
         self.assertEqual(places(items), [(sequence, 0) for sequence in range(7)])
-        same, other = take(open_stream(ticks=1), 2), take(open_stream(ticks=1, seed=5), 2)
+        same, other = take(open_link(ticks=1), 2), take(open_link(ticks=1, seed=5), 2)
         self.assert_same(same, items[:2])
         self.assertFalse(np.array_equal(other[0]["csi"], same[0]["csi"]))
         self.assertFalse(np.array_equal(same[0]["csi"], same[1]["csi"]))
 
     def test_it_goes_on_where_it_was(self):
         for buffer, prefetch in ((1, 0), (1, 3), (5, 2)):
-            whole = take(open_stream(buffer=buffer, prefetch=prefetch), 11)
+            whole = take(open_link(buffer=buffer, prefetch=prefetch), 11)
             for split in (1, 4, 6):
-                first = open_stream(buffer=buffer, prefetch=prefetch)
+                first = open_link(buffer=buffer, prefetch=prefetch)
                 begun = take(first, split)
                 state = json.loads(json.dumps(first.state_dict()))
-                second = open_stream(buffer=buffer, prefetch=0)
+                second = open_link(buffer=buffer, prefetch=0)
                 second.load_state_dict(state)
                 self.assert_same(begun + take(second, 11 - split), whole)
 
     def test_one_stream_goes_on_too(self):
-        stream = open_stream(buffer=3)
-        whole = take(open_stream(buffer=3), 8)
+        stream = open_link(buffer=3)
+        whole = take(open_link(buffer=3), 8)
         self.assert_same(take(stream, 3) + take(stream, 5), whole)
-        fresh = open_stream(buffer=3)
-        fresh.load_state_dict(open_stream(buffer=3).state_dict())
+        fresh = open_link(buffer=3)
+        fresh.load_state_dict(open_link(buffer=3).state_dict())
         self.assert_same(take(fresh, 2), whole[:2])
 
     def test_a_buffer_mixes_and_loses_nothing(self):
-        straight = places(take(open_stream(["csi/cfr"]), 60))
-        stream = open_stream(["csi/cfr"], buffer=8)
+        straight = places(take(open_link(), 60))
+        stream = open_link(buffer=8)
         mixed = places(take(stream, 40))
         self.assertEqual(len(set(mixed)), 40)
         held = {tuple(place) for place in stream.state_dict()["held"]}
@@ -127,19 +150,20 @@ class Streams(unittest.TestCase):
 
     def test_parts_share_the_sequences(self):
         for place in range(2):
-            items = take(open_stream(["csi/cfr"], ticks=1, part=(place, 2)), 3)
+            items = take(open_link(ticks=1, part=(place, 2)), 3)
             self.assertEqual(places(items), [(place + 2 * i, 0) for i in range(3)])
 
     def test_its_thread_ends_with_the_iteration(self):
-        items = iter(open_stream(["csi/cfr"]))
+        items = iter(open_link(["csi/cfr"]))
         next(items)
         self.assertIn("greatx.stream", [thread.name for thread in threading.enumerate()])
         items.close()
         self.assertNotIn("greatx.stream", [thread.name for thread in threading.enumerate()])
 
     def test_a_process_may_end_within_a_stream(self):
+        file = support.scenario_file("link", LINK)
         text = (
-            f"import greatx; items = iter(greatx.stream({str(scenario())!r}, ['csi/cfr'], seed=4, prefetch=2));"
+            f"import greatx; items = iter(greatx.stream({str(file)!r}, ['csi/cfr'], seed=4, prefetch=2));"
             "print(next(items)['tick'])"
         )
         done = subprocess.run([sys.executable, "-c", text], env=os.environ, capture_output=True, timeout=120)
@@ -155,11 +179,11 @@ class Streams(unittest.TestCase):
         ):
             for prefetch in (0, 2):
                 with self.assertRaisesRegex(greatx.Error, message):
-                    take(open_stream(prefetch=prefetch, **options), 1)
-        state = open_stream().state_dict()
+                    take(open_link(prefetch=prefetch, **options), 1)
+        state = open_link().state_dict()
         for name, value in (("seed", 5), ("buffer", 2), ("part", [0, 2]), ("version", 0)):
             with self.assertRaisesRegex(greatx.Error, f"state: expected {name} "):
-                open_stream().load_state_dict({**state, name: value})
+                open_link().load_state_dict({**state, name: value})
 
     @unittest.skipUnless(HAS_TORCH, "torch is not installed")
     def test_a_training_goes_on_with_the_same_batches(self):
@@ -168,13 +192,13 @@ class Streams(unittest.TestCase):
         def loader(stream):
             return torch.utils.data.DataLoader(stream, batch_size=2)
 
-        whole = take(loader(open_stream(buffer=4).torch()), 5)
-        self.assertEqual(tuple(whole[0]["rgb"].shape), (2, 3, 8, 8))
-        for batch, item in zip(whole, take(open_stream(buffer=4), 9)[::2]):
+        whole = take(loader(open_link(buffer=4).torch()), 5)
+        self.assertEqual(tuple(whole[0]["csi"].shape), (2, 4, 4, 8))
+        for batch, item in zip(whole, take(open_link(buffer=4), 9)[::2]):
             np.testing.assert_array_equal(batch["csi"][0], item["csi"])
-        first = open_stream(buffer=4).torch()
+        first = open_link(buffer=4).torch()
         begun = take(loader(first), 2)
-        second = open_stream(buffer=4).torch()
+        second = open_link(buffer=4).torch()
         second.load_state_dict(first.state_dict())
         for a, b in zip(begun + take(loader(second), 3), whole):
             for name in a:
@@ -184,7 +208,7 @@ class Streams(unittest.TestCase):
     def test_workers_compute_sequences_of_their_own(self):
         import torch
 
-        stream = open_stream(["csi/cfr"], ticks=2, prefetch=0).torch(transform=lambda item: item["sequence"])
+        stream = open_link(["csi/cfr"], ticks=3, prefetch=0).torch(transform=lambda item: item["sequence"])
         loader = torch.utils.data.DataLoader(stream, batch_size=None, num_workers=2)
         self.assertEqual(take(loader, 6), [0, 1, 0, 1, 2, 3])
 
