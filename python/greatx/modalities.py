@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Names the inputs of a network: which arrays of which sensor, and what is made of them (docs/python.md).
 
-greatx.batches and greatx.stream take a dict of modalities. A modality knows the arrays that it needs. Bound to
-a source, which is a data set or a run in memory, it gives a function that turns the arrays of a tick into an
-array for a network, by the functions of greatx.inputs. A class with `arrays` and `bind` is a modality.
+greatx.batches and greatx.stream take a dict of modalities. A modality knows the arrays that it needs. Bound
+to a source, which is a data set or a run in memory, it gives a function that turns the arrays of a tick into
+an array for a network, by the functions of greatx.inputs. A class with `arrays` and `bind` is a modality.
 """
 from __future__ import annotations
 
@@ -166,7 +166,9 @@ class CsiMap:
 
 @dataclasses.dataclass(frozen=True)
 class RadarMap:
-    """A radar's map over its noise, float32 [1, rows, columns] (inputs.radar_map); `size` None: as recorded."""
+    """A radar's map over its noise, float32 [1, rows, columns] (inputs.radar_map). `size` None: as it is
+    recorded.
+    """
 
     sensor: str
     array: str = "range_azimuth"
