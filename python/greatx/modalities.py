@@ -105,10 +105,12 @@ class Depth:
 
 @dataclasses.dataclass(frozen=True)
 class RangeImage:
-    """A LiDAR's range and intensity, float32 [2, rows, columns] (inputs.lidar_map)."""
+    """A LiDAR's range and intensity, float32 [2, rows, columns] (inputs.lidar_map). `size` None: a row for each
+    channel, and 256 columns.
+    """
 
     sensor: str
-    size: Size = (64, 256)
+    size: Optional[Size] = None
 
     @property
     def arrays(self) -> Tuple[str, ...]:
@@ -117,7 +119,8 @@ class RangeImage:
     def bind(self, source: Source) -> Make:
         (points,) = self.arrays
         metadata = source[self.sensor].metadata
-        return lambda item, out: inputs.lidar_map(item[points], metadata, self.size, out)
+        size = (len(metadata.get("elevations_deg", range(64))), 256) if self.size is None else self.size
+        return lambda item, out: inputs.lidar_map(item[points], metadata, size, out)
 
 
 @dataclasses.dataclass(frozen=True)
