@@ -40,8 +40,8 @@ class Field:
 
 
 class BatchReader:
-    """Reads any items of samples into arrays that the caller provides. The object is picklable; its copies open
-    files of their own.
+    """Reads any items of samples into arrays that the caller provides. The object is picklable; its copies
+    open files of their own.
 
     samples     greatx.Samples or greatx.CampaignSamples of arrays_of(modalities)
     modalities  by the names that they have in a batch
@@ -149,7 +149,7 @@ def samples_of(
     sequences: Optional[Iterable[int]] = None,
     missing: str = "error",
 ) -> Union[Samples, CampaignSamples]:
-    """Returns the samples of a data set, of a campaign, or of a folder of one of them, that modalities need."""
+    """Returns the samples of a data set or of a campaign that have what modalities need."""
     arrays = arrays_of(modalities)
     if isinstance(data, Campaign):
         if sequences is not None:

@@ -16,7 +16,7 @@ import contextlib
 import os
 import queue
 import threading
-from typing import Any, Dict, Iterable, Iterator, List, Mapping, NamedTuple, Optional, Tuple, Union
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -63,21 +63,19 @@ class _Engine:
 
     def items(self, position: Position) -> Iterator[Tuple[Item, Position]]:
         """Gives each item with the position after it."""
-        empty = 0
         while True:
-            found = False
-            for item in self._of_sequence(self._stream.sequence_of(position.round), position.tick):
+            found, sequence = False, self._stream.sequence_of(position.round)
+            for item in self._of_sequence(sequence, position.tick):
                 found = True
                 yield item, Position(position.round, item["tick"] + 1)
-            empty = 0 if found or position.tick > 0 else empty + 1
-            if empty:
+            if not found and position.tick == 0:
                 raise Error(
-                    f"{self._simulation.name}: sequence {self._stream.sequence_of(position.round)} has no tick "
-                    f"at which {', '.join(self._sensors())} all have a record"
+                    f"{self._simulation.name}: sequence {sequence} has no tick at which "
+                    f"{', '.join(self._sensors())} all have a record"
                 )
             position = Position(position.round + 1, 0)
 
-    def again(self, places: Iterable[Place]) -> Dict[Place, Item]:
+    def again(self, places: Sequence[Place]) -> Dict[Place, Item]:
         """Computes items once more."""
         wanted: Dict[int, List[int]] = {}
         for sequence, tick in places:
@@ -121,7 +119,7 @@ class _Engine:
 
 
 def _find(run: Any, name: str) -> Tuple[str, str]:
-    """Returns the sensor and the array of "SENSOR/ARRAY". As in a data set, paths/delay is the array delay."""
+    """Returns the sensor and the array of "SENSOR/ARRAY". As in data sets, paths/delay is delay."""
     known = []
     for sensor, facts in run.sensors.items():
         arrays = [array["name"] for array in facts["arrays"]]
@@ -132,7 +130,7 @@ def _find(run: Any, name: str) -> Tuple[str, str]:
 
 
 class Stream:
-    """Iterates over items without end; see greatx.stream. The iteration goes on where the last one was left."""
+    """Iterates over items without end; see greatx.stream. An iteration goes on where the last one ended."""
 
     def __init__(
         self,

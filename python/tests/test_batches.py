@@ -91,6 +91,11 @@ class Readers(unittest.TestCase):
         for name in one:
             np.testing.assert_array_equal(one[name], two[name], name)
 
+    def test_a_range_image_has_a_row_for_each_channel(self):
+        make = RangeImage("car/lidar").bind(Source.of(self.ds))
+        item = self.ds.samples("car/lidar/points")[0]
+        self.assertEqual(make(item, None).shape, (2, 8, 256))
+
     def test_spans_of_events_follow_the_clock(self):
         source = Source.of(self.ds)
         for name in ("car/dvs", "csi"):
