@@ -40,8 +40,8 @@ class Field:
 
 
 class BatchReader:
-    """Reads any items of samples into arrays that the caller provides. The object is picklable; its copies open
-    files of their own.
+    """Reads any items of samples into arrays that the caller provides. The object is picklable; its copies
+    open files of their own.
 
     samples     greatx.Samples or greatx.CampaignSamples of arrays_of(modalities)
     modalities  by the names that they have in a batch
@@ -149,7 +149,7 @@ def samples_of(
     sequences: Optional[Iterable[int]] = None,
     missing: str = "error",
 ) -> Union[Samples, CampaignSamples]:
-    """Returns the samples of a data set, of a campaign, or of a folder of one of them, that modalities need."""
+    """Returns the samples of a data set or of a campaign that have what modalities need."""
     arrays = arrays_of(modalities)
     if isinstance(data, Campaign):
         if sequences is not None:
@@ -159,7 +159,9 @@ def samples_of(
     if isinstance(data, Dataset):
         for name, value in (("split", split), ("cells", cells)):
             if value is not None:
-                raise Error(f"{name}: expected `sequences` of a data set, which has no {name}, found {value!r}")
+                raise Error(
+                    f"{name}: expected `sequences` of a data set, which has no {name}, found {value!r}"
+                )
         return data.samples(arrays, sequences)
     raise Error(f"data: expected a greatx.Dataset or a greatx.Campaign, found {data!r}")
 
@@ -219,5 +221,7 @@ def batches(
     reader = BatchReader(samples_of(data, modalities, split, cells, sequences, missing), modalities)
     numbers = np.arange(len(reader.samples)) if items is None else np.asarray(list(items), np.int64)
     if len(numbers) and not 0 <= numbers.min() <= numbers.max() < len(reader.samples):
-        raise Error(f"items: expected numbers below {len(reader.samples)}, found {numbers.min()} to {numbers.max()}")
+        raise Error(
+            f"items: expected numbers below {len(reader.samples)}, found {numbers.min()} to {numbers.max()}"
+        )
     return Batches(reader, numbers, batch, shuffle, seed, part, drop_last, workers, prefetch, context)

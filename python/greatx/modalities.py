@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Names the inputs of a network: which arrays of which sensor, and what is made of them (docs/python.md).
 
-greatx.batches and greatx.stream take a dict of modalities. A modality knows the arrays that it needs. Bound to
-a source, which is a data set or a run in memory, it gives a function that turns the arrays of a tick into an
-array for a network, by the functions of greatx.inputs. A class with `arrays` and `bind` is a modality.
+greatx.batches and greatx.stream take a dict of modalities. A modality knows the arrays that it needs. Bound
+to a source, which is a data set or a run in memory, it gives a function that turns the arrays of a tick into
+an array for a network, by the functions of greatx.inputs. A class with `arrays` and `bind` is a modality.
 """
 from __future__ import annotations
 
@@ -105,10 +105,12 @@ class Depth:
 
 @dataclasses.dataclass(frozen=True)
 class RangeImage:
-    """A LiDAR's range and intensity, float32 [2, rows, columns] (inputs.lidar_map)."""
+    """A LiDAR's range and intensity, float32 [2, rows, columns] (inputs.lidar_map). `size` None: a row for each
+    channel, and 256 columns.
+    """
 
     sensor: str
-    size: Size = (64, 256)
+    size: Optional[Size] = None
 
     @property
     def arrays(self) -> Tuple[str, ...]:
@@ -117,7 +119,8 @@ class RangeImage:
     def bind(self, source: Source) -> Make:
         (points,) = self.arrays
         metadata = source[self.sensor].metadata
-        return lambda item, out: inputs.lidar_map(item[points], metadata, self.size, out)
+        size = (len(metadata.get("elevations_deg", range(64))), 256) if self.size is None else self.size
+        return lambda item, out: inputs.lidar_map(item[points], metadata, size, out)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -166,7 +169,9 @@ class CsiMap:
 
 @dataclasses.dataclass(frozen=True)
 class RadarMap:
-    """A radar's map over its noise, float32 [1, rows, columns] (inputs.radar_map); `size` None: as recorded."""
+    """A radar's map over its noise, float32 [1, rows, columns] (inputs.radar_map). `size` None: as it is
+    recorded.
+    """
 
     sensor: str
     array: str = "range_azimuth"

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Implements greatx.batches. Only that function imports this module, because the module needs torch.
 
-Data flow: Batches chooses the items of each batch and a slot of shared memory -> a worker of a DataLoader reads
-the items into the slot -> Batches gives the slot's memory to the user as tensors -> when the last of them is
-gone, the slot is free for a later batch.
+Data flow: Batches chooses the items of each batch and a slot of shared memory -> a worker of a DataLoader
+reads the items into the slot -> Batches gives the slot's memory to the user as tensors -> when the last of
+them is gone, the slot is free for a later batch.
 
 To reuse memory matters: 64 items with voxel grids are 100 MB, and a process that touches new memory waits for
 the kernel to clear each page of it.
