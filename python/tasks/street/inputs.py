@@ -8,6 +8,7 @@ settings it was made. If they are the same, the next run takes what is there.
 from __future__ import annotations
 
 import json
+import os
 import pathlib
 import time
 from typing import Any, Callable, Dict, Tuple
@@ -87,8 +88,9 @@ def cached(
         }
         said, path = folder / f"{name}.json", folder / f"{name}.npy"
         if not said.is_file() or json.loads(said.read_text()) != provenance:
-            said.unlink() if said.is_file() else None
-            _make(path, name, drives, maker)
+            part = path.with_name(f"{name}.{os.getpid()}.part.npy")  # other runs may have `path` open
+            _make(part, name, drives, maker)
+            os.replace(part, path)
             write_text(said, json.dumps(provenance, indent=1) + "\n")
         out[name] = np.load(path, mmap_mode="r")
     return out
