@@ -55,7 +55,7 @@ def timeline(path: pathlib.Path, problem: Any, scored: Dict[str, Any], config: A
             axes["p"].plot(tick, probability, style, markersize=3, label=of)
         axes["p"].set(ylim=(-0.03, 1.03), ylabel=f"blocked within\n{config.shown} ticks")
         axes["p"].set_title("red: blocked; orange: the ticks before, at which an alarm is right", fontsize=9)
-        axes["p"].legend(fontsize=7, loc="upper left")
+        axes["p"].legend(fontsize=7, loc="center right")
         axes["g"].plot(tick, problem.gain_db[mine], "-", color="0.3")
         axes["g"].set(xlabel="tick", ylabel="path gain, dB")
         for part in ("p", "g"):
@@ -64,8 +64,8 @@ def timeline(path: pathlib.Path, problem: Any, scored: Dict[str, Any], config: A
 
 def _drive_of_timeline(problem: Any) -> Tuple[np.ndarray, int]:
     """Returns the items of the test drive with the longest blockage, and the place where it begins. If there
-    are some, only blockages with a past of several ticks with line of sight count."""
-    drives, most = problem.drives, ((False, 0), None, 0)
+    are some, only blockages that end, and that have a past with line of sight, count."""
+    drives, most = problem.drives, ((False, False, 0), None, 0)
     for drive in np.unique(drives.drive[problem.asked]):
         mine = np.flatnonzero(drives.drive == drive)
         sight = problem.line_of_sight[mine]
@@ -73,8 +73,9 @@ def _drive_of_timeline(problem: Any) -> Tuple[np.ndarray, int]:
             ends = np.flatnonzero(sight[onset:])
             long = int(ends[0]) if len(ends) else len(sight) - int(onset)
             known = onset >= problem.most and bool(sight[onset - problem.most : onset].all())
-            if (known, long) > most[0]:
-                most = ((known, long), mine, int(onset))
+            passes = int(onset) + long < len(sight)
+            if (known, passes, long) > most[0]:
+                most = ((known, passes, long), mine, int(onset))
     if most[1] is None:
         mine = np.flatnonzero(drives.drive == drives.drive[problem.asked[0]])
         return mine, len(mine) - 1
