@@ -158,7 +158,8 @@ class Task(unittest.TestCase):
         self.assertEqual(list(results), names)
         for of in results.values():
             self.assertEqual(list(of["average_precision"]), ["1", "3"])
-        self.assertIn("## Blocked within 3 ticks", self.printed)
+        for title in ("Blocked within 3 ticks", "events + radar + csi minus another network", "Lead time"):
+            self.assertIn(f"## {title}", self.printed)
         for name in ("horizon", "precision_recall", "lead", "timeline"):
             self.assertGreater((self.out / f"{name}.png").stat().st_size, 5000)
 

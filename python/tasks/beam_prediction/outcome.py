@@ -58,6 +58,7 @@ def report(context: Context, problem: Any, ranks: Dict[str, np.ndarray], fits, n
     outcomes = {name: Outcome(rank, power, groups, config.draws) for name, rank in ranks.items()}
     tables = [
         _measures(outcomes, config),
+        _differences(outcomes, list(fits)[-1]),
         _conditions(outcomes, problem, test),
         learning.trainings(fits, first),
     ]
