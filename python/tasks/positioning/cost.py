@@ -33,8 +33,10 @@ def random_inputs(shapes: Dict[str, tuple], batch: int) -> Dict[str, torch.Tenso
 def step_seconds(
     shapes: Dict[str, tuple], network: Network, batch: int, dropout: float, steps: int, device: torch.device
 ) -> float:
-    """Returns the median seconds of training steps of a network on random inputs, after one that is not
-    counted."""
+    """Returns the median time of training steps of a network on random inputs, after one that is not counted:
+    core-seconds on a CPU, whatever else it does, and seconds on a GPU.
+    """
+    clock = time.perf_counter if device.type == "cuda" else time.process_time
     torch.manual_seed(0)
     model = Positioner({name: shape[0] for name, shape in shapes.items()}, network).to(device)
     optimizer = torch.optim.AdamW(model.parameters(), lr=1e-4)
@@ -43,13 +45,13 @@ def step_seconds(
     seconds: List[float] = []
     for _ in range(steps + 1):
         present = drop_modalities(torch.ones(batch, len(shapes), dtype=torch.bool, device=device), dropout)
-        began = time.perf_counter()
+        began = clock()
         optimizer.zero_grad(set_to_none=True)
         mse_loss(model(inputs, present).position, truth).backward()
         optimizer.step()
         if device.type == "cuda":
             torch.cuda.synchronize(device)
-        seconds.append(time.perf_counter() - began)
+        seconds.append(clock() - began)
     return sorted(seconds[1:])[(len(seconds) - 1) // 2]
 
 
@@ -58,6 +60,7 @@ def measure(context: Context, records: Records, opened: Opened, steps: int) -> N
     config = context.config
     shapes = config.inputs.shapes(beams_of(opened, records))
     train = len(records.split(config.split)["train"])
+    unit = "hours" if context.device.type == "cuda" else "core-hours"
     total: Dict[str, float] = {"here": 0.0, "gpu": 0.0}
     print(f"{machine(context.device)['device']}, {torch.get_num_threads()} threads; {train} training records")
     plans: List[Any] = [
@@ -78,9 +81,9 @@ def measure(context: Context, records: Records, opened: Opened, steps: int) -> N
         print(
             f"{name}: {parameters(model) / 1e6:.1f} million parameters, {forward / 1e9:.2f} G multiply-adds a "
             f"record, {1000 * step / training.batch:.1f} ms a record in training; {seen} records: "
-            f"{hours:.2f} hours here"
+            f"{hours:.2f} {unit} here"
         )
     print(
-        f"in all {total['here']:.2f} hours here; an estimate for a GPU of 312 Tflop/s at a share of "
+        f"in all {total['here']:.2f} {unit} here; an estimate for a GPU of 312 Tflop/s at a share of "
         f"{GPU_SHARE:g}: {total['gpu']:.2f} hours"
     )
