@@ -95,7 +95,7 @@ def command(out: pathlib.Path, *options: str) -> str:
 class Network(unittest.TestCase):
     def setUp(self):
         torch.manual_seed(1)
-        self.network = settings.Network(18, 0.0625, 8)
+        self.network = settings.Network(18, 0.0625, 8, True)
         self.model = models.Positioner({"rgb": 3, "csi": 4, "lidar": 2}, self.network)
         self.inputs = {"rgb": torch.rand(5, 3, 16, 16), "csi": torch.rand(5, 4, 8, 16)}
         self.inputs["lidar"] = torch.rand(5, 2, 4, 16)

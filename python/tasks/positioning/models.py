@@ -30,6 +30,18 @@ def attention(scores: torch.Tensor, present: torch.Tensor) -> torch.Tensor:
     return torch.softmax(scores.masked_fill(~present, float("-inf")), dim=1)
 
 
+def with_coordinates(inputs: torch.Tensor) -> torch.Tensor:
+    """Returns inputs [n, channels, height, width] with two more channels: the row and the column of each
+    pixel, from -1 to 1 (R. Liu et al., "An Intriguing Failing of Convolutional Neural Networks and the
+    CoordConv Solution", NeurIPS 2018). The axes of maps are angles, delays and ranges, which convolutions and
+    the mean over all places would forget.
+    """
+    n, _, height, width = inputs.shape
+    rows = torch.linspace(-1, 1, height, device=inputs.device).reshape(1, 1, height, 1)
+    columns = torch.linspace(-1, 1, width, device=inputs.device).reshape(1, 1, 1, width)
+    return torch.cat([inputs, rows.expand(n, 1, height, width), columns.expand(n, 1, height, width)], 1)
+
+
 class Positioner(nn.Module):
     """Estimates positions from any subset of its modalities. The student is one with a single modality.
 
@@ -40,10 +52,16 @@ class Positioner(nn.Module):
         super().__init__()
         self.modalities = list(channels)
         self.features = network.features
+        self.coordinates = network.coordinates
         self.encoders = nn.ModuleDict(
             {
                 name: nn.Sequential(
-                    resnet(network.depth, network.width, count, network.features),
+                    resnet(
+                        network.depth,
+                        network.width,
+                        count + (2 if network.coordinates else 0),
+                        network.features,
+                    ),
                     nn.LayerNorm(network.features),
                 )
                 for name, count in channels.items()
@@ -70,6 +88,8 @@ class Positioner(nn.Module):
 
     def _encode(self, name: str, inputs: torch.Tensor) -> torch.Tensor:
         encoder = self.encoders[name]
+        if self.coordinates:
+            inputs = with_coordinates(inputs)
         if len(inputs) > 1 or not self.training:
             return encoder(inputs)
         encoder.eval()  # a single record has no variance: it takes the running means

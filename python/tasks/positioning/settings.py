@@ -73,6 +73,7 @@ class Network:
     depth: int
     width: float
     features: int
+    coordinates: bool
 
     def __post_init__(self) -> None:
         positive(depth=self.depth, width=self.width, features=self.features)
