@@ -319,7 +319,7 @@ class WholeRun(unittest.TestCase):
             "teacher, all",
         }
         self.assertEqual(set(found["errors"]), methods)
-        for name in ("cdf.png", "cdf_subsets.png"):
+        for name in ("cdf.png", "cdf_subsets.png", "map.png", "inputs.png"):
             self.assertEqual((whole / name).read_bytes()[1:4], b"PNG")
 
         # A run that ends after the teacher's first epoch, and goes on.

@@ -27,7 +27,7 @@ from .distillation import Frame
 from .floors import mean_errors, neighbour_errors
 from .records import Records, find
 from .settings import STUDENT, Config
-from .training import Data, asked, errors_m, subset_errors_m, train_student, train_teacher
+from .training import Data, asked, positions_m, subset_errors_m, train_student, train_teacher
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 
@@ -94,8 +94,11 @@ def subsets(modalities: List[str]) -> Dict[str, List[str]]:
 
 
 def experiment(context: Context, data: Data) -> Dict[str, Any]:
-    """Trains and tests everything, and returns errors on the test part [seeds, records], m, and the times."""
-    out: Dict[str, Any] = {"floors": floors(data), "subsets": {}, "students": {}, "fits": {}, "weights": []}
+    """Trains and tests everything, and returns errors on the test part [seeds, records], m, the positions of
+    the first seed [records, 3], m, and the times.
+    """
+    out: Dict[str, Any] = {"floors": floors(data), "weights": []}
+    out.update({name: {} for name in ("subsets", "students", "fits", "positions")})
     test = data.parts["test"]
     for seed in context.seeds:
         folder = context.out / f"seed_{seed}"
@@ -113,7 +116,12 @@ def experiment(context: Context, data: Data) -> Dict[str, Any]:
             "student distilled": train_student(folder / "student_distilled", data, seed, targets),
         }
         for name in ("student alone", "student distilled"):
-            out["students"].setdefault(name, []).append(errors_m(fits[name].model, data, test))
+            positions = positions_m(fits[name].model, data, test)
+            errors = np.linalg.norm(positions - data.position_m[test].numpy(), axis=1)
+            out["students"].setdefault(name, []).append(errors)
+            out["positions"].setdefault(name, positions)
+        if "teacher" not in out["positions"]:
+            out["positions"]["teacher"] = positions_m(teacher.model, data, test)
         for name, fitted in fits.items():
             more = asking if name == "student distilled" else 0.0
             out["fits"].setdefault(name, []).append(

@@ -17,6 +17,7 @@ from tasks.common.training import duration
 from .cache import Cached
 from .cost import random_inputs
 from .models import Positioner
+from .pictures import flights_map, inputs_picture
 from .records import Records
 from .settings import STUDENT
 from .training import Data
@@ -45,11 +46,13 @@ def report(context: Context, records: Records, data: Data, inputs: Cached, found
         _by_sight(methods, records.line_of_sight[test], flights),
         _times(found["fits"], costs, context.seeds),
     ]
-    figures = [context.out / "cdf.png", context.out / "cdf_subsets.png"]
+    figures = [context.out / f"{name}.png" for name in ("cdf", "cdf_subsets", "map", "inputs")]
     title = f"Positioning, split by {context.config.split.by}, {context.preset} size"
     plots.cdf(figures[0], methods, "error, m", title)
     alone = {t: e[:, ~np.isnan(e).any(0)] for t, e in teacher.items() if t == "all" or t.endswith(" alone")}
     plots.cdf(figures[1], alone, "error, m", f"The teacher with one modality, {context.preset} size")
+    flights_map(figures[2], data, flights, found["positions"])
+    inputs_picture(figures[3], data)
     results = {
         "split": {name: len(rows) for name, rows in data.parts.items()},
         "trajectories": {n: len(np.unique(records.trajectory[rows])) for n, rows in data.parts.items()},
