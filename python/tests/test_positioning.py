@@ -45,7 +45,8 @@ nodes:
     sensors:
       - {name: a, type: antenna}
       - {name: cam, type: camera, rate_hz: 2, width: 24, height: 24, fov_deg: 90}
-      - {name: dvs, type: event_camera, rate_hz: 2, width: 16, height: 16, fov_deg: 90, steps: 2, max_events_per_pixel: 64}
+      - {name: dvs, type: event_camera, rate_hz: 2, width: 16, height: 16, fov_deg: 90, steps: 2,
+         max_events_per_pixel: 64}
       - {name: lidar, type: lidar, rate_hz: 2, channels: 4, elevation_min_deg: -60, elevation_max_deg: 5,
          azimuth_steps: 32}
 channels:

@@ -79,8 +79,8 @@ def measure(context: Context, records: Records, opened: Opened, steps: int) -> N
         total["here"] += hours
         total["gpu"] += gpu
         print(
-            f"{name}: {parameters(model) / 1e6:.1f} million parameters, {forward / 1e9:.2f} G multiply-adds a "
-            f"record, {1000 * step / training.batch:.1f} ms a record in training; {seen} records: "
+            f"{name}: {parameters(model) / 1e6:.1f} million parameters, {forward / 1e9:.2f} G multiply-adds "
+            f"a record, {1000 * step / training.batch:.1f} ms in training; {seen} records: "
             f"{hours:.2f} {unit} here"
         )
     print(
