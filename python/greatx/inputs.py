@@ -72,32 +72,47 @@ def angle_delay(
     kept = subcarriers if delays is None else delays
     if not 1 <= kept <= subcarriers:
         raise Error(f"delays: expected 1 to {subcarriers}, the subcarriers, found {delays}")
-    taps = np.fft.ifft(h, axis=-1)[..., :kept]
-    # Subcarrier i is i - subcarriers // 2 spacings off the carrier (docs/dataset.md).
-    shift = np.exp(-2j * np.pi * (subcarriers // 2) * np.arange(kept) / subcarriers)
-    taps = (taps * shift).astype(np.complex64)
     if panel is None:
-        return _beams(taps, ports, beams)
+        panel, count = (1, ports, 1), ports if beams is None else beams
+        if count < ports:
+            raise Error(f"beams: expected {ports}, the ports, or more, found {beams}")
+    else:
+        rows, columns, polarizations = panel
+        if rows * columns * polarizations != ports:
+            raise Error(
+                f"panel: expected rows * columns * polarizations = {ports} ports, found {tuple(panel)}"
+            )
+        count = columns
+        if beams not in (None, ports):
+            raise Error(f"beams: expected as many as ports, {ports}, with a panel, found {beams}")
+    taps = np.fft.ifft(h, axis=-1)[..., :kept]
+    taps *= _factors(panel, count, subcarriers, kept)
+    grid = taps.reshape(*h.shape[:-2], *panel, kept)
+    grid = np.fft.fft2(grid, s=(panel[0], count), axes=(-4, -3))
+    out = np.empty((*h.shape[:-2], panel[2], panel[0], count, kept), np.complex64)
+    out[...] = np.moveaxis(grid, -2, -4)
+    return out.reshape(*h.shape[:-2], -1, kept)
+
+
+@functools.lru_cache(maxsize=64)
+def _factors(panel: Tuple[int, int, int], beams: int, subcarriers: int, kept: int) -> np.ndarray:
+    """Returns complex128 [ports, kept], by which angle_delay() multiplies taps before it transforms ports."""
+
+    def turned(count: int, period: int) -> np.ndarray:
+        """The transform of values times this has its zero at period // 2."""
+        return np.exp(2j * np.pi * (period // 2) * np.arange(count) / period)
+
     rows, columns, polarizations = panel
-    if rows * columns * polarizations != ports:
-        raise Error(f"panel: expected rows * columns * polarizations = {ports} ports, found {tuple(panel)}")
-    if beams not in (None, ports):
-        raise Error(f"beams: expected as many as ports, {ports}, with a panel, found {beams}")
-    grid = taps.reshape(*h.shape[:-2], rows, columns, polarizations, kept)
-    grid = np.fft.fftshift(np.fft.fft2(grid, axes=(-4, -3)), axes=(-4, -3)) / (rows * columns)
-    return np.moveaxis(grid, -2, -4).reshape(taps.shape).astype(np.complex64)
-
-
-def _beams(taps: np.ndarray, ports: int, beams: Optional[int]) -> np.ndarray:
-    count = ports if beams is None else beams
-    if count < ports:
-        raise Error(f"beams: expected {ports}, the ports, or more, found {beams}")
-    spectrum = np.fft.fft(taps, n=count, axis=-2) / ports
-    return np.fft.fftshift(spectrum, axes=-2).astype(np.complex64)
+    elements = np.outer(turned(rows, rows), turned(columns, beams)).reshape(-1)
+    # Subcarrier i is i - subcarriers // 2 spacings off the carrier (docs/dataset.md).
+    delays = np.conj(turned(kept, subcarriers))
+    return np.outer(np.repeat(elements, polarizations), delays) / (rows * columns)
 
 
 def panel_of(antenna: Mapping[str, Any]) -> Tuple[int, int, int]:
-    """Returns `panel` of angle_delay() for an entry of `transmitters` or `receivers` of a channel's metadata."""
+    """Returns `panel` of angle_delay() for an antenna, an entry of `transmitters` or `receivers` of a
+    channel's metadata.
+    """
     rows, columns, ports = (int(antenna[key]) for key in ("rows", "columns", "ports"))
     return rows, columns, ports // (rows * columns)
 
@@ -309,7 +324,8 @@ def event_voxels(
         return out
     begin, end = span_ns or (int(events.t[0]), int(events.t[-1]))
     time = (events.t - begin) * ((bins - 1) / max(end - begin, 1))
-    pixel = _part_of(events.height, rows, columns)[events.y] + _part_of(events.width, columns, 1)[events.x]
+    pixel = _part_of(events.height, rows, columns).take(events.y)
+    pixel += _part_of(events.width, columns, 1).take(events.x)
     sign = events.p * 2.0 - 1.0
     flat = out.reshape(bins, -1)
     # Events are sorted by time, so those between two bins are a slice, and a sum has the size of a picture.
