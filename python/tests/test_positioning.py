@@ -131,6 +131,12 @@ class Network(unittest.TestCase):
         # A record's estimate does not depend on what is beside it.
         torch.testing.assert_close(alone.position, first.position[:1], rtol=1e-4, atol=1e-5)
 
+    def test_coordinates_run_from_edge_to_edge(self):
+        out = models.with_coordinates(torch.zeros(2, 4, 3, 5))
+        self.assertEqual(tuple(out.shape), (2, 6, 3, 5))
+        np.testing.assert_allclose(out[1, 4].numpy(), [[-1] * 5, [0] * 5, [1] * 5])
+        np.testing.assert_allclose(out[1, 5].numpy(), [[-1, -0.5, 0, 0.5, 1]] * 3)
+
     def test_training_takes_single_records(self):
         self.model.train()
         present = torch.tensor([[True, False, False]] + [[False, True, True]] * 4)
@@ -372,7 +378,7 @@ class WholeRun(unittest.TestCase):
         out = pathlib.Path(TEMPORARY.name) / "measure"
         printed = command(out, "--measure", "1")
         self.assertRegex(printed, r"teacher: 0\.\d million parameters, 0\.00 G multiply-adds a record")
-        self.assertRegex(printed, r"an estimate for a GPU of 312 Tflop/s")
+        self.assertRegex(printed, r"an estimate for a GPU of 156 Tflop/s")
         self.assertFalse((out / "seed_1").exists())
         # A convolution of 3 x 3 from 2 to 5 channels on 4 x 4 pixels, and a linear layer of 80 to 3.
         layers = torch.nn.Sequential(

@@ -20,9 +20,9 @@ from .settings import STUDENT, Network
 #: Multiply-adds of a training step over those of a forward pass: the gradients by the inputs and by the
 #: weights take as many each.
 STEP = 3
-#: A GPU for estimates: 312e12 floating-point operations a second are the peak of an NVIDIA A100's tensor
-#: cores in bfloat16 (its data sheet); a share of 0.3 is usual for convolutions of this kind.
-GPU_FLOPS, GPU_SHARE = 312e12, 0.3
+#: A GPU for estimates: 156e12 floating-point operations a second are the peak of an NVIDIA A100's tensor
+#: cores in TF32 (its data sheet), which torch's convolutions use there; the share is an assumption.
+GPU_FLOPS, GPU_SHARE = 156e12, 0.3
 
 
 def random_inputs(shapes: Dict[str, tuple], batch: int) -> Dict[str, torch.Tensor]:
@@ -84,6 +84,6 @@ def measure(context: Context, records: Records, opened: Opened, steps: int) -> N
             f"{hours:.2f} {unit} here"
         )
     print(
-        f"in all {total['here']:.2f} {unit} here; an estimate for a GPU of 312 Tflop/s at a share of "
-        f"{GPU_SHARE:g}: {total['gpu']:.2f} hours"
+        f"in all {total['here']:.2f} {unit} here; an estimate for a GPU of {GPU_FLOPS / 1e12:.0f} "
+        f"Tflop/s at a share of {GPU_SHARE:g}: {60 * total['gpu']:.2g} minutes"
     )
