@@ -171,6 +171,25 @@ class Losses(unittest.TestCase):
         alone, none = distillation.student_loss(estimate, truth, None, weights)
         self.assertEqual((float(alone), none), (3.0, {}))
 
+    def test_the_teacher_learns_with_each_modality_alone(self):
+        torch.manual_seed(2)
+        model = models.Positioner({"csi": 4, "lidar": 2}, settings.Network(18, 0.0625, 8, False)).eval()
+        given = {"csi": torch.rand(3, 4, 8, 8), "lidar": torch.rand(3, 2, 8, 8)}
+        present = torch.tensor([[True, True], [True, False], [False, True]])
+        truth = torch.rand(3, 3)
+        loss, parts = distillation.teacher_loss(model, given, present, truth, 0.25)
+
+        def square(row, mask):
+            one = {name: value[row : row + 1] for name, value in given.items()}
+            said = model(one, torch.tensor([mask])).position
+            return float(((said - truth[row]) ** 2).mean())
+
+        fused = np.mean([square(0, [True, True]), square(1, [True, False]), square(2, [False, True])])
+        pairs = [(0, [True, False]), (0, [False, True]), (1, [True, False]), (2, [False, True])]
+        each = np.mean([square(*pair) for pair in pairs])
+        self.assertAlmostEqual(float(loss), fused + 0.25 * each, places=5)
+        self.assertAlmostEqual(parts["alone"], each, places=5)
+
     def test_a_phase_turns_the_map_as_the_channel(self):
         generator = np.random.default_rng(1)
         h = generator.standard_normal((4, 16)) + 1j * generator.standard_normal((4, 16))
@@ -360,7 +379,7 @@ class WholeRun(unittest.TestCase):
 
     def test_students_differ_by_their_losses_alone(self):
         out = pathlib.Path(TEMPORARY.name) / "students"
-        command(out, "--set", "distillation={truth: 1.0, feature: 0.0, output: 0.0}")
+        command(out, "--set", "distillation={truth: 1.0, feature: 0.0, output: 0.0}", "--set", "alone=1")
         weights = [torch.load(out / "seed_1" / f"student_{n}" / "best.pt") for n in ("alone", "distilled")]
         for name, value in weights[0].items():
             self.assertTrue(torch.equal(value, weights[1][name]), name)

@@ -15,7 +15,7 @@ from typing import Dict, NamedTuple, Optional, Tuple
 import torch
 from torch.nn.functional import mse_loss
 
-from .models import Estimate
+from .models import Estimate, Positioner
 from .settings import Distillation
 
 
@@ -38,6 +38,26 @@ def student_loss(
     loss = weights.truth * position + weights.feature * feature + weights.output * output
     parts = {"truth": position, "feature": feature, "output": output}
     return loss, {name: float(value.detach()) for name, value in parts.items()}
+
+
+def teacher_loss(
+    model: Positioner,
+    inputs: Dict[str, torch.Tensor],
+    present: torch.Tensor,
+    truth: torch.Tensor,
+    alone: float,
+) -> Tuple[torch.Tensor, Dict[str, float]]:
+    """Returns the loss of a teacher and its parts: the mean square of its positions with all modalities that
+    are present, plus `alone` times the mean of those with each of them alone. The second part costs no
+    further encoding, and teaches an encoder at full strength that the attention does not heed yet.
+    """
+    features = model.encode(inputs, present)
+    fused = mse_loss(model.fuse(features, present).position, truth)
+    if alone == 0:
+        return fused, {}
+    squares = (model.head(features) - truth.unsqueeze(1)).pow(2).mean(2)
+    each = squares[present].mean()
+    return fused + alone * each, {"fused": float(fused.detach()), "alone": float(each.detach())}
 
 
 def random_phase(csi: torch.Tensor, phase: torch.Tensor) -> torch.Tensor:

@@ -112,6 +112,7 @@ class Config:
     split: Split
     network: Network
     modality_dropout: float
+    alone: float
     random_phase: bool
     teacher: Training
     student: Training
@@ -127,4 +128,6 @@ class Config:
             raise ValueError(f"modalities: expected {STUDENT} among them, which the student has")
         if not 0 <= self.modality_dropout < 1:
             raise ValueError(f"modality_dropout: expected 0 to below 1, found {self.modality_dropout}")
+        if self.alone < 0:
+            raise ValueError(f"alone: expected a weight of 0 or more, found {self.alone}")
         positive(most_neighbours=self.most_neighbours)

@@ -15,7 +15,7 @@ from torch.nn.functional import mse_loss
 from tasks.common.training import Fit, fit, shuffled
 
 from .cache import batch_of
-from .distillation import Frame, Targets, random_phase, student_loss
+from .distillation import Frame, Targets, random_phase, student_loss, teacher_loss
 from .models import Positioner, drop_modalities
 from .settings import STUDENT, Config, Training
 
@@ -138,7 +138,7 @@ def train_teacher(folder: pathlib.Path, data: Data, seed: int) -> Fit:
 
     def loss(model: Positioner, batch: Dict[str, torch.Tensor]):
         present = drop_modalities(batch["present"], config.modality_dropout)
-        return mse_loss(model(batch, present).position, batch["truth"]), {}
+        return teacher_loss(model, batch, present, batch["truth"], config.alone)
 
     batches = _batches(data, data.modalities, config.teacher, None, data.parts["train"])
     title = f"seed {seed}, teacher"
