@@ -35,11 +35,13 @@ def flights_map(path: pathlib.Path, data: Data, flights: np.ndarray, said: Dict[
 
 
 def inputs_picture(path: pathlib.Path, data: Data) -> None:
-    """Draws the networks' inputs of the test record with the most modalities (of several the middle one)."""
+    """Draws the networks' inputs of the test record with the most modalities: of several one beyond
+    the middle, which is rarely the first of a flight, when an event camera has seen nothing yet.
+    """
     test = data.parts["test"]
     count = data.present[test].sum(1).numpy()
     most = test[count == count.max()]
-    record = most[len(most) // 2]
+    record = most[len(most) // 2 + len(most) // 50]
     shown = {}
     for i, name in enumerate(data.modalities):
         if data.present[record, i]:
@@ -50,7 +52,9 @@ def inputs_picture(path: pathlib.Path, data: Data) -> None:
     with plots.figure(path, 2.2 * len(shown), 2.5, ncols=len(shown), squeeze=False) as axes:
         for ax, (name, plane) in zip(axes[0], shown.items()):
             size = " x ".join(map(str, data.arrays[name].shape[1:]))
-            ax.imshow(plane, aspect="auto", cmap="coolwarm" if name == "events" else "viridis")
+            most = max(float(np.abs(plane).max()), 1e-6)
+            signed = {"cmap": "coolwarm", "vmin": -most, "vmax": most} if name == "events" else {}
+            ax.imshow(plane, aspect="auto", **signed)
             ax.set_title(f"{name}: {size}", fontsize=8)
             ax.set_xticks([])
             ax.set_yticks([])
