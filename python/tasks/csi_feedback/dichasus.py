@@ -141,9 +141,11 @@ def _delays(response: np.ndarray) -> np.ndarray:
 
 
 def first_bin(power: np.ndarray) -> int:
-    """Returns where the cyclic window of DELAYS bins begins that holds the most power."""
+    """Returns where the cyclic window of DELAYS bins begins that holds the most power, the first of equal
+    ones."""
     wrapped = np.concatenate([power, power[: DELAYS - 1]])
-    return int(np.argmax(np.convolve(wrapped, np.ones(DELAYS), "valid")))
+    held = np.convolve(wrapped, np.ones(DELAYS), "valid")
+    return int(np.argmax(held >= (1 - 1e-6) * held.max()))
 
 
 def read_folder(folder: pathlib.Path, array: int = 0, every: int = 1) -> ChannelSet:

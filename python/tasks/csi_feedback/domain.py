@@ -39,7 +39,7 @@ class Domain:
     most_outside: float
     max_depth: int
     max_transmissions: int
-    effects: Dict[str, str]
+    effects: Dict[str, bool]
     sites: List[Tuple[float, float, float, float]]
     low_m: Tuple[float, float, float]
     high_m: Tuple[float, float, float]

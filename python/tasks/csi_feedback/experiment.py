@@ -189,10 +189,7 @@ def target_scores(source: Source, name: str, data: Split) -> Dict[str, Score]:
         out[f"{network_name} of the source"] = joined(shots)
     for users in config.transfer.users:
         if users > len(data.train):
-            raise Error(
-                f"{data.channels.name}: expected {users} users for transfer.users in its training part, "
-                f"found {len(data.train)}"
-            )
+            continue  # a small set: the table has a gap
         tuned, principals = [], []
         for seed in context.seeds:
             few = data.train[np.random.default_rng(seed).permutation(len(data.train))[:users]]

@@ -48,9 +48,8 @@ def simulation(domain: Domain, site: Tuple[float, float, float, float]) -> "grea
         raise Error(f"{domain.name}: expected a scene (--scene FILE.glb), found none")
     if domain.radio_materials is not None:
         scene["radio_materials"] = str(pathlib.Path(domain.radio_materials).resolve())
-    sim = greatx.Simulation(
-        {"greatx": 1, "name": "csi", "ticks": 1, "scene": scene, "effects": domain.effects}
-    )
+    effects = {name: "on" if on else "off" for name, on in domain.effects.items()}
+    sim = greatx.Simulation({"greatx": 1, "name": "csi", "ticks": 1, "scene": scene, "effects": effects})
     *position, yaw = site
     array = greatx.Array(columns=domain.ports)
     sim.place_transmitter("bs", position, array=array, orientation_deg=[yaw, 0, 0])

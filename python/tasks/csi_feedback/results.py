@@ -8,7 +8,7 @@ from typing import Any, Dict, List
 
 import numpy as np
 
-from ..common.plots import lines
+from ..common.plots import figure, lines
 from ..common.report import Table
 from ..common.statistics import Interval, bootstrap, mean, paired_difference
 from .experiment import Config, Score, Split
@@ -86,11 +86,9 @@ def target_results(scores: Dict[str, Score], data: Split, config: Config) -> Lis
 def target_table(results: Dict[str, List[Dict[str, Any]]], size: int) -> Table:
     """Returns the NMSE of each method (rows) on each target (columns)."""
     targets = list(results)
-    methods = [row["method"] for row in results[targets[0]]]
-    body = [
-        [_called(method), *(results[target][i]["nmse_db"].text() for target in targets)]
-        for i, method in enumerate(methods)
-    ]
+    found = {t: {row["method"]: row["nmse_db"].text() for row in results[t]} for t in targets}
+    methods = list(max(found.values(), key=len))
+    body = [[_called(method), *(found[target].get(method, "–") for target in targets)] for method in methods]
     return Table(f"Other domains, M = {size}: NMSE in dB (95 %)", ["method", *targets], body)
 
 
@@ -115,16 +113,34 @@ def draw_source(path: pathlib.Path, rows: List[Dict[str, Any]], title: str) -> N
 
 
 def draw_targets(path: pathlib.Path, results: Dict[str, List[Dict[str, Any]]], users: List[int]) -> None:
-    """Draws the NMSE of tuned networks over the number of users of the target."""
-    curves = {}
-    for target, rows in results.items():
-        by_name = {row["method"]: row["nmse_db"] for row in rows}
-        for method, name in (("csinet tuned to", "CsiNet tuned"), ("pca of", "components")):
-            figures = [by_name[f"{method} {n} users"] for n in users]
-            curves[f"{target}: {name}"] = tuple(
-                [getattr(f, part) for f in figures] for part in ("value", "low", "high")
-            )
-    lines(path, users, curves, "users of the target", "NMSE, dB", "Other domains", log_x=True)
+    """Draws the NMSE of tuned networks, and of components, over the number of users of each target."""
+    with figure(path) as axes:
+        for number, (target, rows) in enumerate(results.items()):
+            by_name = {row["method"]: row["nmse_db"] for row in rows}
+            for method, name, style in (
+                ("csinet tuned to", "CsiNet tuned", "-"),
+                ("pca of", "components", ":"),
+            ):
+                known = [n for n in users if f"{method} {n} users" in by_name]
+                figures = [by_name[f"{method} {n} users"] for n in known]
+                values = [f.value for f in figures]
+                off = [[f.value - f.low for f in figures], [f.high - f.value for f in figures]]
+                axes.errorbar(
+                    known,
+                    values,
+                    off,
+                    label=f"{target}: {name}",
+                    color=f"C{number}",
+                    ls=style,
+                    marker="o",
+                    ms=4,
+                )
+        axes.set_xscale("log")
+        axes.set_xticks(users, [str(n) for n in users])
+        axes.minorticks_off()
+        axes.set(xlabel="users of the target", ylabel="NMSE, dB", title="Other domains")
+        axes.grid(alpha=0.3)
+        axes.legend(fontsize=8)
 
 
 def describe(data: Split) -> Dict[str, Any]:
