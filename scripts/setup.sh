@@ -7,7 +7,8 @@
 #
 # The release's own Mesa is enough. GREATX_BACKPORTS=1 takes a newer one from the backports suite if the
 # release's own is older than 24.1: a run then needs half of the time. GREATX_PACKAGES="" installs Mesa alone,
-# for a machine that gets greatx as a package.
+# for a machine that gets greatx as a package. GREATX_LEARNING=1 adds PyTorch and what else the tasks of
+# docs/learning.md and their tests need, some 0.7 GB; without it, those tests say that they are skipped.
 set -euo pipefail
 
 packages=(
@@ -19,6 +20,9 @@ packages=(
   libeigen3-dev libsqlite3-dev libgtest-dev libgmock-dev pybind11-dev python3-dev python3-numpy python3-h5py
   python3-jsonschema python3-yaml xvfb xauth fonts-dejavu-core zsh fish
 )
+# Without OpenBLAS, Debian's PyTorch multiplies matrices by the reference BLAS, 20 times slower.
+[ "${GREATX_LEARNING:-0}" = 0 ] ||
+  packages+=(python3-torch python3-torchvision python3-matplotlib libopenblas0-pthread)
 [ "${GREATX_PACKAGES-all}" = all ] || packages=()
 # lavapipe, Mesa's software Vulkan driver, runs greatx from mesa_minimum on: rays go through greatx's own
 # trees. From mesa_newer on it is twice as fast and also has ray queries and conditional rendering.

@@ -14,6 +14,7 @@ from typing import Any
 from . import geodesy
 from .antenna import Array
 from .arrays import Frames, Ragged
+from .batch_reader import batches
 from .campaign import Campaign, campaign
 from .campaign_samples import CampaignSamples, ShuffledSamples
 from .dataset import Dataset, Record, Sensor, Sequence, Tick
@@ -23,8 +24,9 @@ from .loading import load
 from .packed import PackedRagged, PackedStack, PackedTable
 from .paths import Paths
 from .radio_map import RadioMap
+from .run import Run
 from .samples import Samples
-from .stream import Run
+from .streaming import Stream, stream
 from .tables import Arrays
 
 __version__ = "0.1.0"
@@ -50,11 +52,14 @@ __all__ = [
     "Sensor",
     "Sequence",
     "ShuffledSamples",
+    "Stream",
     "Tick",
+    "batches",
     "campaign",
     "geodesy",
     "load",
     "print_errors_plainly",
+    "stream",
 ]
 
 #: Names that need greatx._native.

@@ -101,14 +101,17 @@ def _unfilter(path: Path, filters: np.ndarray, lines: np.ndarray) -> np.ndarray:
     """Undoes the filters None, Sub and Up of lines [h, w, bytes of a pixel]. Sums are modulo 256, as the
     standard requires.
     """
-    if np.all(filters == 2):  # greatx writes Up in every line
-        return np.cumsum(lines, axis=0, dtype=np.uint8)
-    out = np.empty_like(lines)
-    for y, kind in enumerate(filters):
-        if kind > 2:
-            raise DatasetError(f"{path}: line {y} has the filter {kind}, which greatx does not write")
-        line = np.cumsum(lines[y], axis=0, dtype=np.uint8) if kind == 1 else lines[y]
-        out[y] = line + out[y - 1] if kind == 2 and y > 0 else line
+    unknown = np.flatnonzero(filters > 2)
+    if len(unknown):
+        y = unknown[0]
+        raise DatasetError(f"{path}: line {y} has the filter {filters[y]}, which greatx does not write")
+    out = np.array(lines)
+    sub = np.flatnonzero(filters == 1)
+    out[sub] = np.cumsum(lines[sub], axis=1, dtype=np.uint8)
+    flat = out.reshape(len(out), -1)
+    for y in np.flatnonzero(filters == 2):
+        if y > 0:
+            np.add(flat[y], flat[y - 1], out=flat[y])
     return out
 
 

@@ -19,7 +19,7 @@ from .errors import Error, nearest
 from .paths import Paths
 from .process import Owned
 from .radio_map import RadioMap
-from .stream import Run
+from .run import Run
 
 #: Receives the log of the engine.
 logger = logging.getLogger("greatx")

@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""Pictures that both tasks draw."""
+from __future__ import annotations
+
+import contextlib
+import pathlib
+from typing import Any, Dict, Iterator, List, Sequence
+
+from tasks.common import plots
+from tasks.common.files import write_whole
+from tasks.common.statistics import Interval
+
+
+def intervals(
+    path: pathlib.Path,
+    x: Sequence[float],
+    curves: Dict[str, Sequence[Interval]],
+    x_label: str,
+    y_label: str,
+    title: str,
+) -> None:
+    """Draws curves with a bar for the interval of each point. Points of different curves are moved aside by a
+    little, so that bars do not hide each other. A curve may end before the others."""
+    with plots.figure(path, 7.2, 4.6) as axes:
+        step = min([b - a for a, b in zip(x, x[1:])], default=1) * 0.6 / max(len(curves), 1)
+        for number, (name, of) in enumerate(curves.items()):
+            at = [value + (number - (len(curves) - 1) / 2) * step for value in x[: len(of)]]
+            middle = [i.value for i in of]
+            below = [max(i.value - i.low, 0) for i in of]
+            above = [max(i.high - i.value, 0) for i in of]
+            axes.errorbar(
+                at,
+                middle,
+                [below, above],
+                marker="o",
+                markersize=4,
+                linewidth=1.2,
+                elinewidth=0.8,
+                label=name,
+            )
+        axes.set(xlabel=x_label, ylabel=y_label, title=title)
+        axes.set_xticks(list(x))
+        axes.grid(alpha=0.3)
+        if curves:
+            axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5))
+
+
+@contextlib.contextmanager
+def mosaic(path: pathlib.Path, rows: List[List[str]], heights: List[float]) -> Iterator[Dict[str, Any]]:
+    """Yields axes by name, laid out as `rows` name them with relative `heights`, and saves the picture."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplot_mosaic(rows, figsize=(9, 6), gridspec_kw={"height_ratios": heights})
+    try:
+        yield axes
+        figure.tight_layout()
+        write_whole(path, lambda part: figure.savefig(part, dpi=90, metadata={"Software": "greatx"}))
+    finally:
+        pyplot.close(figure)
