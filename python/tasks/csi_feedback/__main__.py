@@ -17,6 +17,8 @@ if __package__ in (None, ""):
     sys.path.append(str(pathlib.Path(__file__).resolve().parents[2]))
     __package__ = "tasks.csi_feedback"
 
+from greatx.errors import Error
+
 from ..common import command, report
 from ..common.models import macs, parameters
 from . import dichasus, results
@@ -33,7 +35,7 @@ def targets(options: Any, config: Config) -> "tuple[Dict[str, Split], List[str]]
     splits = {name: split(load(options.data / name), config) for name in there}
     notes = [f"{options.data / name} is not there, so this domain was not tried." for name in missing]
     if options.dichasus is not None:
-        measured = dichasus.read_folder(options.dichasus, array=options.array)
+        measured = dichasus.read_folder(options.dichasus, options.array, options.every)
         splits["measured"] = split(measured, config)
     return splits, notes
 
@@ -57,7 +59,10 @@ def run() -> None:
     parser = command.parser(__doc__, "folder of channel sets")
     parser.add_argument("--dichasus", type=pathlib.Path, metavar="DIR", help="try DICHASUS tfrecords, too")
     parser.add_argument("--array", type=int, default=0, help="number of the array in their spec.json (0)")
+    parser.add_argument("--every", type=int, default=1, help="take every so many of their records (1)")
     options = parser.parse_args()
+    if options.every < 1:
+        raise Error(f"--every: expected 1 or more, found {options.every}")
     context = command.start(options, Config, HERE)
     config: Config = context.config
     began, cpu = time.perf_counter(), time.process_time()
