@@ -145,6 +145,14 @@ class Floors(unittest.TestCase):
                 error = metrics.normalized_errors(floors.unit(x), principal.restored(x, size)).mean()
                 self.assertAlmostEqual(error, principal.variances[size:].sum(), places=4)
 
+    def test_a_mean_of_second_moments_serves_both_sets(self):
+        x, y = sparse_channels(300, 2).channels, sparse_channels(300, 3, paths=5).channels
+        moments = [floors.second_moment(m) for m in (x, y)]
+        both = floors.Principal.of((moments[0] + moments[1]) / 2, (32, 32))
+        joint = floors.Principal.fit(np.concatenate([x, y]))
+        np.testing.assert_allclose(both.variances[:50], joint.variances[:50], rtol=1e-4)
+        self.assertAlmostEqual(np.trace(moments[0]), 1, places=5)
+
     def test_components_are_orthonormal_and_in_order(self):
         principal = floors.Principal.fit(sparse_channels(100, 3).channels)
         gram = principal.components @ principal.components.T

@@ -76,6 +76,20 @@ class Networks(unittest.TestCase):
             with self.assertRaisesRegex(Error, "expected training data for 64 components"):
                 start.principal_start(net, floors.Principal.fit(x[:20]), few)
 
+    def test_a_restart_takes_other_components_and_keeps_the_refinement(self):
+        x, y = sparse_channels(400, 1).channels, sparse_channels(400, 2, paths=4).channels
+        net = models.network("csinet", 64)
+        first, other = floors.Principal.fit(x), floors.Principal.fit(y)
+        start.principal_start(net, first, torch.from_numpy(transforms.images(x)))
+        refinement = {k: v.clone() for k, v in net.decoder.state_dict().items()}
+        start.principal_restart(net, other, torch.from_numpy(transforms.images(y)))
+        error = metrics.normalized_errors(floors.unit(y), tune.restore(net, y, torch.device("cpu"))).mean()
+        floor = metrics.normalized_errors(floors.unit(y), other.restored(y, 64)).mean()
+        self.assertLess(error, 1.05 * floor)
+        self.assertLess(floor, metrics.normalized_errors(floors.unit(y), first.restored(y, 64)).mean())
+        for key, value in net.decoder.state_dict().items():
+            self.assertTrue(torch.equal(value, refinement[key]), key)
+
     def test_learning_rates(self):
         t = training(epochs=12, warm_up=2, rate=1e-3, final_rate=1e-4)
         rates = [tune.rate_factor(t, epoch) for epoch in range(13)]
@@ -182,7 +196,7 @@ class Run(unittest.TestCase):
         self.assertEqual(
             [row["method"] for row in results["targets"]["etoile"]["methods"]],
             ["mean of the target", "pca of the source", "csinet of the source", "pca of 40 users"]
-            + ["csinet tuned to 40 users"],
+            + ["pca of the source and 40 users", "csinet tuned to 40 users"],
         )
 
     def test_faults_are_told_in_a_line(self):

@@ -17,11 +17,11 @@ from ..common.config import positive, shares
 from ..common.splits import by_place
 from ..common.training import seed_everything
 from . import tune
-from .floors import Principal, mean_restored, unit
+from .floors import Principal, mean_restored, second_moment, unit
 from .metrics import normalized_errors, similarities
 from .models import Autoencoder, network
 from .sets import ChannelSet
-from .start import principal_start
+from .start import principal_restart, principal_start
 from .transforms import images
 
 
@@ -31,7 +31,11 @@ class Transfer:
 
     size: int
     users: List[int]
+    source_weight: float
     training: tune.Training
+
+    def __post_init__(self) -> None:
+        positive(source_weight=self.source_weight)
 
 
 @dataclasses.dataclass
@@ -127,7 +131,15 @@ class Source:
         if data.channels.channels.shape[1:] != (32, 32):
             shape = list(data.channels.channels.shape[1:])
             raise Error(f"{data.channels.name}: expected 32 angles and 32 delays, found {shape}")
-        self.principal = Principal.fit(data.train)
+        self.moment = second_moment(data.train)
+        self.shape = data.train.shape[1:]
+        self.principal = Principal.of(self.moment, self.shape)
+
+    def blended(self, few: np.ndarray) -> Principal:
+        """Returns components of the source and of some users of a target. The source counts as much as
+        `transfer.source_weight` users, which keeps the estimate from few users from being a fit to them."""
+        share = len(few) / (len(few) + self.config.transfer.source_weight)
+        return Principal.of((1 - share) * self.moment + share * second_moment(few), self.shape)
 
     def trained(self, name: str, size: int, seed: int) -> "tuple[Autoencoder, float]":
         """Returns a trained network and the CPU seconds of its training. Goes on where a run was stopped."""
@@ -190,19 +202,25 @@ def target_scores(source: Source, name: str, data: Split) -> Dict[str, Score]:
     for users in config.transfer.users:
         if users > len(data.train):
             continue  # a small set: the table has a gap
-        tuned, principals = [], []
+        rows: Dict[str, List[Score]] = {}
         for seed in context.seeds:
             few = data.train[np.random.default_rng(seed).permutation(len(data.train))[:users]]
-            principals.append(score(data, Principal.fit(few).restored(data.test, size), config))
-            tuned.append(_tuned(source, name, data, few, seed))
-        out[f"pca of {users} users"] = joined(principals)
-        out[f"csinet tuned to {users} users"] = joined(tuned)
+            blended = source.blended(few)
+            own = Principal.fit(few).restored(data.test, size)
+            rows.setdefault(f"pca of {users} users", []).append(score(data, own, config))
+            both = score(data, blended.restored(data.test, size), config)
+            rows.setdefault(f"pca of the source and {users} users", []).append(both)
+            tuned = _tuned(source, name, data, few, seed, blended)
+            rows.setdefault(f"csinet tuned to {users} users", []).append(tuned)
+        out.update({method: joined(scores) for method, scores in rows.items()})
     return out
 
 
-def _tuned(source: Source, name: str, data: Split, few: np.ndarray, seed: int) -> Score:
+def _tuned(source: Source, name: str, data: Split, few: np.ndarray, seed: int, blended: Principal) -> Score:
     config, context = source.config, source.context
     model, _ = source.trained("csinet", config.transfer.size, seed)
+    if config.transfer.training.start == "principal":
+        principal_restart(model, blended, torch.from_numpy(images(few[:1000])).to(context.device))
     fit = tune.train(
         context.out / "tuned" / f"{name}_{len(few)}_{seed}",
         model,

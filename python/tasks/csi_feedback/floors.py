@@ -29,17 +29,22 @@ class Principal:
         The carrier's phase is uniform, so the channel times any phase is as likely. With both, the mean is
         zero, and the components come in pairs v, j v: this makes the most of few matrices.
         """
-        parts = unit(matrices).reshape(len(matrices), -1)
-        both = np.concatenate([_real(parts), _real(1j * parts)])
-        if len(both) < both.shape[1]:
-            _, singular, components = np.linalg.svd(both, full_matrices=False)
-            variances = np.square(singular, dtype=np.float64) / len(both)
-        else:
-            covariance = (both.T @ both).astype(np.float64) / len(both)
-            variances, vectors = np.linalg.eigh(covariance)
-            variances, components = variances[::-1], vectors.T[::-1]
+        both = _with_quadrature(matrices)
+        if len(both) >= both.shape[1]:
+            return cls.of(second_moment(matrices), matrices.shape[1:])
+        _, singular, components = np.linalg.svd(both, full_matrices=False)
+        return cls._known(np.square(singular, dtype=np.float64) / len(both), components, matrices.shape[1:])
+
+    @classmethod
+    def of(cls, moment: np.ndarray, shape: tuple) -> "Principal":
+        """Returns the components of a second moment (of one set, or a mean of several)."""
+        variances, vectors = np.linalg.eigh(moment)
+        return cls._known(variances[::-1], vectors.T[::-1], shape)
+
+    @classmethod
+    def _known(cls, variances: np.ndarray, components: np.ndarray, shape: tuple) -> "Principal":
         known = variances > 1e-6 * variances[0]  # few matrices say nothing about the others
-        return cls(components[known].astype(np.float32), variances[known], matrices.shape[1:])
+        return cls(components[known].astype(np.float32), variances[known], tuple(shape))
 
     def restored(self, matrices: np.ndarray, size: int) -> np.ndarray:
         """Returns matrices of norm 1 after they pass a codeword of `size` numbers, complex64 like them. Fewer
@@ -47,6 +52,17 @@ class Principal:
         flat = _real(unit(matrices).reshape(len(matrices), -1))
         basis = self.components[:size]
         return _complex(flat @ basis.T @ basis).reshape(-1, *self.shape)
+
+
+def second_moment(matrices: np.ndarray) -> np.ndarray:
+    """Returns the mean of x x^T over matrices of norm 1, float64 [entry, entry], and the same times j."""
+    both = _with_quadrature(matrices)
+    return (both.T @ both).astype(np.float64) / len(both)
+
+
+def _with_quadrature(matrices: np.ndarray) -> np.ndarray:
+    parts = unit(matrices).reshape(len(matrices), -1)
+    return np.concatenate([_real(parts), _real(1j * parts)])
 
 
 def unit(matrices: np.ndarray) -> np.ndarray:

@@ -112,6 +112,14 @@ def draw_source(path: pathlib.Path, rows: List[Dict[str, Any]], title: str) -> N
     lines(path, sizes, curves, "numbers in a codeword, M", "NMSE, dB", title, log_x=True)
 
 
+#: Methods over the number of users, what they are called, and their lines.
+_DRAWN = (
+    ("csinet tuned to", "CsiNet tuned", "-"),
+    ("pca of the source and", "components of source and users", "--"),
+    ("pca of", "components of the users", ":"),
+)
+
+
 def draw_targets(path: pathlib.Path, results: Dict[str, List[Dict[str, Any]]], users: List[int]) -> None:
     """Draws the NMSE of tuned networks, and of components, over the number of users of each target."""
     with figure(path) as axes:

@@ -48,6 +48,19 @@ def principal_start(net: Autoencoder, principal: Principal, pictures: torch.Tens
         net.dense.bias.fill_(middle)
 
 
+def principal_restart(net: Autoencoder, principal: Principal, pictures: torch.Tensor) -> None:
+    """Sets the encoder and the decoder's dense layer of a trained CsiNet to components of another domain, and
+    keeps what refines the pictures."""
+    size = net.encoder.dense.out_features
+    basis = torch.from_numpy(np.ascontiguousarray(principal.components[:size])).to(pictures.device)
+    with torch.no_grad():
+        _identity(net.encoder.features[0], pictures)
+        net.encoder.dense.weight.copy_(basis)
+        net.encoder.dense.bias.copy_(-0.5 * basis.sum(1))
+        net.dense.weight.copy_(basis.T)
+        net.dense.bias.fill_(0.5)
+
+
 def _start_csinet(net: Autoencoder, pictures: torch.Tensor) -> None:
     _identity(net.encoder.features[0], pictures)
     for block in net.decoder[:2]:
