@@ -243,14 +243,6 @@ uint32_t Session::find_channel(const std::string& name) const {
   throw_user_error("channel: {}", expected_one_of(names, name));
 }
 
-void Session::check_instant(uint32_t sequence, int64_t tick) const {
-  if (tick < 0 || tick >= scenario_.ticks)
-    throw_user_error("tick: expected 0 to {}, the last tick of {}, found {}", scenario_.ticks - 1,
-                     scenario_.name, tick);
-  if (sequence >= scenario_.sequences)
-    throw_user_error("sequence: expected 0 to {}, found {}", scenario_.sequences - 1, sequence);
-}
-
 sim::ChannelSnapshot& Session::snapshot(const std::shared_ptr<const sim::Experiment>& experiment,
                                         const std::shared_ptr<Gpu>& gpu, uint32_t channel,
                                         const sim::ChannelSnapshot::Instant& instant,
@@ -283,7 +275,7 @@ std::shared_ptr<PathSet> Session::solve(const std::string& name, uint32_t sequen
                                         const std::optional<PointReceivers>& points, const GoOn& go_on) {
   const std::lock_guard lock(mutex_);
   const uint32_t channel = find_channel(name);
-  check_instant(sequence, tick);
+  check_instant(scenario_, sequence, tick);
   const sim::ChannelConfig& config = scenario_.channels[channel];
   std::vector<rf::AntennaArray> arrays;
   dquat orientation{1.0, 0.0, 0.0, 0.0};
@@ -338,7 +330,7 @@ std::optional<MapResult> Session::radio_map(const std::string& name, uint32_t se
                                             const GoOn& go_on) {
   const std::lock_guard lock(mutex_);
   const uint32_t channel = find_channel(name);
-  check_instant(sequence, tick);
+  check_instant(scenario_, sequence, tick);
   const sim::ChannelConfig& config = scenario_.channels[channel];
   sim::check_map_request(request, config);
   sim::MapReceiver receiver = antenna_at_points(antenna, config.carrier_hz);
@@ -368,7 +360,7 @@ std::optional<MapResult> Session::radio_map(const std::string& name, uint32_t se
 
 std::unique_ptr<Stream> Session::stream(uint32_t sequence, int64_t first_tick) {
   const std::lock_guard lock(mutex_);
-  check_instant(sequence, first_tick);
+  check_instant(scenario_, sequence, first_tick);
   for (const sim::ChannelConfig& channel : scenario_.channels)
     if (channel.receivers.empty())
       throw_user_error("channel '{}': has no receivers: expected some for a run", channel.name);

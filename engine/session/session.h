@@ -117,7 +117,6 @@ class Session {
   void drop_snapshot();
   void changed();
   uint32_t find_channel(const std::string& name) const;
-  void check_instant(uint32_t sequence, int64_t tick) const;
   sim::Scenario parse(const std::string& text, const std::string& where) const;
   sim::MapReceiver antenna_at_points(const std::string& text, double carrier_hz) const;
   sim::ChannelSnapshot& snapshot(const std::shared_ptr<const sim::Experiment>& experiment,

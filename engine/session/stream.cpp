@@ -2,9 +2,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/session/stream.h"
 
+#include <string_view>
+
 #include <nlohmann/json.hpp>
 
+#include "core/error.h"
+
 namespace greatx::engine {
+
+namespace {
+
+constexpr std::string_view broken =
+    "a run that was interrupted or ended with an error cannot go on; run() begins another";
+
+}  // namespace
+
+void check_instant(const sim::Scenario& scenario, uint32_t sequence, int64_t tick) {
+  if (tick < 0 || tick >= scenario.ticks)
+    throw_user_error("tick: expected 0 to {}, the last tick of {}, found {}", scenario.ticks - 1,
+                     scenario.name, tick);
+  if (sequence >= scenario.sequences)
+    throw_user_error("sequence: expected 0 to {}, found {}", scenario.sequences - 1, sequence);
+}
 
 Stream::Stream(std::shared_ptr<const sim::Experiment> experiment, std::shared_ptr<Gpu> gpu, uint32_t sequence,
                int64_t first_tick)
@@ -38,8 +57,7 @@ std::string Stream::sensors() const {
 
 std::optional<Packet> Stream::next() {
   const std::lock_guard lock(gpu_->mutex);
-  if (broken_)
-    throw_user_error("a run that was interrupted or ended with an error cannot go on; run() begins another");
+  if (broken_) throw_user_error("{}", broken);
   broken_ = true;
   while (queue_.packets.empty())
     if (!simulator_->step(queue_)) break;
@@ -49,6 +67,17 @@ std::optional<Packet> Stream::next() {
   std::optional<Packet> packet = std::move(queue_.packets.front());
   queue_.packets.pop_front();
   return packet;
+}
+
+void Stream::restart(uint32_t sequence, int64_t first_tick) {
+  check_instant(experiment_->scenario, sequence, first_tick);
+  const std::lock_guard lock(gpu_->mutex);
+  if (broken_) throw_user_error("{}", broken);
+  broken_ = true;
+  simulator_->drain(queue_);
+  queue_.packets.clear();
+  simulator_->start(sequence, first_tick);
+  broken_ = false;
 }
 
 std::string Stream::summary() {

@@ -12,6 +12,9 @@
 
 namespace greatx::engine {
 
+/// Throws UserError if a scenario has no such sequence or tick.
+void check_instant(const sim::Scenario& scenario, uint32_t sequence, int64_t tick);
+
 class Stream {
  public:
   Stream(std::shared_ptr<const sim::Experiment> experiment, std::shared_ptr<Gpu> gpu, uint32_t sequence,
@@ -25,6 +28,8 @@ class Stream {
   /// Returns the next packet, or nullopt at the end of the sequence. Throws UserError if an earlier call
   /// ended with an error or was interrupted, because the tick of that call is lost.
   std::optional<Packet> next();
+  /// Goes on with another sequence, with what was made for this one. What is left of this one is lost.
+  void restart(uint32_t sequence, int64_t first_tick);
   /// Returns the counters, notes and warnings of the run so far as JSON.
   std::string summary();
 

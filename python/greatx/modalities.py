@@ -105,8 +105,8 @@ class Depth:
 
 @dataclasses.dataclass(frozen=True)
 class RangeImage:
-    """A LiDAR's range and intensity, float32 [2, rows, columns] (inputs.lidar_map). `size` None: a row for each
-    channel, and 256 columns.
+    """A LiDAR's range and intensity, float32 [2, rows, columns] (inputs.lidar_map). `size` None: a row for
+    each channel, and 256 columns.
     """
 
     sensor: str

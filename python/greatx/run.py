@@ -43,6 +43,13 @@ class Run:
             },
         )
 
+    def restart(self, sequence: int = 0, first_tick: int = 0) -> None:
+        """Goes on with another sequence (or with the same one again), whose records are those of a run of its
+        own. It begins sooner, because what the sensors need on the device is there already. What is left of
+        the present sequence is lost. Counters of summary() go on.
+        """
+        self._call(self._native.restart, sequence, first_tick)
+
     def summary(self) -> Dict[str, Any]:
         """Returns the ticks, counters and notes of the run so far, and its warnings: one sentence for each
         kind of data that the run has lost.

@@ -57,6 +57,7 @@ class _Engine:
             stream.scenario, seed=stream.seed, sequences=MOST_SEQUENCES, **stream.options
         )
         self.ticks = self._simulation.ticks
+        self._run: Any = None  #: the last one, which begins the next sequence sooner than a new one would
         #: by name: sensor and array; known when a run has begun
         self._names: Dict[str, Tuple[str, str]] = {}
         self._makes: Dict[str, Any] = {}
@@ -95,15 +96,24 @@ class _Engine:
     def _of_sequence(self, sequence: int, first_tick: int) -> Iterator[Item]:
         if first_tick >= self.ticks:
             return
-        run = self._simulation.run(sequence, first_tick)
+        if self._run is None:
+            run = self._simulation.run(sequence, first_tick)
+        else:
+            run, self._run = self._run, None  # a run that ends with an error is not kept
+            run.restart(sequence, first_tick)
         if not self._names:
             self._names = {name: _find(run, name) for name in self._stream.names}
             source = Source.of(run)
             self._makes = {name: m.bind(source) for name, m in self._stream.modalities.items()}
         sensors = self._sensors()
-        for tick in run:
-            if all(sensor in tick for sensor in sensors):
-                yield self._item(sequence, tick)
+        try:
+            for tick in run:
+                if all(sensor in tick for sensor in sensors):
+                    yield self._item(sequence, tick)
+        except GeneratorExit:  # the rest of the sequence is not wanted
+            self._run = run
+            raise
+        self._run = run
 
     def _sensors(self) -> List[str]:
         return sorted({sensor for sensor, _ in self._names.values()})

@@ -55,10 +55,13 @@ def arrays_of(memory: torch.Tensor, fields: Dict[str, Field], room: int, items: 
 
 
 class Pool:
-    """Slots for batches. A slot that was given to a user is free again when nothing refers to it any more."""
+    """Slots for batches. A slot that was given to a user is free again when nothing refers to it any more. Of
+    free ones, `most` are kept.
+    """
 
-    def __init__(self, fields: Dict[str, Field], items: int, shared: bool):
+    def __init__(self, fields: Dict[str, Field], items: int, shared: bool, most: int):
         self._made = (fields, items, shared)
+        self._most = most
         self._free: List[Slot] = []
         self.count = 0  #: slots that were made
 
@@ -69,7 +72,8 @@ class Pool:
         return Slot(self.count, *self._made)
 
     def give_back(self, slot: Slot) -> None:
-        self._free.append(slot)
+        if len(self._free) < self._most:
+            self._free.append(slot)
 
     def tensors(self, slot: Slot, items: int) -> Dict[str, torch.Tensor]:
         """Returns the arrays of a slot as tensors, and takes the slot back when they are gone. The memory of
@@ -102,15 +106,13 @@ def keep_memory(_: int = 0) -> None:
 
 #: The work for a batch: its number, numbers of its items, number, memory and room of its slot.
 Work = Tuple[int, np.ndarray, int, torch.Tensor, int]
-#: Slots that a worker keeps mapped.
-MOST_MAPPED = 32
 
 
 class _Reading(torch.utils.data.Dataset):
-    """What the workers do."""
+    """What the workers do. Each keeps `most` slots mapped."""
 
-    def __init__(self, reader: BatchReader):
-        self.reader = reader
+    def __init__(self, reader: BatchReader, most: int):
+        self.reader, self._most = reader, most
         self._mapped: "collections.OrderedDict[int, torch.Tensor]" = collections.OrderedDict()
 
     def __getitem__(self, work: Work) -> Tuple[int, Optional[List[str]]]:
@@ -118,7 +120,7 @@ class _Reading(torch.utils.data.Dataset):
         # Memory that comes again is then the one that is mapped already.
         self._mapped[slot] = memory
         self._mapped.move_to_end(slot)
-        while len(self._mapped) > MOST_MAPPED:
+        while len(self._mapped) > self._most:
             self._mapped.popitem(last=False)
         return number, self.reader.read(items, arrays_of(memory, self.reader.fields, room, len(items)))
 
@@ -174,7 +176,8 @@ class Batches:
         self._now = 0
         if not len(self):
             raise Error(f"batches: expected items for a batch of {batch} or more, found {self.items}")
-        self._pool = Pool(reader.fields, min(batch, self.items), shared=workers > 0)
+        slots = workers * prefetch + 2  # those that are read into, the user's, and the one before it
+        self._pool = Pool(reader.fields, min(batch, self.items), workers > 0, slots)
         self._works = _Works(self)
         options: Dict[str, Any] = {}
         if workers > 0:
@@ -185,7 +188,7 @@ class Batches:
                 "worker_init_fn": keep_memory,
             }
         self._loader = torch.utils.data.DataLoader(
-            _Reading(reader),
+            _Reading(reader, slots),
             batch_size=None,
             sampler=self._works,
             num_workers=workers,

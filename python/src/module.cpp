@@ -406,6 +406,13 @@ void bind(py::module_& module) {
   py::class_<Stream, std::shared_ptr<Stream>>(module, "Stream")
       .def("sensors", &Stream::sensors, Released())
       .def("next", &next)
+      .def("restart",
+           [](Stream& stream, uint32_t sequence, int64_t first_tick) {
+             watched([&](const GoOn&) {
+               stream.restart(sequence, first_tick);
+               return true;
+             });
+           })
       .def("summary", &Stream::summary, Released());
 }
 

@@ -110,6 +110,25 @@ class Streams(unittest.TestCase):
             for name in sample:
                 np.testing.assert_array_equal(item[name], sample[name], name)
 
+    def test_a_run_goes_on_with_another_sequence(self):
+        sim = greatx.Simulation(support.scenario_file("flight", FLIGHT), sequences=3)
+        run = sim.run()
+        next(run)  # the rest of this sequence is lost
+        for sequence, first in ((2, 0), (1, 3), (1, 0)):
+            run.restart(sequence, first)
+            ticks, expected = list(run), list(sim.run(sequence, first))
+            self.assertEqual([t.tick for t in ticks], [t.tick for t in expected])
+            for one, other in zip(ticks, expected):
+                self.assertEqual(list(one), list(other))
+                for sensor in one:
+                    for name in one[sensor]:
+                        np.testing.assert_array_equal(one[sensor][name], other[sensor][name], name)
+        for place, message in (((3, 0), "sequence: expected 0 to 2"), ((0, 6), "tick: expected 0 to 5")):
+            with self.assertRaisesRegex(greatx.Error, message):
+                run.restart(*place)
+        run.restart(0, 5)
+        self.assertEqual([tick.tick for tick in run], [5])
+
     def test_it_has_no_end_and_its_seed_decides(self):
         items = take(open_link(ticks=1), 7)
         self.assertEqual(places(items), [(sequence, 0) for sequence in range(7)])

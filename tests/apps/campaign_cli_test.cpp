@@ -249,6 +249,8 @@ TEST_F(CampaignCli, EmbeddedCampaignsHaveWhatTheirTableSays) {
   EXPECT_THAT(street.out, HasSubstr("2 cells, 192 sequences, 7680 ticks"));
   const Outcome whole = greatx("campaign plan great_mcd --measure 0");
   EXPECT_THAT(whole.out, HasSubstr("24 cells, 3600 sequences, 960000 ticks"));
+  const Outcome learn = greatx("campaign plan great_mcd_learn --measure 0");
+  EXPECT_THAT(learn.out, HasSubstr("2 cells, 120 sequences, 3600 ticks"));
 }
 
 TEST_F(CampaignCli, TheIndexHasEveryRecord) {

@@ -1,0 +1,13 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the task from its folder: python3 python/tasks/positioning DATA -o OUT."""
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+
+from tasks.common.command import main  # noqa: E402
+from tasks.positioning.experiment import run  # noqa: E402
+
+if __name__ == "__main__":
+    main(run)
