@@ -161,7 +161,8 @@ class Task(unittest.TestCase):
         for of in results.values():
             self.assertLessEqual(of["top_1_percent"]["value"], of["top_5_percent"]["value"])
             self.assertGreaterEqual(of["loss_mean_db"]["value"], 0)
-        self.assertIn("## All test items", self.printed)
+        for title in ("All test items", "camera + lidar minus another method", "By condition"):
+            self.assertIn(f"## {title}", self.printed)
         for name in ("top_k", "sweep", "example"):
             self.assertGreater((self.out / f"{name}.png").stat().st_size, 5000)
         with open(self.out / "camera_lidar_1" / "log.csv", newline="") as file:

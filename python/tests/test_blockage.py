@@ -6,6 +6,7 @@ import json
 import pathlib
 import tempfile
 import unittest
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -18,7 +19,7 @@ if TORCH:
     import torch
 
     from street_data import run_task, tiny
-    from tasks.blockage import experiment
+    from tasks.blockage import experiment, outcome
     from tasks.street import drives, inputs
 
 
@@ -157,7 +158,8 @@ class Task(unittest.TestCase):
         self.assertEqual(list(results), names)
         for of in results.values():
             self.assertEqual(list(of["average_precision"]), ["1", "3"])
-        self.assertIn("## Blocked within 3 ticks", self.printed)
+        for title in ("Blocked within 3 ticks", "events + radar + csi minus another network", "Lead time"):
+            self.assertIn(f"## {title}", self.printed)
         for name in ("horizon", "precision_recall", "lead", "timeline"):
             self.assertGreater((self.out / f"{name}.png").stat().st_size, 5000)
 
@@ -219,6 +221,23 @@ class Task(unittest.TestCase):
         self.assertEqual(np.count_nonzero(~sight & ~met), 0)
         self.assertGreater(np.mean(~sight[met]), 0.7)
         self.assertGreater(np.count_nonzero(~sight), 10)
+
+    def test_differences_take_the_same_drives_of_both(self):
+        """A method minus itself is 0 in every draw, and a perfect method is better than one without
+        information by one minus the share of positives."""
+        first = np.array([0, 1, 0, 2, 0, 0, 1, 0])
+        items = np.arange(8)
+        opened = SimpleNamespace(trajectory=items // 2, drive=items // 2)
+        split = {"validation": items, "test": items}
+        problem = SimpleNamespace(split=split, asked=items, first=first, drives=opened)
+        truth = ((first > 0) & (first <= 1)).astype(float)
+        perfect = outcome.Scored(np.tile(truth[None, :, None], (2, 1, 1)), items, problem, 100)
+        blind = outcome.Scored(np.zeros((2, 8, 1)), items, problem, 100)
+        same = outcome.difference(perfect, perfect, measures.average_precision, 1)
+        self.assertEqual(same, (0, 0, 0))
+        gain = outcome.difference(perfect, blind, measures.average_precision, 1)
+        self.assertAlmostEqual(gain.value, 1 - 2 / 8)
+        self.assertEqual(perfect.f1(1).value, 1)
 
     def test_a_run_goes_on(self):
         before = (self.out / "results.json").read_text()

@@ -11,7 +11,7 @@ import numpy as np
 from tasks.common import plots
 from tasks.common.command import Context
 from tasks.common.report import Table, write
-from tasks.common.statistics import Interval, bootstrap, mean, percentile
+from tasks.common.statistics import Interval, bootstrap, mean, paired_difference, percentile
 from tasks.street import inputs, learning
 from tasks.street.pictures import intervals
 
@@ -58,6 +58,7 @@ def report(context: Context, problem: Any, ranks: Dict[str, np.ndarray], fits, n
     outcomes = {name: Outcome(rank, power, groups, config.draws) for name, rank in ranks.items()}
     tables = [
         _measures(outcomes, config),
+        _differences(outcomes, list(fits)[-1]),
         _conditions(outcomes, problem, test),
         learning.trainings(fits, first),
     ]
@@ -108,6 +109,23 @@ def _measures(outcomes: Dict[str, Outcome], config: Any) -> Table:
     return Table("All test items", header, rows)
 
 
+def _differences(outcomes: Dict[str, Outcome], last: str) -> Table:
+    """Returns what the last network gains over every other method, on the same drives and seeds."""
+    ours, rows = outcomes[last], []
+    for name, other in outcomes.items():
+        if name == last:
+            continue
+        pairs = [
+            (100.0 * ours.hit[..., 0], 100.0 * other.hit[..., 0]),
+            (ours.loss_db[..., 0], other.loss_db[..., 0]),
+        ]
+        rows.append([name])
+        for digits, (a, b) in enumerate(pairs, 1):
+            same = np.broadcast_to(b, a.shape)  # a baseline has one seed
+            rows[-1].append(paired_difference(a, same, mean, ours.groups, draws=ours.draws).text(digits))
+    return Table(f"{last} minus another method", ["other method", "top 1, %", "loss, mean, dB"], rows)
+
+
 def _conditions(outcomes: Dict[str, Outcome], problem: Any, test: np.ndarray) -> Table:
     """Returns the accuracy and the loss of the first beam by cell, and with and without line of sight."""
     drives, sight = problem.drives, problem.line_of_sight[test]
@@ -141,7 +159,7 @@ def example(path: pathlib.Path, problem: Any, test: np.ndarray, predicted: np.nd
         for column, i in enumerate(chosen):
             item = test[i]
             picture, lidar = (np.asarray(problem.arrays[m][item]) for m in ("camera", "lidar"))
-            axes[0, column].imshow(picture.transpose(1, 2, 0))
+            axes[0, column].imshow(picture.transpose(1, 2, 0), aspect="auto")
             sight = "line of sight" if problem.line_of_sight[item] else "blocked"
             axes[0, column].set_title(f"tick {problem.drives.tick[item]}: {sight}", fontsize=9)
             axes[1, column].imshow(lidar[0].astype(np.float32), aspect="auto", cmap="viridis")

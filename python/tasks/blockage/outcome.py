@@ -9,8 +9,7 @@ import numpy as np
 
 from tasks.common.command import Context
 from tasks.common.report import Table, write
-from tasks.common.statistics import Interval, bootstrap
-from tasks.common.training import Fit
+from tasks.common.statistics import Interval, bootstrap, paired_difference
 from tasks.street import learning
 
 from . import labels, measures, pictures
@@ -86,7 +85,12 @@ def report(context: Context, problem: Any, probability, items: np.ndarray, fits,
     def one(name: str):
         return problem.gather(name.split(" + "), problem.split["test"][:1])
 
-    tables = [_main(scored, config), _horizons(precision, config), _lead_table(leads, problem)]
+    tables = [
+        _main(scored, config),
+        _differences(scored, list(fits), config),
+        _horizons(precision, config),
+        _lead_table(leads, problem),
+    ]
     tables += [t for t in [_cells(scored, problem, config)] if t is not None]
     tables.append(learning.trainings(fits, one))
     paths = {
@@ -95,7 +99,7 @@ def report(context: Context, problem: Any, probability, items: np.ndarray, fits,
     pictures.horizons(paths["horizon"], precision, config)
     pictures.precision_recall(paths["precision_recall"], scored, config)
     pictures.lead_times(paths["lead"], leads, config)
-    pictures.timeline(paths["timeline"], problem, scored, config, best_network(fits, problem, scored, config))
+    pictures.timeline(paths["timeline"], problem, scored, config, list(fits)[-1])
     results = {
         name: {
             "average_precision": dict(zip(config.horizons, precision[name])),
@@ -105,17 +109,6 @@ def report(context: Context, problem: Any, probability, items: np.ndarray, fits,
         for name, s in scored.items()
     }
     write(context.out, "Blockage prediction", results, tables, list(paths.values()), notes)
-
-
-def best_network(fits: Dict[str, List[Fit]], problem: Any, scored: Dict[str, Scored], config: Any) -> str:
-    """Returns the network with the highest mean average precision on the validation items."""
-    truth = scored[next(iter(fits))].truth("validation", config.shown)
-
-    def value(name: str) -> float:
-        of_seeds = scored[name].score("validation", config.shown)
-        return float(np.mean([measures.average_precision(s, truth) for s in of_seeds]))
-
-    return max(fits, key=value)
 
 
 def _main(scored: Dict[str, Scored], config: Any) -> Table:
@@ -130,6 +123,31 @@ def _main(scored: Dict[str, Scored], config: Any) -> Table:
         for name, s in scored.items()
     ]
     return Table(f"Blocked within {k} ticks", ["method", "average precision", "ROC AUC", "F1"], rows)
+
+
+def difference(a: Scored, b: Scored, measure: Any, horizon: int) -> Interval:
+    """Returns a measure of `a` minus that of `b`. Each draw has the same drives and seeds of both."""
+    scores = [a.score("test", horizon), b.score("test", horizon)]
+    truth = np.tile(a.truth("test", horizon), sum(len(s) for s in scores))
+    flat = np.concatenate([s.ravel() for s in scores])
+    number = [np.arange(s.size).reshape(s.shape) for s in scores]
+    number[1] = number[1] + scores[0].size
+    return paired_difference(*number, lambda n: measure(flat[n], truth[n]), a.groups, draws=a.draws)
+
+
+def _differences(scored: Dict[str, Scored], networks: List[str], config: Any) -> Table:
+    """Returns what the last network gains over each of the others."""
+    last = networks[-1]
+    rows = [
+        [
+            name,
+            difference(scored[last], scored[name], measures.average_precision, config.shown).text(3),
+            difference(scored[last], scored[name], measures.roc_auc, config.shown).text(3),
+        ]
+        for name in networks[:-1]
+    ]
+    title = f"{last} minus another network, blocked within {config.shown} ticks"
+    return Table(title, ["other network", "average precision", "ROC AUC"], rows)
 
 
 def _horizons(precision: Dict[str, List[Interval]], config: Any) -> Table:

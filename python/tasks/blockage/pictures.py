@@ -24,15 +24,8 @@ def horizons(path: pathlib.Path, precision: Dict[str, List[Interval]], config: A
 def lead_times(path: pathlib.Path, leads: Dict[str, List[Interval]], config: Any) -> None:
     """Draws the share of blockages that had an alarm j ticks before."""
     x = range(1, max((len(of) for of in leads.values()), default=0) + 1)
-    share = f"alarms at {100 * config.false_alarms:g} % of the other ticks of the validation"
-    intervals(
-        path,
-        list(x),
-        leads,
-        "ticks before the blockage",
-        "share with an alarm",
-        f"How early it is known ({share})",
-    )
+    title = f"How early a blockage is known, at {100 * config.false_alarms:g} % false alarms"
+    intervals(path, list(x), leads, "ticks before the blockage", "share with an alarm", title)
 
 
 def precision_recall(path: pathlib.Path, scored: Dict[str, Any], config: Any) -> None:
@@ -62,7 +55,7 @@ def timeline(path: pathlib.Path, problem: Any, scored: Dict[str, Any], config: A
             axes["p"].plot(tick, probability, style, markersize=3, label=of)
         axes["p"].set(ylim=(-0.03, 1.03), ylabel=f"blocked within\n{config.shown} ticks")
         axes["p"].set_title("red: blocked; orange: the ticks before, at which an alarm is right", fontsize=9)
-        axes["p"].legend(fontsize=7, loc="upper left")
+        axes["p"].legend(fontsize=7, loc="center right")
         axes["g"].plot(tick, problem.gain_db[mine], "-", color="0.3")
         axes["g"].set(xlabel="tick", ylabel="path gain, dB")
         for part in ("p", "g"):
@@ -70,18 +63,23 @@ def timeline(path: pathlib.Path, problem: Any, scored: Dict[str, Any], config: A
 
 
 def _drive_of_timeline(problem: Any) -> Tuple[np.ndarray, int]:
-    """Returns the items of a test drive, and the place of a blockage in it: one blockage, rather late."""
-    drives = problem.drives
-
-    def merit(drive: int) -> tuple:
-        sight = problem.line_of_sight[drives.drive == drive]
-        begins = labels.onsets(sight)
-        late = np.any(begins >= problem.past + problem.most // 2)
-        return bool(late), -len(begins), sight.sum()
-
-    mine = np.flatnonzero(drives.drive == max(np.unique(drives.drive[problem.asked]), key=merit))
-    begins = labels.onsets(problem.line_of_sight[mine])
-    return mine, int(begins[-1]) if len(begins) else len(mine) - 1
+    """Returns the items of the test drive with the longest blockage, and the place where it begins. If there
+    are some, only blockages that end, and that have a past with line of sight, count."""
+    drives, most = problem.drives, ((False, False, 0), None, 0)
+    for drive in np.unique(drives.drive[problem.asked]):
+        mine = np.flatnonzero(drives.drive == drive)
+        sight = problem.line_of_sight[mine]
+        for onset in labels.onsets(sight):
+            ends = np.flatnonzero(sight[onset:])
+            long = int(ends[0]) if len(ends) else len(sight) - int(onset)
+            known = onset >= problem.most and bool(sight[onset - problem.most : onset].all())
+            passes = int(onset) + long < len(sight)
+            if (known, passes, long) > most[0]:
+                most = ((known, passes, long), mine, int(onset))
+    if most[1] is None:
+        mine = np.flatnonzero(drives.drive == drives.drive[problem.asked[0]])
+        return mine, len(mine) - 1
+    return most[1], most[2]
 
 
 def _draw_events(axes: Any, counts: np.ndarray, title: str) -> None:
