@@ -45,6 +45,7 @@ OTHERS = {  # options of other programs, and options of greatx's scripts
     "--target",
     "--no-build-isolation",
     "--no-deps",
+    "--extra-index-url",
     "--layout",
     "--prefix",
     "--table",
@@ -66,6 +67,14 @@ def converter_options(source: pathlib.Path) -> set[str]:
         parser = argparse.ArgumentParser()
         command.arguments(parser)
         found.update(re.findall(r"(?<![\w-])--[a-z][\w-]*", parser.format_help()))
+    return found
+
+
+def task_options(source: pathlib.Path) -> set[str]:
+    """Returns all options of the tasks of python/tasks, which need PyTorch to print them."""
+    found: set[str] = set()
+    for path in (source / "python/tasks").rglob("*.py"):
+        found.update(re.findall(r'(?:"|\s)(--[a-z][a-z-]*)"', path.read_text()))
     return found
 
 
@@ -259,7 +268,9 @@ class Page:
                     self.program.check(code)
                     self.checked += 1
                 for option in re.findall(r"^--[a-z][\w-]*", code):
-                    if option not in every | OTHERS | converter_options(self.source):
+                    if option not in every | OTHERS | converter_options(self.source) | task_options(
+                        self.source
+                    ):
                         raise Failure(
                             f"greatx {about[1]} has no option {option}"
                             if about
