@@ -101,14 +101,14 @@ def _called(method: str) -> str:
 
 
 def draw_source(path: pathlib.Path, rows: List[Dict[str, Any]], title: str) -> None:
-    """Draws the NMSE over M of all methods that have several sizes."""
+    """Draws the NMSE over M of all methods that have every size."""
+    sizes = sorted({row["size"] for row in rows})
     curves = {}
     for method, name in NAMES.items():
         own = sorted((r for r in rows if r["method"] == method), key=lambda r: r["size"])
-        if len(own) > 1:
+        if len(own) == len(sizes):
             figures = [row["nmse_db"] for row in own]
             curves[name] = tuple([getattr(f, part) for f in figures] for part in ("value", "low", "high"))
-            sizes = [row["size"] for row in own]
     lines(path, sizes, curves, "numbers in a codeword, M", "NMSE, dB", title, log_x=True)
 
 
