@@ -125,10 +125,7 @@ def draw_targets(path: pathlib.Path, results: Dict[str, List[Dict[str, Any]]], u
     with figure(path) as axes:
         for number, (target, rows) in enumerate(results.items()):
             by_name = {row["method"]: row["nmse_db"] for row in rows}
-            for method, name, style in (
-                ("csinet tuned to", "CsiNet tuned", "-"),
-                ("pca of", "components", ":"),
-            ):
+            for method, name, style in _DRAWN:
                 known = [n for n in users if f"{method} {n} users" in by_name]
                 figures = [by_name[f"{method} {n} users"] for n in known]
                 values = [f.value for f in figures]
