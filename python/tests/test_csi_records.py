@@ -79,8 +79,8 @@ SPEC = {
 
 
 def record(row, column, delay, position, sto=None, cpo=None):
-    """Returns a record with one path of a phase of 2 pi row/4 from row to row and 2 pi column/8 from column
-    to column, in the order that files have."""
+    """Returns a record with one path of a phase of 2 pi row/4 from row to row and 2 pi column/8 from
+    column to column, in the order that files have."""
     k = np.arange(SUBCARRIERS) - SUBCARRIERS // 2
     response = np.zeros((ANTENNAS, SUBCARRIERS), complex)
     rows, columns = np.indices(PANEL.shape)

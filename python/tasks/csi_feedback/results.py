@@ -101,14 +101,14 @@ def _called(method: str) -> str:
 
 
 def draw_source(path: pathlib.Path, rows: List[Dict[str, Any]], title: str) -> None:
-    """Draws the NMSE over M of all methods that have several sizes."""
+    """Draws the NMSE over M of all methods that have every size."""
+    sizes = sorted({row["size"] for row in rows})
     curves = {}
     for method, name in NAMES.items():
         own = sorted((r for r in rows if r["method"] == method), key=lambda r: r["size"])
-        if len(own) > 1:
+        if len(own) == len(sizes):
             figures = [row["nmse_db"] for row in own]
             curves[name] = tuple([getattr(f, part) for f in figures] for part in ("value", "low", "high"))
-            sizes = [row["size"] for row in own]
     lines(path, sizes, curves, "numbers in a codeword, M", "NMSE, dB", title, log_x=True)
 
 
@@ -125,10 +125,7 @@ def draw_targets(path: pathlib.Path, results: Dict[str, List[Dict[str, Any]]], u
     with figure(path) as axes:
         for number, (target, rows) in enumerate(results.items()):
             by_name = {row["method"]: row["nmse_db"] for row in rows}
-            for method, name, style in (
-                ("csinet tuned to", "CsiNet tuned", "-"),
-                ("pca of", "components", ":"),
-            ):
+            for method, name, style in _DRAWN:
                 known = [n for n in users if f"{method} {n} users" in by_name]
                 figures = [by_name[f"{method} {n} users"] for n in known]
                 values = [f.value for f in figures]
