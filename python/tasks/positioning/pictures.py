@@ -18,7 +18,7 @@ def flights_map(path: pathlib.Path, data: Data, flights: np.ndarray, said: Dict[
     test = data.parts["test"]
     true = data.position_m[test].numpy()
     names = ["student distilled", "teacher"]
-    with plots.figure(path, 9.6, 4.8, ncols=2, sharex=True, sharey=True) as axes:
+    with plots.figure(path, 8.0, 4.0, ncols=2, sharex=True, sharey=True) as axes:
         for ax, name in zip(axes, names):
             for flight in np.unique(flights):
                 rows = np.flatnonzero(flights == flight)
@@ -29,7 +29,7 @@ def flights_map(path: pathlib.Path, data: Data, flights: np.ndarray, said: Dict[
             segments = np.stack([true[:, :2], where[:, :2]], 1)
             for (x0, y0), (x1, y1) in segments:
                 ax.plot([x0, x1], [y0, y1], color="tab:red", linewidth=0.3, alpha=0.5, zorder=2)
-            ax.scatter(where[:, 0], where[:, 1], s=4, color="tab:blue", zorder=3)
+            ax.scatter(where[:, 0], where[:, 1], s=2.5, color="tab:blue", zorder=3)
             ax.set(title=name, xlabel="x, m", aspect="equal")
         axes[0].set_ylabel("y, m")
 
