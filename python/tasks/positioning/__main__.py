@@ -4,7 +4,8 @@
 import pathlib
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+# Behind the others, because the package of a build has the compiled module, and the sources have not.
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2]))
 
 from tasks.common.command import main  # noqa: E402
 from tasks.positioning.experiment import run  # noqa: E402
