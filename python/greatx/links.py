@@ -70,29 +70,33 @@ def rotation(orientation_wxyz: Any) -> np.ndarray:
     return np.stack([np.stack(row, -1) for row in rows], -2)
 
 
+def node_of(poses: "Sensor", antenna: Dict[str, Any]) -> int:
+    """Returns the number, in the arrays of `poses`, of the node that carries an antenna, an entry of
+    `transmitters` or `receivers` with the name NODE/SENSOR.
+    """
+    nodes = poses.metadata["nodes"]
+    if not isinstance(nodes, list) or not all(isinstance(n, str) for n in nodes):
+        raise DatasetError(f"{poses.metadata.where}.nodes: expected the names of nodes")
+    carrying = [n for n in nodes if antenna["name"].startswith(n + "/")]
+    if not carrying:
+        raise DatasetError(
+            f"{poses.sequence.dataset.path}: the antenna {antenna['name']!r} is at no node; nodes are "
+            f"{', '.join(nodes)}"
+        )
+    return nodes.index(max(carrying, key=len))
+
+
 def antenna_pose(record: "Record", antenna: Dict[str, Any]) -> Tuple[np.ndarray, np.ndarray]:
     """Returns the world position [3] in metres and the rotation world_from_antenna [3, 3] of an antenna at a
     record. `antenna` is an entry of `transmitters` or `receivers`.
     """
     poses = record.sensor.sequence.at(record.tick)[record.sensor.sequence.poses.name]
     nodes = poses.sensor.metadata["nodes"]
-    if (
-        not isinstance(nodes, list)
-        or not all(isinstance(n, str) for n in nodes)
-        or len(nodes) != len(poses["position"])
-    ):
+    if not isinstance(nodes, list) or len(nodes) != len(poses["position"]):
         raise DatasetError(
             f"{poses.sensor.metadata.where}.nodes: expected the names of {len(poses['position'])} nodes"
         )
-    name = next(
-        (n for n in sorted(nodes, key=len, reverse=True) if antenna["name"].startswith(n + "/")), None
-    )
-    if name is None:
-        raise DatasetError(
-            f"{record.sensor.sequence.dataset.path}: the antenna {antenna['name']!r} is at no node; nodes "
-            f"are {', '.join(nodes)}"
-        )
-    node, mount = nodes.index(name), antenna["body_from_antenna"]
+    node, mount = node_of(poses.sensor, antenna), antenna["body_from_antenna"]
     turn = rotation(poses["orientation"][node])
     return poses["position"][node] + turn @ np.array(mount["position_m"]), turn @ rotation(
         mount["orientation_wxyz"]

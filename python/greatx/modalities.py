@@ -23,7 +23,17 @@ from .sizes import Size, result
 Make = Callable[[Mapping[str, Any], Optional[np.ndarray]], np.ndarray]
 
 #: Signed types that hold the values of unsigned types. torch computes with no unsigned integers except uint8.
-SIGNED = {"uint16": np.int32, "uint32": np.int64, "uint64": np.int64}
+_SIGNED = {"uint16": np.dtype(np.int32), "uint32": np.dtype(np.int64)}
+
+
+def signed(value: Any) -> Tuple[np.ndarray, np.dtype]:
+    """Returns an array, and the type in which torch computes with its values: uint16 becomes int32, uint32
+    becomes int64, and uint64 becomes int64 with the same bits. Other types stay.
+    """
+    array = np.asarray(value)
+    if array.dtype == np.uint64:
+        array = array.view(np.int64)
+    return array, _SIGNED.get(array.dtype.name, array.dtype)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -230,10 +240,8 @@ class Values:
 
     def bind(self, source: Source) -> Make:
         def make(item: Mapping[str, Any], out: Optional[np.ndarray]) -> np.ndarray:
-            value = np.asarray(item[self.array])
-            if value.dtype == np.uint64:
-                value = value.view(np.int64)
-            out = result(out, value.shape, SIGNED.get(value.dtype.name, value.dtype))
+            value, dtype = signed(item[self.array])
+            out = result(out, value.shape, dtype)
             np.copyto(out, value)
             return out
 

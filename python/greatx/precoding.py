@@ -11,7 +11,7 @@ rates are in bit/s/Hz. Everything is computed in complex128.
 """
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Optional, Tuple
+from typing import Any, NamedTuple, Tuple
 
 import numpy as np
 

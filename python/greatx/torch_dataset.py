@@ -10,20 +10,16 @@ import numpy as np
 import torch
 import torch.utils.data
 
+from .modalities import signed
 from .samples import Samples
-
-#: Signed types that hold the values of unsigned types. torch computes with no unsigned integers except uint8.
-_SIGNED = {"uint16": np.int32, "uint32": np.int64}
 
 
 def to_tensor(value: np.ndarray) -> "torch.Tensor":
     """Copies an array to a tensor, because the files are mapped read-only. complex64 stays complex64, uint16
     becomes int32, uint32 becomes int64, and uint64 becomes int64 with the same bits.
     """
-    value = np.asarray(value)
-    if value.dtype == np.uint64:
-        value = value.view(np.int64)
-    return torch.from_numpy(np.array(value, dtype=_SIGNED.get(value.dtype.name, value.dtype)))
+    value, dtype = signed(value)
+    return torch.from_numpy(np.array(value, dtype=dtype))
 
 
 def tensors(item: Dict[str, Any]) -> Dict[str, Any]:

@@ -9,18 +9,14 @@ import numpy as np
 import torch
 import torch.utils.data
 
-from .modalities import SIGNED
+from .modalities import signed
 from .streaming import Item, Stream
 
 
 def _tensor(value: np.ndarray) -> torch.Tensor:
     """Returns a tensor, in the array's own memory if torch takes its type and may write to it."""
-    if value.dtype == np.uint64:
-        value = value.view(np.int64)
-    kind = SIGNED.get(value.dtype.name)
-    if kind is not None or not value.flags.writeable:
-        value = value.astype(kind or value.dtype)
-    return torch.from_numpy(value)
+    value, dtype = signed(value)
+    return torch.from_numpy(value.astype(dtype, copy=not value.flags.writeable))
 
 
 class TorchStream(torch.utils.data.IterableDataset):

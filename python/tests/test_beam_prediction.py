@@ -12,7 +12,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from greatx.errors import Error
-from tasks.beam_prediction import labels, measures
+from tasks.beam_prediction import measures
+from tasks.street import beams as street_beams
 from tasks.street import geometry
 
 TORCH = importlib.util.find_spec("torch") is not None
@@ -33,37 +34,37 @@ def single_path(cosine: float, columns: int) -> np.ndarray:
 
 class Beams(unittest.TestCase):
     def test_cosines_ascend_in_even_steps_from_minus_one(self):
-        beams = labels.codebook(8, 2)
+        beams = street_beams.codebook(8, 2)
         np.testing.assert_allclose(beams.cosine, np.arange(16) / 8 - 1, atol=1e-12)
         np.testing.assert_allclose(np.linalg.norm(beams.weights, axis=1), 1)
 
     def test_a_path_in_the_direction_of_a_beam_has_that_beam_as_its_best(self):
-        beams = labels.codebook(8, 2)
+        beams = street_beams.codebook(8, 2)
         for number, cosine in enumerate(beams.cosine):
-            power = labels.powers(single_path(cosine, 8), beams)[0]
+            power = street_beams.powers(single_path(cosine, 8), beams)[0]
             self.assertEqual(power.argmax(), number)
             self.assertAlmostEqual(power.max() / 8e-8, 1)  # 8 columns in phase, each with 1/sqrt(8)
 
     def test_a_path_between_two_beams_has_the_gain_of_dirichlets_kernel(self):
-        beams = labels.codebook(8, 1)
+        beams = street_beams.codebook(8, 1)
         cosine = beams.cosine[5] + 0.125  # half a step of 1/4
-        power = labels.powers(single_path(cosine, 8), beams)[0]
+        power = street_beams.powers(single_path(cosine, 8), beams)[0]
         phase = np.pi * 0.125
         expected = 1e-8 * (np.sin(8 * phase / 2) / np.sin(phase / 2)) ** 2 / 8
         np.testing.assert_allclose(power[[5, 6]], expected)
         self.assertEqual(set(np.argsort(power)[-2:]), {5, 6})
 
     def test_free_space_agrees_with_the_channel_of_a_path(self):
-        beams = labels.codebook(16, 2)
+        beams = street_beams.codebook(16, 2)
         for degrees in (-70, -20, 0, 3, 45):
             direction = np.array([[np.cos(np.radians(degrees)), np.sin(np.radians(degrees)), 0]])
-            of_path = labels.powers(single_path(direction[0, 1], 16), beams)
+            of_path = street_beams.powers(single_path(direction[0, 1], 16), beams)
             np.testing.assert_allclose(
-                labels.free_space(direction, beams) * 1e-8, of_path, rtol=1e-9, atol=1e-20
+                street_beams.free_space(direction, beams) * 1e-8, of_path, rtol=1e-9, atol=1e-20
             )
 
     def test_a_mirror_changes_the_sign_of_the_cosine(self):
-        beams = labels.codebook(8, 2)
+        beams = street_beams.codebook(8, 2)
         mirrored = beams.cosine[beams.mirrored(np.arange(1, 16))]
         np.testing.assert_allclose(mirrored, -beams.cosine[1:])
         self.assertEqual(beams.mirrored(0), 0)  # -1 and 1 are one beam
@@ -87,7 +88,7 @@ class Beams(unittest.TestCase):
         with self.assertRaisesRegex(
             Error, "csi: expected a transmitter of one row .*found 2 rows, 4 columns"
         ):
-            labels.codebook_of(channel, 1)
+            street_beams.codebook_of(channel, 1)
 
 
 class _Metadata(dict):
@@ -171,8 +172,8 @@ class Task(unittest.TestCase):
     def test_rankings_give_the_reported_accuracy(self):
         stored = np.load(self.out / "rankings.npz")
         opened = drives.open_drives(tiny(), ["csi"], {"train": 0.6, "validation": 0.15, "test": 0.25})
-        beams = labels.codebook_of(opened.sequences[0]["csi"], 2)
-        best = labels.powers(opened.gather("csi", "cfr"), beams)[stored["items"]].argmax(1)
+        beams = street_beams.codebook_of(opened.sequences[0]["csi"], 2)
+        best = street_beams.powers(opened.gather("csi", "cfr"), beams)[stored["items"]].argmax(1)
         results = json.loads((self.out / "results.json").read_text())
         for name in ("true position", "camera + lidar"):
             share = np.mean(stored[name][:, :, 0] == best)
@@ -180,8 +181,8 @@ class Task(unittest.TestCase):
 
     def test_in_sight_the_best_beam_points_at_the_car(self):
         opened = drives.open_drives(tiny(), ["csi"], {"train": 0.6, "validation": 0.15, "test": 0.25})
-        beams = labels.codebook_of(opened.sequences[0]["csi"], 2)
-        best = labels.powers(opened.gather("csi", "cfr"), beams).argmax(1)
+        beams = street_beams.codebook_of(opened.sequences[0]["csi"], 2)
+        best = street_beams.powers(opened.gather("csi", "cfr"), beams).argmax(1)
         sight = opened.gather("csi", "line_of_sight")[:, 0, 0] > 0
         truth = geometry.ends(opened, "csi").direction()[:, 1]
         off = np.abs(beams.cosine[best] - truth)
@@ -220,7 +221,7 @@ class Task(unittest.TestCase):
                 inputs.cached(where, opened, broken, "b")
 
     def test_a_mirrored_batch_has_mirrored_pictures_and_beams(self):
-        beams = labels.codebook(4, 1)
+        beams = street_beams.codebook(4, 1)
         batch = {"camera": torch.arange(24.0).reshape(2, 3, 1, 4), "label": torch.tensor([1, 3])}
         out = experiment.mirrored(batch, beams, np.array([True, False]))
         np.testing.assert_array_equal(out["camera"][0], batch["camera"][0].flip(-1))

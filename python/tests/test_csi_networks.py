@@ -24,6 +24,7 @@ if TORCH:
     import torch
 
     from tasks.common.models import macs, parameters
+    from tasks.common.training import cosine_factor
     from tasks.csi_feedback import models, start, tune
 
 TASK = pathlib.Path(sets.__file__).resolve().parent
@@ -91,13 +92,11 @@ class Networks(unittest.TestCase):
             self.assertTrue(torch.equal(value, refinement[key]), key)
 
     def test_learning_rates(self):
-        t = training(epochs=12, warm_up=2, rate=1e-3, final_rate=1e-4)
-        rates = [tune.rate_factor(t, epoch) for epoch in range(13)]
+        rates = [cosine_factor(epoch, epochs=12, warm_up=2, last=0.1) for epoch in range(13)]
         np.testing.assert_allclose(rates[:3], [1 / 3, 2 / 3, 1])
         self.assertAlmostEqual(rates[7], (1 + 0.1) / 2)
         self.assertAlmostEqual(rates[12], 0.1)
-        constant = training(epochs=5, warm_up=0, rate=1e-3, final_rate=1e-3)
-        self.assertEqual({tune.rate_factor(constant, epoch) for epoch in range(5)}, {1.0})
+        self.assertEqual({cosine_factor(epoch, epochs=5, last=1.0) for epoch in range(5)}, {1.0})
 
     def test_the_encoders_rows_keep_their_mean(self):
         net = models.csinet(32)

@@ -166,16 +166,7 @@ class Derivatives(unittest.TestCase):
             if name.endswith("gain"):
                 expected = np.conj(np.einsum(end + ("ru" if name[0] == "r" else "ts"), parts))
             elif name.endswith("slant"):
-                shape = (
-                    3,
-                    1,
-                    2,
-                    2,
-                    2,
-                    2,
-                    2,
-                    5,
-                )  # [rx, element, polarization, tx, element, polarization, ...]
+                # [rx, element, polarization, tx, element, polarization, ...]
                 parts = parts.reshape(3, 1, 2, 2, 2, 2, *parts.shape[4:])
                 expected = np.einsum("reptEPmfc->" + ("rp" if name[0] == "r" else "tP"), parts).real
             elif name.startswith("material:"):

@@ -25,6 +25,7 @@ TORCH = all(importlib.util.find_spec(name) for name in ("torch", "torchvision"))
 if TORCH:
     import torch
 
+    from tasks.common.inputs import tensor
     from tasks.positioning import cache, cost, distillation, experiment, models, records, settings, training
 from tasks.positioning import floors
 
@@ -304,7 +305,7 @@ class Data(unittest.TestCase):
         np.testing.assert_allclose(np.expm1(np.abs(made.arrays["events"][i])), np.abs(voxels), rtol=0.01)
         self.assertEqual(made.arrays["lidar"].shape[1:], (2, 8, 16))
         self.assertGreater(made.arrays["lidar"][i].max(), 0)
-        batch = cache.batch_of(made.arrays, np.array([9, 2, 5]), ["rgb"])["rgb"]
+        batch = tensor(made.arrays["rgb"], np.array([9, 2, 5]))
         np.testing.assert_allclose(batch.numpy(), made.arrays["rgb"][[9, 2, 5]] / 255.0, atol=1e-6)
 
         with mock.patch.object(cache, "_make", side_effect=AssertionError("made again")):

@@ -16,11 +16,12 @@ import torch
 
 from tasks.common.command import Context, parser, start
 from tasks.common.files import write_whole
+from tasks.common.inputs import tensor
 from tasks.common.training import Fit
-from tasks.street import geometry, inputs, learning
+from tasks.street import beams, geometry, inputs, learning
 from tasks.street.drives import Drives, open_drives
 
-from . import baselines, labels, measures, outcome
+from . import baselines, measures, outcome
 from .settings import Settings
 
 FOLDER = pathlib.Path(__file__).resolve().parent
@@ -30,7 +31,7 @@ class Problem(NamedTuple):
     """All that methods are given, and the truth."""
 
     drives: Drives
-    beams: labels.Beams
+    beams: beams.Beams
     power: np.ndarray  #: [n, beam]
     best: np.ndarray  #: int64 [n]
     line_of_sight: np.ndarray  #: bool [n]
@@ -59,8 +60,8 @@ def prepare(data: pathlib.Path, config: Settings, out: pathlib.Path) -> Problem:
     """Reads the labels, and makes the inputs that are not there yet."""
     sensors = config.sensors
     drives = open_drives(data, [sensors.camera, sensors.lidar, sensors.channel], config.shares)
-    beams = labels.codebook_of(drives.sequences[0][sensors.channel], config.oversampling)
-    power = _powers(drives, sensors.channel, beams)
+    book = beams.codebook_of(drives.sequences[0][sensors.channel], config.oversampling)
+    power = beams.powers_of(drives, sensors.channel, book)
     sight = drives.gather(sensors.channel, "line_of_sight")[:, 0, 0] > 0
     makers = {
         "camera": inputs.camera(sensors.camera, config.inputs.camera_px),
@@ -71,15 +72,7 @@ def prepare(data: pathlib.Path, config: Settings, out: pathlib.Path) -> Problem:
     served = power.max(-1) > 0  # without any path no beam is the best one
     split = {name: items[served[items]] for name, items in drives.split().items()}
     split["test"] = split["test"][drives.order[split["test"]] >= max(config.delays)]
-    return Problem(drives, beams, power, power.argmax(-1), sight, arrays, split)
-
-
-def _powers(drives: Drives, channel: str, beams: labels.Beams) -> np.ndarray:
-    parts = []
-    for drive in range(len(drives.sequences)):
-        sensor, rows = drives.rows(drive, channel)
-        parts.append(labels.powers(np.asarray(sensor["cfr"])[rows], beams))
-    return np.concatenate(parts)
+    return Problem(drives, book, power, power.argmax(-1), sight, arrays, split)
 
 
 def score_baselines(problem: Problem, config: Settings) -> Dict[str, List[np.ndarray]]:
@@ -91,7 +84,7 @@ def score_baselines(problem: Problem, config: Settings) -> Dict[str, List[np.nda
         out[f"last sweep, {delay} ticks ago"] = baselines.last_sweep(power, problem.drives, test, delay)
     pictures = _coarse(problem.arrays["camera"])
     out["similar pictures"] = baselines.similar_pictures(pictures, power, train, test, config.neighbours)
-    out["true position"] = labels.free_space(direction, problem.beams)
+    out["true position"] = beams.free_space(direction, problem.beams)
     return {name: [score] for name, score in out.items()}
 
 
@@ -106,15 +99,13 @@ def _coarse(pictures: np.ndarray, rows: int = 16) -> np.ndarray:
     return out
 
 
-def mirrored(
-    batch: Dict[str, torch.Tensor], beams: labels.Beams, which: np.ndarray
-) -> Dict[str, torch.Tensor]:
+def mirrored(batch: Dict[str, torch.Tensor], book: beams.Beams, which: np.ndarray) -> Dict[str, torch.Tensor]:
     """Returns a batch of which some items, bool [n], are seen in a mirror: the cameras, the LiDAR and the
     panel look along one axis, so that right and left change places."""
     chosen = torch.from_numpy(which)
     out = {}
     for name, value in batch.items():
-        other = torch.from_numpy(beams.mirrored(value.numpy())) if name == "label" else value.flip(-1)
+        other = torch.from_numpy(book.mirrored(value.numpy())) if name == "label" else value.flip(-1)
         out[name] = torch.where(chosen.reshape(-1, *[1] * (value.dim() - 1)), other, value)
     return out
 
@@ -123,7 +114,7 @@ def score_network(problem: Problem, names: List[str], context: Context):
     """Trains a network for each seed, and returns its scores on the test items, and the trainings."""
 
     def gather(items: np.ndarray) -> Dict[str, torch.Tensor]:
-        return {name: inputs.tensor(problem.arrays[name], items) for name in names}
+        return {name: tensor(problem.arrays[name], items) for name in names}
 
     def change(batch: Dict[str, torch.Tensor], generator: np.random.Generator) -> Dict[str, torch.Tensor]:
         return mirrored(batch, problem.beams, generator.random(len(batch["label"])) < 0.5)
@@ -140,13 +131,13 @@ def score_network(problem: Problem, names: List[str], context: Context):
 
 def _notes(problem: Problem, context: Context, seconds: float, cpu: float) -> List[str]:
     split = problem.split
-    beams = np.bincount(
+    best = np.bincount(
         problem.best[np.concatenate(list(split.values()))], minlength=len(problem.beams.cosine)
     )
     return [
         *learning.notes(context, problem.drives.drive, split, seconds, cpu),
         f"A test item has {max(context.config.delays)} ticks before it in its drive.  ",
-        f"{len(beams)} beams, of which {np.count_nonzero(beams)} are the best one somewhere, and the most "
-        f"frequent one in {100 * beams.max() / beams.sum():.1f} % of the items; line of sight in "
+        f"{len(best)} beams, of which {np.count_nonzero(best)} are the best one somewhere, and the most "
+        f"frequent one in {100 * best.max() / best.sum():.1f} % of the items; line of sight in "
         f"{100 * problem.line_of_sight[split['test']].mean():.0f} % of the test items.  ",
     ]

@@ -10,9 +10,10 @@ import numpy as np
 
 from tasks.common import plots
 from tasks.common.command import Context
+from tasks.common.inputs import tensor
 from tasks.common.report import Table, write
 from tasks.common.statistics import Interval, bootstrap, mean, paired_difference, percentile
-from tasks.street import inputs, learning
+from tasks.street import learning
 from tasks.street.pictures import intervals
 
 from . import measures
@@ -53,7 +54,7 @@ def report(context: Context, problem: Any, ranks: Dict[str, np.ndarray], fits, n
     power = problem.power[test]
 
     def first(name: str):
-        return {m: inputs.tensor(problem.arrays[m], test[:1]) for m in name.split(" + ")}
+        return {m: tensor(problem.arrays[m], test[:1]) for m in name.split(" + ")}
 
     outcomes = {name: Outcome(rank, power, groups, config.draws) for name, rank in ranks.items()}
     tables = [

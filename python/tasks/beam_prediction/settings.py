@@ -7,7 +7,7 @@ import dataclasses
 from typing import Dict, List, Tuple
 
 from tasks.common.config import positive, shares
-from tasks.street.settings import Network, Training, check_parts
+from tasks.street.settings import Network, Training, check_networks
 
 MODALITIES = ("camera", "lidar")
 
@@ -46,8 +46,8 @@ class Settings:
     draws: int
 
     def __post_init__(self) -> None:
-        shares("shares", self.shares)
-        check_parts(self.shares, self.networks, MODALITIES)
+        shares(self.shares)
+        check_networks(self.networks, MODALITIES)
         positive(
             oversampling=self.oversampling,
             neighbours=self.neighbours,

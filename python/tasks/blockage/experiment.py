@@ -14,11 +14,11 @@ from typing import Dict, List, NamedTuple
 import numpy as np
 import torch
 
-from tasks.beam_prediction.labels import codebook_of, powers
 from tasks.common.command import Context, parser, start
 from tasks.common.files import write_whole
+from tasks.common.inputs import tensor
 from tasks.common.training import Fit
-from tasks.street import geometry, inputs, learning
+from tasks.street import beams, geometry, inputs, learning
 from tasks.street.drives import Drives, open_drives
 
 from . import baselines, labels, outcome
@@ -45,7 +45,7 @@ class Problem(NamedTuple):
         """Returns the inputs of the last `past` ticks, the oldest first, as channels."""
         out = {}
         for name in names:
-            ticks = [inputs.tensor(self.arrays[name], items - back) for back in range(self.past)[::-1]]
+            ticks = [tensor(self.arrays[name], items - back) for back in range(self.past)[::-1]]
             out[name] = torch.cat(ticks, 1)
         return out
 
@@ -73,7 +73,7 @@ def prepare(data: pathlib.Path, config: Settings, out: pathlib.Path) -> Problem:
     labels.check_steps(drives.tick, drives.drive)
     sight = drives.gather(sensors.channel, "line_of_sight")[:, 0, 0] > 0
     gain = drives.gather(sensors.channel, "path_gain")[:, 0, 0]
-    gain_db = np.maximum(10 * np.log10(np.maximum(gain, 1e-30)), FLOOR_DB)
+    gain_db = _gain_db(gain)
     first = np.concatenate(
         [labels.first_blockage(sight[drives.drive == d], most) for d in range(len(drives.sequences))]
     )
@@ -95,14 +95,14 @@ def prepare(data: pathlib.Path, config: Settings, out: pathlib.Path) -> Problem:
 
 def _beams_db(drives: Drives, channel: str, count: int) -> np.ndarray:
     """Returns the gains of `count` evenly spaced beams of the panel's codebook, dB, float32 [n, count]."""
-    beams = codebook_of(drives.sequences[0][channel], 1)
-    chosen = np.linspace(0, len(beams.cosine), min(count, len(beams.cosine)), endpoint=False).astype(int)
-    few = beams._replace(weights=beams.weights[chosen], cosine=beams.cosine[chosen])
-    parts = []
-    for drive in range(len(drives.sequences)):
-        sensor, rows = drives.rows(drive, channel)
-        parts.append(powers(np.asarray(sensor["cfr"])[rows], few))
-    return np.maximum(10 * np.log10(np.maximum(np.concatenate(parts), 1e-30)), FLOOR_DB).astype(np.float32)
+    book = beams.codebook_of(drives.sequences[0][channel], 1)
+    chosen = np.linspace(0, len(book.cosine), min(count, len(book.cosine)), endpoint=False).astype(int)
+    few = book._replace(weights=book.weights[chosen], cosine=book.cosine[chosen])
+    return _gain_db(beams.powers_of(drives, channel, few)).astype(np.float32)
+
+
+def _gain_db(gain: np.ndarray) -> np.ndarray:
+    return np.maximum(10 * np.log10(np.maximum(gain, 1e-30)), FLOOR_DB)
 
 
 def _scored(problem: Problem) -> np.ndarray:

@@ -10,7 +10,7 @@ import numpy as np
 
 from tasks.common import plots
 from tasks.common.statistics import Interval
-from tasks.street.pictures import intervals, mosaic
+from tasks.street.pictures import intervals
 
 from . import labels, measures
 
@@ -47,7 +47,7 @@ def timeline(path: pathlib.Path, problem: Any, scored: Dict[str, Any], config: A
     mine, onset = _drive_of_timeline(problem)
     tick, sight = problem.drives.tick[mine], problem.line_of_sight[mine]
     shown = np.clip(onset + np.array([-6, -3, -1, 1]), 0, len(mine) - 1)
-    with mosaic(path, [["e0", "e1", "e2", "e3"], ["p"] * 4, ["g"] * 4], [1, 2, 1.3]) as axes:
+    with plots.mosaic(path, [["e0", "e1", "e2", "e3"], ["p"] * 4, ["g"] * 4], [1, 2, 1.3]) as axes:
         for i, at in enumerate(shown):
             _draw_events(axes[f"e{i}"], problem.arrays["events"][mine[at]], f"events, tick {tick[at]}")
         for of, style in ((name, "-o"), ("true motion, straight on", ":")):

@@ -7,7 +7,7 @@ import dataclasses
 from typing import Dict, List, Tuple
 
 from tasks.common.config import positive, shares
-from tasks.street.settings import Network, Training, check_parts
+from tasks.street.settings import Network, Training, check_networks
 
 MODALITIES = ("power", "csi", "events", "radar")
 
@@ -51,8 +51,8 @@ class Settings:
     draws: int
 
     def __post_init__(self) -> None:
-        shares("shares", self.shares)
-        check_parts(self.shares, self.networks, MODALITIES)
+        shares(self.shares)
+        check_networks(self.networks, MODALITIES)
         positive(past=self.past, horizons=min(self.horizons, default=0), draws=self.draws)
         if self.horizons != sorted(set(self.horizons)):
             raise ValueError(f"horizons: expected different ticks in ascending order, found {self.horizons}")

@@ -187,10 +187,13 @@ def positive(**values: float) -> None:
             raise ValueError(f"{name}: expected more than 0, found {value}")
 
 
-def shares(name: str, values: Dict[str, float]) -> None:
-    """For the checks of a dataclass: raises ValueError unless the shares are positive and sum to 1."""
-    if not values or min(values.values()) <= 0 or abs(sum(values.values()) - 1) > 1e-9:
-        raise ValueError(f"{name}: expected positive shares that sum to 1, found {values}")
+def shares(values: Dict[str, float]) -> None:
+    """For the checks of a dataclass with a field `shares`: raises ValueError unless it has train, validation
+    and test, whose shares are positive and sum to 1."""
+    if sorted(values) != ["test", "train", "validation"]:
+        raise ValueError(f"shares: expected train, validation and test, found {list(values)}")
+    if min(values.values()) <= 0 or abs(sum(values.values()) - 1) > 1e-9:
+        raise ValueError(f"shares: expected positive shares that sum to 1, found {values}")
 
 
 def changed(now: Any, then: Any, name: str = "") -> Optional[Tuple[str, Any, Any]]:

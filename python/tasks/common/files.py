@@ -10,7 +10,7 @@ from typing import Any, Callable
 import numpy as np
 
 
-def write_whole(path: pathlib.Path, write: Callable[[pathlib.Path], None]) -> None:
+def write_whole(path: pathlib.Path, write: Callable[[pathlib.Path], Any]) -> None:
     """Lets `write` make a file beside `path`, and gives it its name when it is complete."""
     part = path.with_name(f"{path.stem}.part{path.suffix}")
     write(part)
@@ -19,7 +19,7 @@ def write_whole(path: pathlib.Path, write: Callable[[pathlib.Path], None]) -> No
 
 def write_text(path: pathlib.Path, text: str) -> None:
     """Writes a text file."""
-    write_whole(path, lambda part: part.write_text(text) and None)
+    write_whole(path, lambda part: part.write_text(text))
 
 
 def write_array(path: pathlib.Path, array: np.ndarray) -> None:

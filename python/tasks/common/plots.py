@@ -5,26 +5,41 @@ from __future__ import annotations
 
 import contextlib
 import pathlib
-from typing import Any, Dict, Iterator, Sequence, Tuple
+from typing import Any, Callable, ContextManager, Dict, Iterator, List, Sequence, Tuple
 
 import numpy as np
 
 from .files import write_whole
 
 
-@contextlib.contextmanager
-def figure(path: pathlib.Path, width_in: float = 6.4, height_in: float = 4.2, **grid: Any) -> Iterator[Any]:
+def figure(
+    path: pathlib.Path, width_in: float = 6.4, height_in: float = 4.2, **grid: Any
+) -> ContextManager[Any]:
     """Yields axes (or an array of them, by `grid` as plt.subplots takes it), and saves them as a picture."""
+    return _saved(path, 100, lambda plt: plt.subplots(figsize=(width_in, height_in), **grid))
+
+
+def mosaic(path: pathlib.Path, rows: List[List[str]], heights: List[float]) -> ContextManager[Dict[str, Any]]:
+    """Yields axes by name, laid out as `rows` name them with relative `heights`, and saves the picture."""
+    ratios = {"height_ratios": heights}
+    return _saved(path, 90, lambda plt: plt.subplot_mosaic(rows, figsize=(9, 6), gridspec_kw=ratios))
+
+
+@contextlib.contextmanager
+def _saved(path: pathlib.Path, dots_per_inch: int, make: Callable[[Any], Tuple[Any, Any]]) -> Iterator[Any]:
+    """Yields the axes that `make` makes with pyplot, and saves their figure."""
     import matplotlib
 
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    drawn, axes = pyplot.subplots(figsize=(width_in, height_in), **grid)
+    drawn, axes = make(pyplot)
     try:
         yield axes
         drawn.tight_layout()
-        write_whole(path, lambda part: drawn.savefig(part, dpi=100, metadata={"Software": "greatx"}))
+        write_whole(
+            path, lambda part: drawn.savefig(part, dpi=dots_per_inch, metadata={"Software": "greatx"})
+        )
     finally:
         pyplot.close(drawn)
 

@@ -8,7 +8,7 @@ the seeds of the trainings, both with replacement. The interval is that of the p
 """
 from __future__ import annotations
 
-from typing import Callable, Dict, Iterator, NamedTuple, Optional
+from typing import Callable, Dict, Iterator, List, NamedTuple, Optional
 
 import numpy as np
 
@@ -73,12 +73,7 @@ def bootstrap(
 
     groups  [n]: items with the same group (a trajectory, a place) are drawn together; None: each by itself
     """
-    table = _table(values)
-    drawn = [
-        statistic(table[rows][:, columns].ravel())
-        for rows, columns in _draws(table.shape, groups, draws, seed)
-    ]
-    return _interval(statistic(table.ravel()), drawn, level)
+    return _estimate([_table(values)], statistic, groups, draws, level, seed)
 
 
 def paired_difference(
@@ -97,17 +92,25 @@ def paired_difference(
     first, second = _table(a), _table(b)
     if first.shape != second.shape:
         raise ValueError(f"expected as many errors of both methods, found {first.shape} and {second.shape}")
+    return _estimate([first, second], lambda x, y: statistic(x) - statistic(y), groups, draws, level, seed)
+
+
+def _estimate(
+    tables: List[np.ndarray],
+    statistic: Callable[..., float],
+    groups: Optional[np.ndarray],
+    draws: int,
+    level: float,
+    seed: int,
+) -> Interval:
+    """Returns a statistic of tables of one shape [seeds, n], and its interval. A draw is the same for all."""
     drawn = [
-        statistic(first[rows][:, columns].ravel()) - statistic(second[rows][:, columns].ravel())
-        for rows, columns in _draws(first.shape, groups, draws, seed)
+        statistic(*(table[rows][:, columns].ravel() for table in tables))
+        for rows, columns in _draws(tables[0].shape, groups, draws, seed)
     ]
-    return _interval(statistic(first.ravel()) - statistic(second.ravel()), drawn, level)
-
-
-def _interval(value: float, drawn: list, level: float) -> Interval:
     outside = 50 * (1 - level)
     low, high = np.percentile(drawn, [outside, 100 - outside])
-    return Interval(float(value), float(low), float(high))
+    return Interval(float(statistic(*(table.ravel() for table in tables))), float(low), float(high))
 
 
 def error_summary(errors: np.ndarray, groups: Optional[np.ndarray] = None, **options) -> Dict[str, Interval]:

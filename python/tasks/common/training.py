@@ -25,6 +25,7 @@ from torch import nn
 from greatx.errors import Error
 
 from .files import write_text, write_torch
+from .progress import duration
 
 Batch = Dict[str, torch.Tensor]
 Rows = List[Dict[str, float]]
@@ -110,6 +111,24 @@ def fit(
     model.eval()
     return Fit(
         model, state.rows, sum(r["seconds"] for r in state.rows), sum(r["cpu_seconds"] for r in state.rows)
+    )
+
+
+def cosine_factor(epoch: int, epochs: int, warm_up: int = 0, last: float = 0.0) -> float:
+    """Returns the learning rate of an epoch (0, 1, ...) relative to the highest one: a linear rise over the
+    epochs of the warm-up, and half a cosine down to `last` (Z. Lu, J. Wang, J. Song, "Multi-resolution CSI
+    feedback with deep learning in massive MIMO system", IEEE ICC 2020, equation 6).
+    """
+    if epoch < warm_up:
+        return (epoch + 1) / (warm_up + 1)
+    done = (epoch - warm_up) / max(epochs - warm_up, 1)
+    return last + (1 - last) * (1 + math.cos(math.pi * min(done, 1.0))) / 2
+
+
+def warmed_cosine(optimizer: torch.optim.Optimizer, epochs: int, warm_up: int = 0, last: float = 0.0) -> Any:
+    """Returns a scheduler by cosine_factor, for fit()."""
+    return torch.optim.lr_scheduler.LambdaLR(
+        optimizer, lambda epoch: cosine_factor(epoch, epochs, warm_up, last)
     )
 
 
@@ -239,10 +258,3 @@ class _Progress:
     def end(self, done: int) -> None:
         if self.terminal and done > self.first:
             print()
-
-
-def duration(seconds: float) -> str:
-    """Returns a time for people: 42 s, 7 min, 2.5 h."""
-    if seconds < 100:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"

@@ -19,13 +19,14 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import os
 import pathlib
 from typing import Any, Dict
 
 import numpy as np
 
 from greatx.errors import Error
+
+from ..common.files import write_array, write_text
 
 FORMAT = "greatx-csi-set"
 VERSION = 1
@@ -63,11 +64,9 @@ def save(folder: pathlib.Path, channels: ChannelSet) -> None:
     """Writes a channel set. set.json comes last, so that a folder with it is whole."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, dtype in (("channels", np.complex64), ("position_m", np.float64), ("outside", np.float32)):
-        np.save(folder / f"{name}.npy", getattr(channels, name).astype(dtype))
+        write_array(folder / f"{name}.npy", getattr(channels, name).astype(dtype))
     facts = {"format": FORMAT, "format_version": VERSION, **channels.facts}
-    part = folder / "set.part.json"
-    part.write_text(json.dumps(facts, indent=1) + "\n")
-    os.replace(part, folder / "set.json")
+    write_text(folder / "set.json", json.dumps(facts, indent=1) + "\n")
 
 
 def load(folder: pathlib.Path) -> ChannelSet:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 import pathlib
 from typing import Any, Dict, Iterable, Optional, Tuple
 
@@ -13,7 +12,7 @@ import torch
 from torch import nn
 
 from ..common.config import positive
-from ..common.training import Fit, fit
+from ..common.training import Fit, fit, warmed_cosine
 from .floors import unit
 from .models import Autoencoder
 from .transforms import images, matrices
@@ -39,16 +38,6 @@ class Training:
         positive(epochs=self.epochs, batch=self.batch, rate=self.rate, dense_rate=self.dense_rate)
         if not 0 <= self.warm_up < self.epochs:
             raise ValueError(f"warm_up: expected 0 to {self.epochs - 1} epochs, found {self.warm_up}")
-
-
-def rate_factor(training: Training, epoch: int) -> float:
-    """Returns the learning rate of an epoch (0, 1, ...) relative to `rate`: a linear rise over the epochs of
-    the warm-up, and half a cosine down to `final_rate` (Z. Lu, J. Wang, J. Song, 2020, equation 6)."""
-    if epoch < training.warm_up:
-        return (epoch + 1) / (training.warm_up + 1)
-    low = training.final_rate / training.rate
-    done = (epoch - training.warm_up) / max(training.epochs - training.warm_up, 1)
-    return low + (1 - low) * (1 + math.cos(math.pi * done)) / 2
 
 
 def train(
@@ -95,8 +84,8 @@ def train(
         validate,
         epochs=training.epochs,
         optimizer=lambda _: _optimizer(model, training),
-        scheduler=lambda optimizer: torch.optim.lr_scheduler.LambdaLR(
-            optimizer, lambda epoch: rate_factor(training, epoch)
+        scheduler=lambda o: warmed_cosine(
+            o, training.epochs, training.warm_up, training.final_rate / training.rate
         ),
         seed=seed,
         device=device,

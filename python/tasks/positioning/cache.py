@@ -11,22 +11,22 @@ from __future__ import annotations
 import dataclasses
 import json
 import pathlib
-import time
-from typing import Any, Callable, Dict, List, Optional
+from typing import Any, Callable, Dict, Optional
 
 import numpy as np
 
 import greatx
-from greatx import inputs, links
+from greatx import inputs, links, precoding
 from greatx.errors import Error
+from tasks.common.data import Opened
 from tasks.common.files import write_text
-from tasks.common.training import duration
+from tasks.common.inputs import GLARE
+from tasks.common.progress import Countdown
 
-from .records import Opened, Records
+from .records import Records
 from .settings import Inputs
 
 PROVENANCE = "provenance.json"
-BOLTZMANN, ROOM_K = 1.380649e-23, 290.0
 
 
 @dataclasses.dataclass
@@ -84,7 +84,7 @@ def beams_of(opened: Opened, records: Records) -> int:
 
 def _make(folder: pathlib.Path, opened: Opened, records: Records, settings: Inputs, beams: int) -> float:
     folder.mkdir(parents=True, exist_ok=True)
-    began = shown = time.perf_counter()
+    countdown = Countdown("inputs", len(records))
     shapes = settings.shapes(beams)
     arrays = {
         m: np.lib.format.open_memmap(
@@ -98,14 +98,10 @@ def _make(folder: pathlib.Path, opened: Opened, records: Records, settings: Inpu
         for k, name in enumerate(records.modalities):
             if records.present[i, k]:
                 arrays[name][i] = MAKERS[name](tick[sensors[name]], settings, i)
-        now = time.perf_counter()
-        if now - shown > 10:
-            shown = now
-            left = (now - began) / (i + 1) * (len(records) - i - 1)
-            print(f"inputs: {i + 1} of {len(records)} records, {duration(left)} left", flush=True)
+        countdown.show(i + 1)
     for array in arrays.values():
         array.flush()
-    return time.perf_counter() - began
+    return countdown.seconds
 
 
 def _tick(opened: Opened, records: Records, i: int) -> "greatx.Tick":
@@ -118,9 +114,8 @@ def channel_noise(spacing_hz: float, subcarriers: int, power_dbm: float, noise_f
     """Returns the standard deviation of the error of an estimated channel coefficient, with thermal noise k T
     B F in each subcarrier and the power spread evenly over all of them.
     """
-    noise_w = BOLTZMANN * ROOM_K * spacing_hz * 10 ** (noise_figure_db / 10)
     pilot_w = 10 ** ((power_dbm - 30) / 10) / subcarriers
-    return float(np.sqrt(noise_w / pilot_w))
+    return float(np.sqrt(precoding.noise_w(spacing_hz, noise_figure_db) / pilot_w))
 
 
 def _csi(record: "greatx.Record", settings: Inputs, i: int) -> np.ndarray:
@@ -149,7 +144,7 @@ def _lidar(record: "greatx.Record", settings: Inputs, i: int) -> np.ndarray:
     image = inputs.lidar_map(record["points"], meta, (rows, settings.lidar_columns))
     # Of a LiDAR with fewer channels than rows, each channel is several rows.
     image = image[:, np.arange(settings.lidar_rows) * rows // settings.lidar_rows]
-    return np.minimum(image, 2.0)  # glare
+    return np.minimum(image, GLARE)
 
 
 def _radar(record: "greatx.Record", settings: Inputs, i: int) -> np.ndarray:
@@ -171,17 +166,3 @@ MAKERS: Dict[str, Callable[[Any, Inputs, int], np.ndarray]] = {
     "radar": _radar,
     "events": _events,
 }
-
-
-def batch_of(arrays: Dict[str, np.ndarray], rows: np.ndarray, names: List[str]) -> Dict[str, Any]:
-    """Returns float32 tensors [rows, channels, height, width] by modality; pictures from 0 to 1."""
-    import torch
-
-    out = {}
-    order = np.argsort(rows)  # a memory map is read in order
-    back = np.argsort(order)
-    for name in names:
-        value = np.asarray(arrays[name][rows[order]])[back]
-        scale = 1 / 255 if value.dtype == np.uint8 else 1
-        out[name] = torch.from_numpy(value.astype(np.float32) * np.float32(scale))
-    return out

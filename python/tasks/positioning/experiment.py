@@ -19,7 +19,7 @@ import torch
 
 import greatx
 from tasks.common.command import Context, machine, parser, start
-from tasks.common.training import duration
+from tasks.common.progress import duration
 
 from . import cost, results
 from .cache import Cached, cached

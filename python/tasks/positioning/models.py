@@ -3,7 +3,7 @@
 """The network: an encoder for each modality, attention over those that are there, a head to coordinates."""
 from __future__ import annotations
 
-from typing import Dict, NamedTuple, Optional, Sequence
+from typing import Dict, NamedTuple, Optional
 
 import torch
 from torch import nn
@@ -128,8 +128,3 @@ def drop_modalities(present: torch.Tensor, probability: float) -> torch.Tensor:
         chosen = torch.rand(present.shape).masked_fill(~present.cpu(), -1.0).argmax(1)
         kept[lost] = nn.functional.one_hot(chosen[lost], present.shape[1]).bool()
     return kept.to(present.device)
-
-
-def only(names: Sequence[str], modalities: Sequence[str]) -> torch.Tensor:
-    """Returns bool [modalities]: which of them are among `names`."""
-    return torch.tensor([name in names for name in modalities])

@@ -7,8 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
-import pathlib
-from typing import Dict, Iterator, List, Optional, Tuple, Union
+from typing import Dict, List, Optional
 
 import numpy as np
 
@@ -16,11 +15,9 @@ import greatx
 from greatx import links
 from greatx.errors import Error
 from tasks.common import splits
+from tasks.common.data import PARTS, Opened, fingerprint, sequences_of
 
 from .settings import MODALITIES, Split
-
-Opened = Union[greatx.Dataset, "greatx.Campaign"]
-PARTS = ("train", "validation", "test")
 
 
 @dataclasses.dataclass
@@ -77,18 +74,17 @@ def find(opened: Opened, wanted: List[str]) -> Records:
     parts: List[Dict[str, np.ndarray]] = []
     cells, sensors, hashes = [], [], hashlib.sha256()
     own = isinstance(opened, greatx.Campaign)
-    for cell, dataset, numbers in _cells(opened):
-        found = _sensors(dataset, wanted)
-        hashes.update(f"{cell} {_fingerprint(dataset)}\n".encode())
-        for index, part in numbers:
-            rows = _sequence(dataset.sequences[index], found, wanted)
-            count = len(rows["tick"])
-            rows["cell"] = np.full(count, len(cells))
-            rows["sequence"] = np.full(count, index)
-            rows["part"] = np.full(count, -1 if part is None else PARTS.index(part))
-            parts.append(rows)
-        cells.append(cell)
-        sensors.append(found)
+    for cell, dataset, index, part in sequences_of(opened):
+        if cell not in cells:
+            cells.append(cell)
+            sensors.append(_sensors(dataset, wanted))
+            hashes.update(f"{cell} {fingerprint(dataset)}\n".encode())
+        rows = _sequence(dataset.sequences[index], sensors[-1], wanted)
+        count = len(rows["tick"])
+        rows["cell"] = np.full(count, len(cells) - 1)
+        rows["sequence"] = np.full(count, index)
+        rows["part"] = np.full(count, -1 if part is None else PARTS.index(part))
+        parts.append(rows)
     joined = {name: np.concatenate([rows[name] for rows in parts]) for name in parts[0] if name != "flight"}
     flights: Dict[bytes, int] = {}
     number = [flights.setdefault(rows["flight"].tobytes(), len(flights)) for rows in parts]
@@ -107,30 +103,14 @@ def find(opened: Opened, wanted: List[str]) -> Records:
     )
 
 
-def _cells(opened: Opened) -> Iterator[Tuple[str, greatx.Dataset, List[Tuple[int, Optional[str]]]]]:
-    """Yields name, data set, and (index of a sequence, its part) of each cell."""
-    if not isinstance(opened, greatx.Campaign):
-        yield "", opened, [(i, None) for i in range(len(opened.sequences))]
-        return
-    for cell in opened.cells:
-        dataset = opened[cell]
-        index = {sequence.number: i for i, sequence in enumerate(dataset.sequences)}
-        numbers = [
-            (index[number], part)
-            for part in PARTS
-            for number in opened.sequences(cell, part)
-            if number in index
-        ]
-        yield cell, dataset, sorted(numbers)
-
-
 def _sensors(dataset: greatx.Dataset, wanted: List[str]) -> Dict[str, str]:
     """Returns the sensor of each modality: the first channel, and the first sensors of their kinds at the
     node of its first receiver.
     """
     sequence = dataset.sequences[0]
     channel = sequence.first("csi", ["cfr"])
-    node = _node(sequence, channel)
+    poses = sequence.poses
+    node = poses.metadata["nodes"][links.node_of(poses, links.receivers(channel)[0])]
     out = {}
     for name in wanted:
         kind = MODALITIES[name]
@@ -140,15 +120,6 @@ def _sensors(dataset: greatx.Dataset, wanted: List[str]) -> Dict[str, str]:
                 out[name] = sensor.name
                 break
     return out
-
-
-def _node(sequence: "greatx.Sequence", channel: "greatx.Sensor") -> str:
-    receiver = links.receivers(channel)[0]["name"]
-    nodes = sequence.poses.metadata["nodes"]
-    found = [n for n in sorted(nodes, key=len, reverse=True) if receiver.startswith(n + "/")]
-    if not found:
-        raise Error(f"{sequence.dataset.path}: the receiver {receiver!r} is at no node of the poses")
-    return found[0]
 
 
 def _has(sensor: "greatx.Sensor", modality: str) -> bool:
@@ -163,7 +134,7 @@ def _sequence(
 ) -> Dict[str, np.ndarray]:
     channel = sequence[sensors["csi"]]
     poses = sequence.poses
-    node = poses.metadata["nodes"].index(_node(sequence, channel))
+    node = links.node_of(poses, links.receivers(channel)[0])
     ticks = channel.ticks
     rows = np.searchsorted(poses.ticks, ticks)
     position = np.asarray(poses.position[:][rows, node], np.float64)
@@ -178,13 +149,3 @@ def _sequence(
         "line_of_sight": np.asarray(channel["line_of_sight"][:])[:, 0, 0] > 0,
         "flight": position,
     }
-
-
-def _fingerprint(dataset: greatx.Dataset) -> str:
-    """Returns a hash of the data set's contents: that of its manifest, or of its description if it is not
-    finished."""
-    for name in ("manifest.json", "dataset.json"):
-        path = pathlib.Path(dataset.path) / name
-        if path.is_file():
-            return hashlib.sha256(path.read_bytes()).hexdigest()
-    raise Error(f"{dataset.path}: expected a data set, found no dataset.json")

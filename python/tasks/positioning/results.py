@@ -12,7 +12,7 @@ from tasks.common.command import Context
 from tasks.common.models import macs, parameters
 from tasks.common.report import Table
 from tasks.common.statistics import error_summary, mean, paired_difference, percentile
-from tasks.common.training import duration
+from tasks.common.progress import duration
 
 from .cache import Cached
 from .cost import random_inputs

@@ -6,15 +6,15 @@ from __future__ import annotations
 import dataclasses
 import math
 import pathlib
-from typing import Any, Dict, Iterable, List, Optional, Tuple
+from typing import Dict, Iterable, List, Optional, Tuple
 
 import numpy as np
 import torch
 from torch.nn.functional import mse_loss
 
-from tasks.common.training import Fit, fit, shuffled
+from tasks.common.inputs import tensor
+from tasks.common.training import Fit, fit, shuffled, warmed_cosine
 
-from .cache import batch_of
 from .distillation import Frame, Targets, random_phase, student_loss, teacher_loss
 from .models import Positioner, drop_modalities
 from .settings import STUDENT, Config, Training
@@ -52,7 +52,7 @@ def _batches(data: Data, names: List[str], training: Training, targets: Optional
     def batches(generator: np.random.Generator) -> Iterable[Dict[str, torch.Tensor]]:
         for at in shuffled(np.arange(len(rows)), training.batch, generator):
             items = rows[at]
-            batch = batch_of(data.arrays, items, names)
+            batch = {name: tensor(data.arrays[name], items) for name in names}
             if data.config.random_phase and STUDENT in names:
                 phase = generator.uniform(0, 2 * math.pi, len(items))
                 batch[STUDENT] = random_phase(batch[STUDENT], torch.from_numpy(phase).float())
@@ -74,8 +74,7 @@ def encoded(model: Positioner, data: Data, rows: np.ndarray) -> Tuple[torch.Tens
     with torch.no_grad():
         for first in range(0, len(rows), ASKED):
             items = rows[first : first + ASKED]
-            batch = batch_of(data.arrays, items, model.modalities)
-            inputs = {name: value.to(data.device) for name, value in batch.items()}
+            inputs = {name: tensor(data.arrays[name], items).to(data.device) for name in model.modalities}
             out.append(model.encode(inputs, data.present[items][:, columns].to(data.device)))
     return torch.cat(out), data.present[rows][:, columns].to(data.device)
 
@@ -105,16 +104,6 @@ def _fit(
     def optimizer(parameters):
         return torch.optim.AdamW(parameters, lr=training.learning_rate, weight_decay=training.weight_decay)
 
-    def scheduler(optimizer: Any):
-        def factor(epoch: int) -> float:
-            """A linear rise, then half a cosine to zero."""
-            if epoch < training.warm_up:
-                return (epoch + 1) / (training.warm_up + 1)
-            done = (epoch - training.warm_up) / max(1, training.epochs - training.warm_up)
-            return 0.5 * (1 + math.cos(math.pi * min(done, 1.0)))
-
-        return torch.optim.lr_scheduler.LambdaLR(optimizer, factor)
-
     return fit(
         folder,
         model,
@@ -123,7 +112,7 @@ def _fit(
         _validation(data),
         epochs=training.epochs,
         optimizer=optimizer,
-        scheduler=scheduler,
+        scheduler=lambda o: warmed_cosine(o, training.epochs, training.warm_up),
         device=data.device,
         tensorboard=data.tensorboard,
         **names,

@@ -10,15 +10,14 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import pathlib
-from typing import Any, Dict, Iterator, List, Sequence, Tuple
+from typing import Any, Dict, List, Sequence, Tuple
 
 import numpy as np
 
 import greatx
 from greatx.errors import Error
+from tasks.common.data import PARTS, fingerprint, sequences_of
 from tasks.common.splits import by_trajectory
-
-PARTS = ("train", "validation", "test")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -61,18 +60,21 @@ def open_drives(path: pathlib.Path, sensors: Sequence[str], shares: Dict[str, fl
     """Returns the drives of a campaign's folder, with its own split, or of a data set, which is split by
     `shares` of its trajectories. Raises Error if a sensor is missing or a part has no drive.
     """
-    opened = greatx.load(path)
-    listed = list(
-        _of_campaign(opened) if isinstance(opened, greatx.Campaign) else _of_dataset(opened, shares)
-    )
-    cells = list(dict.fromkeys(cell for cell, _, _ in listed))
+    listed = list(sequences_of(greatx.load(path)))
+    own = {}
+    if any(found.part is None for found in listed):
+        own = by_trajectory(np.arange(len(listed)), {name: shares[name] for name in PARTS})
+    cells = list(dict.fromkeys(found.cell for found in listed))
+    sequences = [found.dataset.sequences[found.index] for found in listed]
     trajectories: Dict[Tuple[int, int], int] = {}
     columns: Dict[str, List[np.ndarray]] = {name: [] for name in ("cell", "trajectory", "part", "tick")}
     drive, order = [], []
-    for number, (cell, sequence, part) in enumerate(listed):
+    for number, (found, sequence) in enumerate(zip(listed, sequences)):
         ticks = _common_ticks(sequence, sensors)
         identity = (int(sequence.dataset.run["seed"]), sequence.number)
-        values = (cells.index(cell), trajectories.setdefault(identity, len(trajectories)), part)
+        part = found.part or next(name for name in PARTS if number in own[name])
+        trajectory = trajectories.setdefault(identity, len(trajectories))
+        values = (cells.index(found.cell), trajectory, PARTS.index(part))
         for name, value in zip(columns, values):
             columns[name].append(np.full(len(ticks), value))
         columns["tick"].append(ticks)
@@ -84,26 +86,13 @@ def open_drives(path: pathlib.Path, sensors: Sequence[str], shares: Dict[str, fl
             raise Error(f"{path}: no drive fell to {name!r}: expected more drives, or larger shares")
     return Drives(
         path=pathlib.Path(path),
-        sequences=[sequence for _, sequence, _ in listed],
+        sequences=sequences,
         cells=cells,
         drive=np.concatenate(drive),
         order=np.concatenate(order),
-        fingerprint=_fingerprint({sequence.dataset.path for _, sequence, _ in listed}),
+        fingerprint=_fingerprint({found.dataset.path: found.dataset for found in listed}),
         **joined,
     )
-
-
-def _of_campaign(campaign: Any) -> Iterator[Tuple[str, Any, int]]:
-    for cell in campaign.cells:
-        for number in campaign.sequences(cell):
-            part = next(i for i, name in enumerate(PARTS) if number in campaign.sequences(cell, name))
-            yield cell, campaign[cell].sequences[number], part
-
-
-def _of_dataset(dataset: Any, shares: Dict[str, float]) -> Iterator[Tuple[str, Any, int]]:
-    split = by_trajectory(np.arange(len(dataset.sequences)), {name: shares[name] for name in PARTS})
-    for i, sequence in enumerate(dataset.sequences):
-        yield "", sequence, next(p for p, name in enumerate(PARTS) if i in split[name])
 
 
 def _common_ticks(sequence: Any, sensors: Sequence[str]) -> np.ndarray:
@@ -120,8 +109,5 @@ def _common_ticks(sequence: Any, sensors: Sequence[str]) -> np.ndarray:
     return ticks
 
 
-def _fingerprint(folders) -> str:
-    digest = hashlib.sha256()
-    for folder in sorted(folders):
-        digest.update((folder / "manifest.json").read_bytes())
-    return digest.hexdigest()
+def _fingerprint(datasets: Dict[pathlib.Path, greatx.Dataset]) -> str:
+    return hashlib.sha256("".join(map(fingerprint, datasets.values())).encode()).hexdigest()

@@ -50,7 +50,7 @@ def ends(drives: Drives, channel: str) -> Ends:
         position, turn, velocity = _poses(poses, rows)
         placed = []
         for antenna in (links.transmitters(sensor)[0], links.receivers(sensor)[0]):
-            node = _node(poses.metadata["nodes"], antenna["name"])
+            node = links.node_of(poses, antenna)
             mount = antenna["body_from_antenna"]
             at = position[:, node] + turn[:, node] @ np.array(mount["position_m"])
             placed.append((at, turn[:, node] @ links.rotation(mount["orientation_wxyz"]), velocity[:, node]))
@@ -61,8 +61,8 @@ def ends(drives: Drives, channel: str) -> Ends:
 def receiver_node(drives: Drives, channel: str) -> str:
     """Returns the name of the node that carries the channel's first receiver."""
     sensor, _ = drives.rows(0, channel)
-    nodes = drives.rows(0, "poses")[0].metadata["nodes"]
-    return nodes[_node(nodes, links.receivers(sensor)[0]["name"])]
+    poses, _ = drives.rows(0, "poses")
+    return poses.metadata["nodes"][links.node_of(poses, links.receivers(sensor)[0])]
 
 
 def _poses(poses: Any, rows: np.ndarray):
@@ -71,11 +71,6 @@ def _poses(poses: Any, rows: np.ndarray):
         links.rotation(np.asarray(poses["orientation"])[rows]),
         np.asarray(poses["velocity"])[rows],
     )
-
-
-def _node(nodes: List[str], antenna: str) -> int:
-    """Returns the number of the node that carries an antenna, NODE/SENSOR."""
-    return nodes.index(max((n for n in nodes if antenna.startswith(n + "/")), key=len))
 
 
 def bodies(drives: Drives) -> List[Body]:

@@ -10,24 +10,20 @@ from __future__ import annotations
 import json
 import os
 import pathlib
-import time
 from typing import Any, Callable, Dict, Tuple
 
 import numpy as np
-import torch
 
 import greatx
 from greatx import inputs
 from tasks.common.files import write_text
-from tasks.common.training import duration
+from tasks.common.inputs import GLARE
+from tasks.common.progress import Countdown
 
 from .drives import Drives
 
 Make = Callable[[Any], np.ndarray]  #: the input of a record of a sensor
 Maker = Tuple[str, np.dtype, Make]  #: sensor, type of the array, function
-
-#: Intensities beyond this are glare (docs/lidar.md).
-_GLARE = 2.0
 
 
 def camera(sensor: str, size: Tuple[int, int]) -> Maker:
@@ -40,7 +36,7 @@ def lidar(sensor: str, size: Tuple[int, int]) -> Maker:
 
     def make(record: Any) -> np.ndarray:
         image = inputs.lidar_map(record["points"], record.sensor.metadata, tuple(size))
-        return np.minimum(image, _GLARE)
+        return np.minimum(image, GLARE)
 
     return sensor, np.dtype(np.float16), make
 
@@ -98,7 +94,7 @@ def cached(
 
 def _make(path: pathlib.Path, name: str, drives: Drives, maker: Maker) -> None:
     sensor, dtype, make = maker
-    began = shown = time.perf_counter()
+    countdown = Countdown(f"inputs of {name}", len(drives))
     array, done = None, 0
     for drive in range(len(drives.sequences)):
         found, rows = drives.rows(drive, sensor)
@@ -108,16 +104,5 @@ def _make(path: pathlib.Path, name: str, drives: Drives, maker: Maker) -> None:
                 array = np.lib.format.open_memmap(path, "w+", dtype, (len(drives), *value.shape))
             array[done] = value
             done += 1
-        now = time.perf_counter()
-        if now - shown > 10:
-            shown = now
-            left = (now - began) / done * (len(drives) - done)
-            print(f"inputs of {name}: {done} of {len(drives)}, {duration(left)} left", flush=True)
+        countdown.show(done)
     array.flush()
-
-
-def tensor(array: np.ndarray, items: np.ndarray) -> torch.Tensor:
-    """Returns the inputs of some items, float32; pictures from 0 to 1."""
-    value = np.asarray(array[items])
-    scale = np.float32(1 / 255 if value.dtype == np.uint8 else 1)
-    return torch.from_numpy(value.astype(np.float32) * scale)

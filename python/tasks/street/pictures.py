@@ -1,14 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures that both tasks draw."""
+"""The picture that both tasks draw."""
 from __future__ import annotations
 
-import contextlib
 import pathlib
-from typing import Any, Dict, Iterator, List, Sequence
+from typing import Dict, Sequence
 
 from tasks.common import plots
-from tasks.common.files import write_whole
 from tasks.common.statistics import Interval
 
 
@@ -44,20 +42,3 @@ def intervals(
         axes.grid(alpha=0.3)
         if curves:
             axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.01, 0.5))
-
-
-@contextlib.contextmanager
-def mosaic(path: pathlib.Path, rows: List[List[str]], heights: List[float]) -> Iterator[Dict[str, Any]]:
-    """Yields axes by name, laid out as `rows` name them with relative `heights`, and saves the picture."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
-    figure, axes = pyplot.subplot_mosaic(rows, figsize=(9, 6), gridspec_kw={"height_ratios": heights})
-    try:
-        yield axes
-        figure.tight_layout()
-        write_whole(path, lambda part: figure.savefig(part, dpi=90, metadata={"Software": "greatx"}))
-    finally:
-        pyplot.close(figure)

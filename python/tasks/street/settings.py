@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Dict, List, Sequence
+from typing import List, Sequence
 
 from tasks.common.config import positive
 
@@ -41,10 +41,8 @@ class Training:
             raise ValueError(f"weight_decay: expected 0 or more, found {self.weight_decay}")
 
 
-def check_parts(shares: Dict[str, float], networks: Sequence[Sequence[str]], known: Sequence[str]) -> None:
-    """For the checks of a dataclass: raises ValueError for other parts than three, or unknown modalities."""
-    if sorted(shares) != ["test", "train", "validation"]:
-        raise ValueError(f"shares: expected train, validation and test, found {list(shares)}")
+def check_networks(networks: Sequence[Sequence[str]], known: Sequence[str]) -> None:
+    """For the checks of a dataclass: raises ValueError for networks with unknown modalities, or with none."""
     for names in networks:
         if not names or any(name not in known for name in names) or len(set(names)) < len(names):
             raise ValueError(f"networks: expected lists of {', '.join(known)}, found {list(names)}")

@@ -15,6 +15,8 @@ import numpy as np
 from greatx import links, precoding
 from greatx.errors import Error
 
+from .drives import Drives
+
 
 class Beams(NamedTuple):
     """The codebook."""
@@ -58,6 +60,15 @@ def powers(cfr: np.ndarray, beams: Beams) -> np.ndarray:
     """
     h = precoding.matrices(cfr)[..., :1, :, :]  # [n, time, subcarrier, rx, rx_ant, tx_ant]
     return precoding.beam_gains(h, beams.weights).mean(axis=(1, 2))[:, 0]
+
+
+def powers_of(drives: Drives, channel: str, beams: Beams) -> np.ndarray:
+    """Returns powers() of a channel at all items, [n, beam]. It reads drive by drive."""
+    parts = []
+    for drive in range(len(drives.sequences)):
+        sensor, rows = drives.rows(drive, channel)
+        parts.append(powers(np.asarray(sensor["cfr"])[rows], beams))
+    return np.concatenate(parts)
 
 
 def free_space(direction: np.ndarray, beams: Beams) -> np.ndarray:
