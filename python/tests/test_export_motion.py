@@ -21,7 +21,8 @@ from greatx.convert.dsec.truth import disparity, optical_flow, rectified_picture
 from greatx.convert.optics import COEFFICIENTS, Lens, lens_of
 from greatx.convert.png import encode_png
 from greatx.convert.poses import Pose, optical_pose
-from greatx.convert.trajectories import write_euroc, write_tum
+from greatx.convert.euroc import write_euroc
+from greatx.convert.trajectories import write_tum
 from greatx.frames import read_png
 from greatx.links import rotation
 

@@ -60,6 +60,10 @@ SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz, Patt
 void parse_pinhole(const FieldMap& map, PinholeConfig& camera);
 CameraConfig parse_camera(const FieldMap& map);
 EventCameraConfig parse_event_camera(const FieldMap& map, const Rational& rate_hz);
+ImuConfig parse_imu(const FieldMap& map);
+GnssConfig parse_gnss(const FieldMap& map);
+BarometerConfig parse_barometer(const FieldMap& map);
+MagnetometerConfig parse_magnetometer(const FieldMap& map);
 LidarConfig parse_lidar(const FieldMap& map, const Rational& rate_hz);
 /// The keys of an antenna, without those that every sensor has.
 extern const Keys antenna_keys;
