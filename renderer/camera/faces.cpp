@@ -93,8 +93,8 @@ struct FaceTable::Builder {
     return {-focal.x * glm::dot(axes[1], d) / forward, -focal.y * glm::dot(axes[2], d) / forward};
   }
 
-  /// Returns the place of the neighbour one pixel to the right or down. Where the lens shows nothing, the step
-  /// is that from the neighbour on the other side.
+  /// Returns the place of the neighbour one pixel to the right or down. Where the lens shows nothing, the
+  /// step is that from the neighbour on the other side.
   dvec2 next_place(const dmat3& axes, uint32_t column, uint32_t row, bool right, const dvec2& own) const {
     const auto usable = [&](const dvec3& d) { return shown(d) && glm::dot(axes[0], in_sensor(d)) > 0.1; };
     const dvec3 next = direction(column + (right ? 1 : 0), row + (right ? 0 : 1));

@@ -58,8 +58,8 @@ struct LensBounds {
   dvec2 least{0.0}, most{0.0};
 };
 
-/// Represents a pinhole camera's lens over a whole picture. Every result is exact to `tolerance` in normalised coordinates
-/// before it is rounded.
+/// Represents a pinhole camera's lens over a whole picture. Every result is exact to `tolerance` in
+/// normalised coordinates before it is rounded.
 class Lens {
  public:
   /// An inverse counts as found at this step of Newton's iteration.

@@ -23,7 +23,7 @@ enum class LensModel : uint32_t { pinhole, fisheye, equirectangular };
 ///   t_d = t (1 + k1 t^2 + k2 t^4 + k3 t^6 + k4 t^8),   u = cx + fx t_d X / r,   v = cy + fy t_d Y / r.
 ///
 /// Equirectangular: u = cx + fx a and v = cy - fy e, with the azimuth a = atan2(X, Z) from -pi to pi and the
-/// elevation e = atan2(-Y, |(X, Z)|). The whole sphere fills the picture: fx = width / 2 pi, fy = height / pi.
+/// elevation e = atan2(-Y, |(X, Z)|). The sphere fills the picture: fx = width / 2 pi, fy = height / pi.
 struct WideLens {
   LensModel model = LensModel::pinhole;
   double k1 = 0.0, k2 = 0.0, k3 = 0.0, k4 = 0.0;  ///< fisheye

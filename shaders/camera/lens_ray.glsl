@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Computes the rays of a camera's pixels, with or without a lens that distorts, and the places of these
-// pixels in the pinhole picture. With several views (renderer/camera/faces.h), an invocation handles one pixel
-// of the view's list.
+// pixels in the pinhole picture. With several views (renderer/camera/faces.h), an invocation handles one
+// pixel of the view's list.
 #ifndef GREATX_CAMERA_LENS_RAY_GLSL
 #define GREATX_CAMERA_LENS_RAY_GLSL
 #include "camera/effects.glsl"
