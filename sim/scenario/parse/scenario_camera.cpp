@@ -111,12 +111,9 @@ SensorNoise parse_noise(const Field& field) {
 /// Fails where an effect does not work behind a fisheye or an equirectangular lens, or with a rolling
 /// shutter.
 void check_lens_and_shutter(const FieldMap& map, const CameraConfig& camera) {
-  if (camera.wide.any()) {
-    if (camera.boxes) map.find("outputs")->fail("no 'boxes' behind a fisheye or an equirectangular lens");
-    if (camera.vignetting.natural)
-      map.find("vignetting")
-          ->fail("a radial vignetting, for 'natural' is that of a pinhole camera", "'natural' beside a lens");
-  }
+  if (camera.wide.any() && camera.vignetting.natural)
+    map.find("vignetting")
+        ->fail("a radial vignetting, for 'natural' is that of a pinhole camera", "'natural' beside a lens");
   if (!camera.rolling.any()) return;
   if (camera.motion_blur_samples > 0)
     map.find("motion_blur_samples")->fail("none beside a rolling_shutter, which draws its own instants");

@@ -150,7 +150,7 @@ EventCameraConfig parse_event_camera(const FieldMap& map, const Rational& rate_h
     for (const std::string_view key : of_the_camera) map.exclude("camera", key);
   } else {
     parse_pinhole(map, camera);
-    if (const auto f = map.find("lens")) f->fail("none, for an event camera compares pinhole pictures");
+    if (const auto lens = map.find("lens")) lens->fail("none, for an event camera compares pinhole pictures");
   }
   if (rate_hz.value() < slowest_rate_hz)
     map.require("rate_hz", "a rate")
