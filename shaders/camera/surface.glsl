@@ -5,6 +5,7 @@
 #ifndef GREATX_CAMERA_SURFACE_GLSL
 #define GREATX_CAMERA_SURFACE_GLSL
 #include "camera/effects.glsl"
+#include "camera/footprint.glsl"
 #include "camera/octahedral.glsl"
 #include "camera/triangle.glsl"
 #include "lib/textures.glsl"
@@ -65,8 +66,8 @@ Surface surface_at(Seen seen, vec3 ray) {
     Footprint at;
     mat2 along = mat2(uintBitsToFloat(r3.zw), uintBitsToFloat(r4.xy));
     at.uv = uintBitsToFloat(r3.xy) + along * b;
-    at.dx = along * (barycentrics(seen, ray + camera.ray_x) - center);
-    at.dy = along * (barycentrics(seen, ray + camera.ray_y) - center);
+    at.dx = along * (barycentrics(seen, ray + footprint_x()) - center);
+    at.dy = along * (barycentrics(seen, ray + footprint_y()) - center);
     if (textures_on) {
       uint of_color = m0.w;
       uint roughness_in = m0.y >> 16;

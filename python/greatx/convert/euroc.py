@@ -56,7 +56,7 @@ def _write_cameras(
     written = 0
     for i, name in enumerate(cameras):
         sensor = sequence[name]
-        lens = lens_of(sensor)
+        lens = lens_of(sensor, fisheye=True)
         coefficients = lens.coefficients(4)
         target = folder / f"cam{i}"
         (target / "data").mkdir(parents=True)
@@ -68,7 +68,7 @@ def _write_cameras(
             + _matrix("T_BS", body.inverse() @ node_from_camera)
             + f"\nrate_hz: {_rate(sequence, name)}\nresolution: [{lens.width}, {lens.height}]\n"
             f"camera_model: pinhole\nintrinsics: [{intrinsics}] # fu, fv, cu, cv\n"
-            "distortion_model: radial-tangential\n"
+            f"distortion_model: {'equidistant' if lens.fisheye else 'radial-tangential'}\n"
             f"distortion_coefficients: [{', '.join(number(v) for v in coefficients)}]\n",
             encoding="utf-8",
         )

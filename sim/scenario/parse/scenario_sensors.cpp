@@ -23,8 +23,8 @@ Mount parse_mount(const Field& field) {
 /// The keys of every sensor that fires at a rate of its own, of those that see, and of all cameras.
 const Keys mounted{"name", "type", "mount", "rate_hz"};
 const Keys fired = mounted + Keys{"see_own_body"};
-const Keys pinhole{"width", "height", "fov_deg",      "fx",         "fy",     "cx",
-                   "cy",    "near_m", "antialiasing", "distortion", "outputs"};
+const Keys pinhole{"width", "height", "fov_deg",      "fx",         "fy",   "cx",
+                   "cy",    "near_m", "antialiasing", "distortion", "lens", "outputs"};
 
 /// Holds the inputs of a parser besides its map.
 struct SensorContext {
@@ -44,8 +44,14 @@ SensorParsers sensor_parsers() {
   SensorParsers parsers;
   parsers[sensor_kind_index<CameraConfig>()] = {
       fired + pinhole +
-          Keys{"exposure_ev100", "exposure", "motion_blur_samples", "vignetting", "noise", "box_classes"},
-      [](const FieldMap& map, const SensorContext&) -> SensorSettings { return parse_camera(map); }};
+          Keys{"exposure_ev100", "exposure", "motion_blur_samples", "vignetting", "noise", "box_classes",
+               "rolling_shutter", "chromatic_aberration"},
+      [](const FieldMap& map, const SensorContext& context) -> SensorSettings {
+        const CameraConfig camera = parse_camera(map);
+        if (camera.rolling.readout_s * context.rate_hz.value() > 1.0)
+          map.find("rolling_shutter")->fail("a readout_s of at most the time from picture to picture");
+        return camera;
+      }};
   parsers[sensor_kind_index<EventCameraConfig>()] = {
       fired + pinhole +
           Keys{"camera", "steps", "threshold", "noise", "dark_cd_m2", "bright_cd_m2", "refractory_s",
