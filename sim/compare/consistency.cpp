@@ -56,8 +56,8 @@ dvec3 pixel_ray(const render::CameraDesc& camera, double column, double row) {
 namespace {
 
 /// Returns how much the errors of a point can change its relative difference in depth in the plane around a
-/// pixel. In the camera's frame, points p of the plane have n p = 1, and 1/z of the pixel that sees p is n p /
-/// z. A point p + e therefore differs by |n e / (1 + n e)|. The part of e by noise lies along the beam.
+/// pixel. In the camera's frame, points p of the plane have n p = 1, and 1/z of the pixel that sees p is
+/// n p / z. A point p + e therefore differs by |n e / (1 + n e)|. The part of e by noise lies along the beam.
 double error_bound(const render::CameraDesc& camera, const InverseDepthPlane& plane, double column,
                    double row, const ReturnedPoint& point) {
   const dvec3 n(plane.at(camera.cx - column, camera.cy - row), -camera.fx * plane.per_column,
