@@ -41,9 +41,9 @@ const std::vector<std::string> knobs_of_channels{"candidates",
                                                  "subcarriers",
                                                  "time_samples"};
 const std::vector<std::string> knobs_of_sensors{
-    "width",  "height",        "antialiasing", "motion_blur_samples", "steps",     "max_events_per_pixel",
-    "beam",   "azimuth_steps", "channels",     "max_range_m",         "detection", "returns",
-    "echoes", "processing"};
+    "width",  "height",        "antialiasing",   "motion_blur_samples", "steps",     "max_events_per_pixel",
+    "beam",   "azimuth_steps", "channels",       "max_range_m",         "detection", "returns",
+    "echoes", "processing",    "rolling_shutter"};
 
 std::string name_of(const FieldValue& item) {
   const auto member = std::ranges::find(item.members, "name", &FieldValue::Member::key);
