@@ -178,7 +178,9 @@ class CameraPass {
   std::vector<uint32_t> visible(std::span<const uint32_t> primitives, const CameraView& view);
   void upload_lens();
   gpu::Slice upload_lamps(gpu::TickSlot& slot, const CameraView& view);
+  void add_moving(uint32_t body, uint32_t primitive);
   void record_visibility(gpu::Cmd& cmd, const CameraView& view);
+  void draw_moving(gpu::Cmd& cmd, const CameraView& view);
   void record_shading(gpu::TickSlot& slot, const CameraView& view);
 
   const SceneLighting* lighting_;
@@ -186,7 +188,13 @@ class CameraPass {
   CameraDesc desc_;
   CameraEffects effects_;
   std::vector<Sphere> spheres_;
-  std::vector<uint32_t> still_, moving_, masked_;                     ///< primitives; the first two opaque
+  std::vector<uint32_t> still_, masked_;  ///< primitives; the first opaque
+  /// Opaque primitives of a moving body that follow one another.
+  struct MovingPiece {
+    uint32_t first_index = 0, index_count = 0, body = 0;
+    Sphere sphere;
+  };
+  std::vector<MovingPiece> moving_;
   bool textured_ = false, normal_mapped_ = false, emissive_ = false;  ///< the needs of their materials
   gpu::GraphicsPipeline visibility_still_, visibility_moving_, visibility_masked_;
   gpu::ComputePipeline shade_;
