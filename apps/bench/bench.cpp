@@ -17,6 +17,7 @@
 #include "apps/bench/radar_bench.h"
 #include "apps/bench/radio_bench.h"
 #include "apps/bench/recall.h"
+#include "apps/bench/reference_bench.h"
 #include "apps/bench/rig_bench.h"
 #include "apps/bench/sight_bench.h"
 #include "apps/bench/suite.h"
@@ -46,6 +47,7 @@ struct Options {
   RecallOptions recall_options;
   bool camera = false;
   CameraBenchOptions camera_options;
+  ReferenceBenchOptions reference_options;
   bool lidar = false;
   LidarBenchOptions lidar_options;
   bool radar = false;
@@ -206,7 +208,10 @@ void add_suite_options(CLI::App& command, Options& options) {
                    "measure all passes in generated scenes of growing size instead, with every tracer of the "
                    "device: files of figures, tables and curves in DIR");
   SuiteOptions& suite = options.suite_options;
-  command.add_option("-o,--output", suite.folder, "of --suite: the folder of its files")->option_text("DIR");
+  command
+      .add_option("-o,--output", suite.folder,
+                  "of --suite, and of --camera --reference: the folder of the files")
+      ->option_text("DIR");
   command.add_flag("--quick", suite.quick, "of --suite: up to 100 k triangles instead of 10 M");
   command.add_option("--most-triangles", suite.most_triangles, "of --suite: leaves out larger scenes")
       ->capture_default_str()
@@ -288,6 +293,25 @@ void add_bench(CLI::App& app) {
   command->add_option("--pictures", options->camera_options.pictures, "of --camera: measured of each row")
       ->capture_default_str()
       ->check(integer_of(1, 1'000'000));
+  ReferenceBenchOptions& reference = options->reference_options;
+  command
+      ->add_option("--reference", reference.samples,
+                   "of --camera: compare the picture, and the picture without each approximation, with a "
+                   "path-traced reference of so many paths a pixel instead")
+      ->check(integer_of(1, 1'000'000));
+  command->add_option("--bounces", reference.bounces, "of --reference: reflections after the first")
+      ->capture_default_str()
+      ->check(integer_of(0, 10'000));
+  command
+      ->add_option(
+          "--later-roughness", reference.later_roughness,
+          "of --reference: least roughness of surfaces after the first reflection, against the noise "
+          "of sharp spots of light; 0: unbiased")
+      ->capture_default_str()
+      ->check(number_of(0.0, 1.0));
+  command->add_option("--tick", reference.tick, "of --reference: of the first sequence")
+      ->capture_default_str()
+      ->check(integer_of(0, sim::most_ticks));
   command->add_flag(
       "--lidar", options->lidar,
       "time the first LiDAR alone instead, row by row: single rays, each effect, rings, returns");
@@ -347,6 +371,11 @@ void add_bench(CLI::App& app) {
   command->callback([options, command] {
     if (options->suite) return run_suite(*options);
     if (!options->compared.empty()) return compare(*options);
+    if (command->count("--reference") > 0) {
+      if (!options->camera) throw_user_error("bench --reference: expected --camera beside it");
+      options->reference_options.folder = options->suite_options.folder;
+      return run_rows(*options, options->reference_options, reference_bench, reference_bench_text);
+    }
     if (options->camera) return run_rows(*options, options->camera_options, camera_bench, camera_bench_text);
     if (options->lidar) return run_rows(*options, options->lidar_options, lidar_bench, lidar_bench_text);
     if (options->radar) return run_rows(*options, options->radar_options, radar_bench, radar_bench_text);

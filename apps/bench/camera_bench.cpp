@@ -176,6 +176,9 @@ class CameraBench {
         sim::camera_desc(scenario_, node, node.sensors[camera_.sensor], world_.body_of_node[camera_.node]);
     desc_.outputs = {};  // rgb, depth, ids
     desc_.distortion = {};
+    desc_.wide = {};
+    desc_.bands = 0;
+    desc_.chromatic = {};
     desc_.parts = false;
     day_ = sim::lighting_of(scenario_.environment);
     effects_ = sim::camera_effects(plan_);
@@ -195,6 +198,12 @@ class CameraBench {
     with("automatic exposure", [](auto& d) { d.automatic_exposure = true; });
     with("sensor noise", [](auto& d) { d.noise = render::SensorNoise{}; });
     with("lens distortion", [](auto& d) { d.distortion.k1 = -0.05; });
+    with("fisheye of 190 degrees", [](auto& d) {
+      d.wide = {.model = render::LensModel::fisheye, .half_angle = radians(95.0), .circle_given = true};
+      d.fx = d.fy = 0.5 * d.width / d.wide.half_angle;
+      d.vignetting.natural = false;
+    });
+    with("chromatic aberration", [](auto& d) { d.chromatic = {.red = 1.002, .blue = 0.998}; });
     const auto without = [&](const std::string& name, bool render::CameraEffects::*effect) {
       if (!(effects_.*effect)) return;
       render::CameraEffects effects = effects_;

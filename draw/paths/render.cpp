@@ -113,13 +113,19 @@ ScenarioView scenario_view(const CameraName& camera, const sim::Experiment& expe
   const sim::Scenario& scenario = experiment.scenario;
   const sim::SensorConfig& sensor = scenario.nodes[camera.node].sensors[camera.sensor];
   const sim::PinholeConfig& config = *sim::pinhole_config(sensor);
+  const std::string name = scenario.nodes[camera.node].name + "/" + sensor.name;
+  if (config.wide.any())
+    throw_user_error(
+        "{}: lens: expected a pinhole camera to look through, found a fisheye or an "
+        "equirectangular one",
+        name);
   PictureView view;
   sim::set_intrinsics(view, config);
   view.near_m = config.near_m;
   view.local_from_sensor =
       experiment.scene().to_local(moment.motions[camera.node].pose) * sim::mount_pose(sensor.mount);
   ScenarioView result{view.scaled(width), {}};
-  result.view.set_lens(config.distortion, scenario.nodes[camera.node].name + "/" + sensor.name);
+  result.view.set_lens(config.distortion, name);
   const uint32_t body = experiment.world->body_of_node[camera.node];
   if (body != 0 && !sees_own_body(sensor)) result.excluded_body = body;
   return result;

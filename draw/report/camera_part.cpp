@@ -186,6 +186,8 @@ Json encode_ids(const Context& context, const Array& ids, std::set<uint32_t>& se
 Json describe_camera(const PanelSource& source) {
   const JsonDocument metadata = metadata_of(source);
   Json json = Json::object();
+  // Without intrinsics the page draws nothing over the picture: it knows pinhole cameras alone.
+  if (metadata.root().has("lens")) return json;
   for (const char* const key : {"fx", "fy", "cx", "cy", "width", "height"})
     if (metadata.root().has(key)) json[key] = metadata.root().at(key).number(-1e9, 1e9);
   if (metadata.root().has("distortion")) {

@@ -23,9 +23,16 @@ struct Maker {
   bool intervals = false;                    ///< see is_about_intervals()
 };
 constexpr Maker makers[] = {
-    {"camera", camera_frames, nullptr},      {"event_camera", event_frames, nullptr, true},
-    {"lidar", lidar_frames, nullptr},        {"radar", radar_frames, nullptr},
-    {"csi", sensing_frames, add_csi_panels}, {"pose", nullptr, add_pose_panels},
+    {"camera", camera_frames, nullptr},
+    {"event_camera", event_frames, nullptr, true},
+    {"lidar", lidar_frames, nullptr},
+    {"radar", radar_frames, nullptr},
+    {"csi", sensing_frames, add_csi_panels},
+    {"pose", nullptr, add_pose_panels},
+    {"imu", nullptr, add_imu_panels},
+    {"gnss", nullptr, add_gnss_panels},
+    {"barometer", nullptr, add_barometer_panels},
+    {"magnetometer", nullptr, add_magnetometer_panels},
 };
 
 /// Returns the entry of a kind, or null if the kind is unknown.

@@ -140,6 +140,11 @@ std::vector<FrameKind> radar_overlay_frames();
 std::vector<FrameKind> sensing_frames();
 void add_csi_panels(const PanelSource& source, Panels& panels);  ///< of source.link
 void add_pose_panels(const PanelSource& source, Panels& panels);
+/// Of sensors that navigate (navigation_panels.cpp).
+void add_imu_panels(const PanelSource& source, Panels& panels);
+void add_gnss_panels(const PanelSource& source, Panels& panels);
+void add_barometer_panels(const PanelSource& source, Panels& panels);
+void add_magnetometer_panels(const PanelSource& source, Panels& panels);
 /// Of a camera: normals, optical flow, boxes (truth_panels.cpp).
 std::vector<FrameKind> truth_frames();
 

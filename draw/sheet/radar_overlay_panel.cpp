@@ -114,7 +114,8 @@ std::unique_ptr<FramePanel> make_overlay(const PanelSource& source) {
   std::optional<Companion> camera = companion(source, "camera", {"rgb"});
   if (!camera) return nullptr;
   const JsonDocument metadata = metadata_of(camera->source);
-  if (!metadata.root().has("fx") || metadata.root().has("distortion")) return nullptr;
+  const auto& root = metadata.root();
+  if (!root.has("fx") || root.has("distortion") || root.has("lens")) return nullptr;
   return std::make_unique<RadarOverlayPanel>(source, std::move(*camera));
 }
 

@@ -18,10 +18,11 @@ import support
 from greatx.convert.dsec import write_dsec
 from greatx.convert.dsec.rig import View, pair
 from greatx.convert.dsec.truth import disparity, optical_flow, rectified_picture
-from greatx.convert.optics import COEFFICIENTS, Lens, lens_of
+from greatx.convert.optics import COEFFICIENTS, Lens, lens_model, lens_of
 from greatx.convert.png import encode_png
 from greatx.convert.poses import Pose, optical_pose
-from greatx.convert.trajectories import write_euroc, write_tum
+from greatx.convert.euroc import write_euroc
+from greatx.convert.trajectories import write_tum
 from greatx.frames import read_png
 from greatx.links import rotation
 
@@ -161,6 +162,36 @@ class Euroc(Exported):
         support.edit_json(folder / "dataset.json", change)
         with self.assertRaisesRegex(greatx.DatasetError, "car/front.*expected k3 = 0.*found 0.01"):
             write_euroc(greatx.load(folder), self.out)
+        self.assertFalse(self.out.exists())
+
+
+class WideLenses(Exported):
+    """The engine's metadata of a fisheye is put in the place of the camera's distortion."""
+
+    def changed(self, lens):
+        def change(j):
+            metadata = j["sensors"][1]["metadata"]
+            del metadata["distortion"]
+            metadata["lens"] = lens
+
+        folder = support.copy_of(support.rig())
+        support.edit_json(folder / "dataset.json", change)
+        return greatx.load(folder)
+
+    def test_a_fisheye_goes_to_euroc_as_equidistant(self):
+        lens = {"model": "fisheye", "k1": -0.02, "k2": 0.003, "k3": -0.0004, "k4": 0.00005}
+        dataset = self.changed({**lens, "circle_deg": 190.0})
+        write_euroc(dataset, self.out)
+        text = (self.out / "sequence_0000/mav0/cam0/sensor.yaml").read_text()
+        self.assertIn("distortion_model: equidistant\n", text)
+        self.assertEqual(entries_of(text)["distortion_coefficients"], [-0.02, 0.003, -0.0004, 0.00005])
+        self.assertEqual(lens_model(dataset.sequences[0]["car/front"]), "fisheye")
+        with self.assertRaisesRegex(greatx.DatasetError, "car/front: expected a pinhole camera.*'fisheye'"):
+            lens_of(dataset.sequences[0]["car/front"])
+
+    def test_a_panorama_is_refused_by_name(self):
+        with self.assertRaisesRegex(greatx.DatasetError, "car/front: expected a pinhole.*'equirectangular'"):
+            write_euroc(self.changed({"model": "equirectangular"}), self.out)
         self.assertFalse(self.out.exists())
 
 

@@ -10,6 +10,7 @@
 #include "renderer/camera/cells.h"
 #include "renderer/camera/develop.h"
 #include "renderer/camera/edges.h"
+#include "renderer/camera/faces.h"
 #include "renderer/camera/lamps.h"
 #include "renderer/camera/meter.h"
 #include "shaders/shared/film.h"
@@ -24,7 +25,7 @@ constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 }  // namespace
 
 LensGeometry lens_geometry(const CameraDesc& desc) {
-  return {desc.name, desc.width, desc.height, desc.fx, desc.fy, desc.cx, desc.cy, desc.distortion};
+  return {desc.name, desc.width, desc.height, desc.fx, desc.fy, desc.cx, desc.cy, desc.distortion, desc.wide};
 }
 
 double saturation_luminance(double ev100) { return 1.2 * std::exp2(ev100); }
@@ -45,7 +46,8 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
   const bool shaded = desc_.outputs.color() || desc_.outputs.luminance;
   desc_.smooth_edges = desc_.smooth_edges && shaded;
   desc_.outputs.seen = desc_.outputs.seen || desc_.smooth_edges;
-  pinhole_ = std::make_unique<PinholeView>(pinhole_of(desc_));
+  if (has_faces(desc_)) faces_ = std::make_unique<FaceTable>(scene_->device(), desc_);
+  pinhole_ = std::make_unique<PinholeView>(faces_ ? faces_->largest() : pinhole_of(desc_));
   const uint32_t most = scene_->device().limits().maxImageDimension2D;
   if (std::max(pinhole_->width, pinhole_->height) > most)
     throw_user_error(
@@ -87,8 +89,9 @@ void CameraPass::check() const {
           desc_.near_m);
   require(desc_.msaa == 1 || desc_.msaa == 4, "msaa", "1 or 4", desc_.msaa);
   require(desc_.msaa == 1 || !desc_.smooth_edges, "msaa", "1, for edges are smoothed", desc_.msaa);
-  require(!desc_.outputs.cells || !desc_.distortion.any(), "distortion",
+  require(!desc_.outputs.cells || !(desc_.distortion.any() || has_faces(desc_)), "distortion",
           "none, for an event camera reconstructs instants from its pictures", 1);
+  require(!desc_.parts || desc_.bands == 0, "bands", "none, for the exposure has parts", desc_.bands);
   require(desc_.exposure_ev100 >= -20.0 && desc_.exposure_ev100 <= 24.0, "exposure_ev100", "-20 to 24",
           desc_.exposure_ev100);
   require(desc_.outputs.color() || desc_.outputs.luminance || desc_.outputs.ids(), "outputs", "at least one",
@@ -179,6 +182,7 @@ void CameraPass::build_pipelines() {
   for (const gpu::Binding& binding : SceneLighting::bindings()) shade.bindings.push_back(binding);
   shade.bindings.push_back({shared::lights_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   shade.bindings.push_back({shared::lens_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
+  shade.bindings.push_back({shared::face_pixels_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   shade.bindings.push_back({shared::visibility_binding, multisampled()
                                                             ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
                                                             : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
@@ -207,7 +211,9 @@ void CameraPass::build_pipelines() {
   shade.specialization[shared::spec_clouds] = effects_.clouds;
   shade.specialization[shared::spec_horizon] = static_cast<uint32_t>(lighting_->horizon_kind());
   shade.specialization[shared::spec_ambient_occlusion] = effects_.ambient_occlusion;
-  shade.specialization[shared::spec_distortion] = desc_.distortion.any();
+  shade.specialization[shared::spec_distortion] = desc_.distortion.any() || faces_;
+  shade.specialization[shared::spec_faces] = faces_ != nullptr;
+  shade.specialization[shared::spec_range] = desc_.wide.any();
   shade.specialization[shared::spec_blend] = desc_.parts;
   const auto arrays_of = [&](scene::TextureReference scene::MaterialTextures::*use) {
     return scene_->textures().arrays_of(use);
@@ -256,12 +262,17 @@ void CameraPass::create_pictures() {
   gpu::submit_setup(scene_->device(), [&](gpu::Cmd& cmd) {
     for (const gpu::Buffer* each : all) cmd.fill(each->slice(), 0);
   });
+  if (!faces_ || !outputs.ids()) return;
+  // No view writes the pixels outside the image circle, which see nothing.
+  const std::vector<uvec2> nothing(pixels, uvec2(0x7f800000u, 0u));
+  const gpu::Buffer from = gpu::upload_buffer(scene_->device(), std::as_bytes(std::span(nothing)), "nothing");
+  gpu::submit_setup(scene_->device(), [&](gpu::Cmd& cmd) { cmd.copy(from.slice(), seen_.slice()); });
 }
 
 void CameraPass::upload_lens() {
   gpu::Device& device = scene_->device();
   std::vector<vec2> places(1);
-  const bool distorts = desc_.distortion.any();
+  const bool distorts = desc_.distortion.any() && !faces_;
   if (distorts) {
     const std::vector<dvec2> exact =
         Lens(lens_geometry(desc_)).centers({pinhole_->fx, pinhole_->fy}, {pinhole_->cx, pinhole_->cy});
@@ -316,24 +327,60 @@ gpu::Slice CameraPass::upload_lamps(gpu::TickSlot& slot, const CameraView& view)
 
 void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, const FrameNumber& frame,
                         const ExposurePart& part) {
-  GREATX_CHECK(desc_.parts || (part.first && part.last), "camera {}: built for whole exposures", desc_.name);
+  GREATX_CHECK(desc_.parts || desc_.bands > 0 || (part.first && part.last),
+               "camera {}: built for whole exposures", desc_.name);
+  drawn_ = culled_ = 0;
+  if (faces_) {
+    record_faces(slot, local_from_sensor, part);
+    if (part.last && develop_) develop_->record(slot, picture_.color, seen_, frame);
+    return;
+  }
   CameraView view(*pinhole_, desc_.near_m, local_from_sensor, lighting_->shadows().frame(),
                   1.0 / stored_luminance(desc_, *lighting_));
   view.constants.weight = part.weight;
   view.constants.first = part.first;
   view.constants.size = desc_.width | desc_.height << 16;
-  if (desc_.outputs.color() || desc_.outputs.luminance)
-    lighting_->draw_shadows(slot, [&](const dvec3& from, const dvec3& to, double radius) {
-      return view.outside(from - view.eye, to - view.eye, radius);
-    });
+  draw_shadows(slot, view);
   record_visibility(*slot.cmd, view);
-  record_shading(slot, view);
+  record_shading(slot, view, seen_.slice());
   if (!part.last) return;
   if (cells_) cells_->see(view.constants);
   if (edges_)
     edges_->record(slot, view, gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_),
-                   {shaded_, seen_, picture_});
+                   {shaded_, seen_, picture_}, nullptr);
   if (develop_) develop_->record(slot, picture_.color, seen_, frame);
+}
+
+/// Draws and shades one view after the other. They share the images of the visibility pass. Edges follow once
+/// the neighbours of all pixels are shaded, while the bodies still stand as in the views.
+void CameraPass::record_faces(gpu::TickSlot& slot, const Pose& local_from_sensor, const ExposurePart& part) {
+  std::vector<std::pair<const CameraFace*, CameraView>> views;
+  for (const CameraFace& face : faces_->faces()) {
+    if (desc_.bands > 0 && face.band != part.band) continue;
+    CameraView view(face.pinhole, desc_.near_m, local_from_sensor * face.sensor_from_face,
+                    lighting_->shadows().frame(), 1.0 / stored_luminance(desc_, *lighting_));
+    view.constants.weight = part.weight;
+    view.constants.first = desc_.bands > 0 || part.first;
+    view.constants.size = desc_.width | desc_.height << 16;
+    draw_shadows(slot, view);
+    record_visibility(*slot.cmd, view);
+    record_shading(slot, view, face.pixels);
+    views.emplace_back(&face, view);
+  }
+  if (!edges_ || (desc_.bands == 0 && !part.last)) return;
+  for (const auto& [face, view] : views)
+    edges_->record(slot, view, gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_),
+                   {shaded_, seen_, picture_}, &face->pixels);
+}
+
+uint32_t CameraPass::bands() const {
+  const uint32_t rows = rows_of_band(desc_);
+  return (desc_.height + rows - 1) / rows;
+}
+
+double CameraPass::middle_of_band(uint32_t band) const {
+  const double rows = rows_of_band(desc_), height = desc_.height;
+  return 0.5 * (band * rows + std::min((band + 1) * rows, height)) / height - 0.5;
 }
 
 void CameraPass::record_cells(gpu::TickSlot& slot, const gpu::Buffer& cells) {
@@ -348,9 +395,8 @@ void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {
   gpu::RenderTargets targets;
   targets.color.push_back({.image = &visibility_, .clear = {.uint32 = {0, 0, 0, 0}}});
   targets.depth = &depth_;
-  targets.width = pinhole_->width;
-  targets.height = pinhole_->height;
-  drawn_ = culled_ = 0;
+  targets.width = view.pinhole.width;
+  targets.height = view.pinhole.height;
   cmd.begin_rendering(targets);
   const auto draw_all = [&](const gpu::GraphicsPipeline& with, std::span<const uint32_t> primitives) {
     const std::vector<uint32_t> order = visible(primitives, view);
@@ -367,6 +413,13 @@ void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {
   draw_moving(cmd, view);
   draw_all(visibility_masked_, masked_);
   cmd.end_rendering();
+}
+
+void CameraPass::draw_shadows(gpu::TickSlot& slot, const CameraView& view) const {
+  if (!desc_.outputs.color() && !desc_.outputs.luminance) return;
+  lighting_->draw_shadows(slot, [&](const dvec3& from, const dvec3& to, double radius) {
+    return view.outside(from - view.eye, to - view.eye, radius);
+  });
 }
 
 void CameraPass::draw_moving(gpu::Cmd& cmd, const CameraView& view) {
@@ -396,7 +449,7 @@ void CameraPass::draw_moving(gpu::Cmd& cmd, const CameraView& view) {
   }
 }
 
-void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view) {
+void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view, const gpu::Slice& pixels) {
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(shade_scope_);
   cmd.transition(visibility_, multisampled() ? gpu::ImageUse::sampled : gpu::ImageUse::storage);
@@ -406,6 +459,7 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view) {
   for (const gpu::Descriptor& descriptor : lighting_->descriptors()) descriptors.push_back(descriptor);
   descriptors.push_back(gpu::Descriptor::buffer(shared::lights_binding, upload_lamps(slot, view)));
   descriptors.push_back(gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::face_pixels_binding, pixels));
   descriptors.push_back(
       multisampled() ? gpu::Descriptor::sampled(shared::visibility_binding, visibility_, texel_sampler_)
                      : gpu::Descriptor::storage(shared::visibility_binding, visibility_));
@@ -415,6 +469,9 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view) {
   cmd.bind(shade_);
   cmd.push(descriptors);
   cmd.constants(view.constants);
+  if (faces_)
+    return cmd.dispatch_linear(pixels.size / sizeof(shared::FacePixel),
+                               shared::shade_group_width * shared::shade_group_height);
   cmd.dispatch((desc_.width + shared::shade_group_width - 1) / shared::shade_group_width,
                (desc_.height + shared::shade_group_height - 1) / shared::shade_group_height);
 }

@@ -77,6 +77,9 @@ struct CameraDesc {
   bool automatic_exposure = false;  ///< meters each picture by itself (renderer/camera/meter.h)
   double compensation_ev = 0.0;     ///< with `automatic_exposure`: positive is brighter
   Distortion distortion;
+  WideLens wide;                     ///< instead of `distortion`; depth is then the distance along the ray
+  uint32_t bands = 0;                ///< rolling shutter: the most bands of rows, each with its own record()
+  ChromaticAberration chromatic;     ///< applies to rgb and hdr
   Vignetting vignetting;             ///< applies to rgb
   std::optional<SensorNoise> noise;  ///< applies to rgb
   CameraOutputs outputs;
@@ -91,6 +94,8 @@ struct ExposurePart {
   float weight = 1.0f;  ///< the weights of a picture sum to 1
   bool first = true;
   bool last = true;  ///< this part's depth and ids are those of the picture, which is then developed
+  /// With CameraDesc::bands: the band of rows that is drawn. The last band is the `last` part.
+  uint32_t band = 0;
 };
 
 /// Holds the arrays that a camera delivers at one tick. Arrays that were not asked for are empty. The arrays
@@ -101,7 +106,8 @@ struct CameraImages {
   std::vector<uint8_t> rgb;  ///< [height, width, 3], sRGB
   /// [height, width, 3], linear Rec. 709, cd/m^2; saturates at 65504 stored_luminance().
   std::vector<float> hdr;
-  std::vector<float> depth;        ///< [height, width], planar metres at the pixel's centre; sky: +inf
+  /// [height, width], planar metres at the pixel's centre; sky: +inf. Behind a WideLens: along the ray.
+  std::vector<float> depth;
   std::vector<uint32_t> instance;  ///< [height, width], instance index + 1; 0: nothing
   std::vector<uint8_t> semantic;   ///< [height, width], SemanticClass; 0: nothing or unlabeled
   std::vector<uint16_t> material;  ///< [height, width], material index + 1; 0: nothing
@@ -125,6 +131,7 @@ struct CameraView;
 class CellPass;
 class DevelopPass;
 class EdgePass;
+class FaceTable;
 struct PinholeView;
 
 class CameraPass {
@@ -140,6 +147,12 @@ class CameraPass {
               const ExposurePart& part = {});
   /// Returns the picture that was recorded into `slot`, once its submission is done.
   CameraImages collect(const gpu::TickSlot& slot) const;
+
+  /// Returns the number of bands of rows with CameraDesc::bands, which may be below it; otherwise 1.
+  uint32_t bands() const;
+  /// Returns the place of a band's middle within the height, from -0.5 (top) to 0.5. Rows of a rolling
+  /// shutter are exposed at this share of the readout time after the tick.
+  double middle_of_band(uint32_t band) const;
 
   /// Keeps of the picture recorded last what other instants need (renderer/camera/cells.h), with
   /// `outputs.cells`. `cells` is written. The bodies still stand as in that picture.
@@ -178,10 +191,14 @@ class CameraPass {
   std::vector<uint32_t> visible(std::span<const uint32_t> primitives, const CameraView& view);
   void upload_lens();
   gpu::Slice upload_lamps(gpu::TickSlot& slot, const CameraView& view);
+  void build_faces();
+  void record_faces(gpu::TickSlot& slot, const Pose& local_from_sensor, const ExposurePart& part);
   void add_moving(uint32_t body, uint32_t primitive);
+  void draw_shadows(gpu::TickSlot& slot, const CameraView& view) const;
   void record_visibility(gpu::Cmd& cmd, const CameraView& view);
   void draw_moving(gpu::Cmd& cmd, const CameraView& view);
-  void record_shading(gpu::TickSlot& slot, const CameraView& view);
+  /// `pixels` lists those that look through this view. Without a FaceTable all do.
+  void record_shading(gpu::TickSlot& slot, const CameraView& view, const gpu::Slice& pixels);
 
   const SceneLighting* lighting_;
   const scene::GpuScene* scene_;
@@ -200,7 +217,8 @@ class CameraPass {
   gpu::ComputePipeline shade_;
   gpu::Image visibility_, depth_;  ///< multisampled if msaa is
   gpu::Sampler texel_sampler_;
-  std::unique_ptr<PinholeView> pinhole_;
+  std::unique_ptr<PinholeView> pinhole_;  ///< with faces_: as large as the largest of them
+  std::unique_ptr<FaceTable> faces_;      ///< null unless the lens or the shutter needs several views
   gpu::Image lens_;        ///< position of each pixel in the pinhole picture; 1 x 1 without distortion
   PictureBuffers shaded_;  ///< the picture before edges are smoothed; empty if they are not
   PictureBuffers picture_;

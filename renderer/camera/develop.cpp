@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/camera/develop.h"
 
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -65,6 +66,14 @@ DevelopPass::DevelopPass(const SceneLighting& lighting, const CameraDesc& desc)
   develop.specialization[shared::develop_spec_metered] = meter_.has_value();
   develop.specialization[shared::develop_spec_flat_field] = vignetting;
   develop.specialization[shared::develop_spec_noise] = rgb && desc_.noise.has_value();
+  if (const ChromaticAberration& chromatic = desc_.chromatic; chromatic.any()) {
+    const auto bits = [](double value) { return std::bit_cast<uint32_t>(static_cast<float>(value)); };
+    develop.specialization[shared::develop_spec_chromatic] = rgb || desc_.outputs.hdr;
+    develop.specialization[shared::develop_spec_chromatic_x] = bits(desc_.cx);
+    develop.specialization[shared::develop_spec_chromatic_y] = bits(desc_.cy);
+    develop.specialization[shared::develop_spec_chromatic_red] = bits(1.0 / chromatic.red);
+    develop.specialization[shared::develop_spec_chromatic_blue] = bits(1.0 / chromatic.blue);
+  }
   pipeline_ = gpu::ComputePipeline(device, develop, scope_);
 }
 
@@ -72,6 +81,10 @@ void DevelopPass::check() const {
   const auto require = [&](bool holds, const char* field, const char* expected, double found) {
     if (!holds) throw_user_error("camera {}: {}: expected {}, found {}", desc_.name, field, expected, found);
   };
+  require(desc_.chromatic.red > 0.5 && desc_.chromatic.red < 2.0, "chromatic.red", "0.5 to 2",
+          desc_.chromatic.red);
+  require(desc_.chromatic.blue > 0.5 && desc_.chromatic.blue < 2.0, "chromatic.blue", "0.5 to 2",
+          desc_.chromatic.blue);
   require(std::abs(desc_.compensation_ev) <= 10.0, "compensation_ev", "-10 to 10", desc_.compensation_ev);
   if (!desc_.noise) return;
   const SensorNoise& noise = *desc_.noise;

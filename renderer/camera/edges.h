@@ -24,8 +24,9 @@ class EdgePass {
     const gpu::Buffer& seen;
     const PictureBuffers& to;
   };
+  /// `pixels` lists those that look through the view (CameraFace::pixels); null: all do.
   void record(gpu::TickSlot& slot, const CameraView& view, const gpu::Descriptor& lens,
-              const Pictures& pictures);
+              const Pictures& pictures, const gpu::Slice* pixels);
 
  private:
   const SceneLighting* lighting_;

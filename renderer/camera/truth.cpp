@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "renderer/lens/lens.h"
+#include "renderer/lens/lens_rays.h"
 
 namespace greatx::render {
 
@@ -70,11 +70,27 @@ TruthPass::TruthPass(const SceneLighting& lighting, const CameraDesc& desc, cons
   truth.specialization[shared::truth_spec_p2] = bits(lens.p2);
   truth.specialization[shared::truth_spec_k3] = bits(lens.k3);
   truth.specialization[shared::truth_spec_fold_squared] = bits(fold * fold);
+  if (const WideLens& wide = desc.wide; wide.any()) {
+    truth.specialization[shared::truth_spec_wide] =
+        wide.fisheye() ? shared::truth_lens_fisheye : shared::truth_lens_equirectangular;
+    truth.specialization[shared::truth_spec_k1] = bits(wide.k1);
+    truth.specialization[shared::truth_spec_k2] = bits(wide.k2);
+    truth.specialization[shared::truth_spec_k3] = bits(wide.k3);
+    truth.specialization[shared::truth_spec_k4] = bits(wide.k4);
+    truth.specialization[shared::truth_spec_half_angle] = bits(std::min(wide.half_angle, wide.fold_angle()));
+  }
   pipeline_ = gpu::ComputePipeline(lighting_->scene().device(), truth, desc_.name + " truth");
-  if (lens.any()) upload_lens();
+  if (lens.any() || desc.wide.any()) upload_lens();
 }
 
 void TruthPass::upload_lens() {
+  if (desc_.wide.any()) {
+    const std::vector<dvec3> exact = LensRays(lens_geometry(desc_)).centers();
+    const std::vector<vec3> directions(exact.begin(), exact.end());
+    lens_ = gpu::upload_buffer(lighting_->scene().device(), std::as_bytes(std::span(directions)),
+                               desc_.name + " lens");
+    return;
+  }
   const std::vector<dvec2> centers =
       Lens(lens_geometry(desc_)).centers({desc_.fx, desc_.fy}, {desc_.cx, desc_.cy});
   const std::vector<vec2> pinhole(centers.begin(), centers.end());
@@ -111,12 +127,17 @@ void TruthPass::record(gpu::TickSlot& slot, const gpu::Buffer& seen, const Truth
                             : body_motion(pose, now.bodies[body], next.local_from_sensor, next.bodies[body]));
     constants.motions = slot.upload.put(std::span<const shared::GpuBodyMotion>(motions)).address;
   }
-  if (desc_.distortion.any()) constants.lens = lens_.address();
+  if (desc_.distortion.any() || desc_.wide.any()) constants.lens = lens_.address();
   constants.eye_high = vec3(pose.position);
   constants.eye_low = vec3(pose.position - dvec3(constants.eye_high));
   constants.ray_x = vec3(axes[0] / desc_.fx);
   constants.ray_y = vec3(axes[1] / desc_.fy);
   constants.ray_0 = vec3(axes[2] - axes[0] * (desc_.cx / desc_.fx) - axes[1] * (desc_.cy / desc_.fy));
+  if (desc_.wide.any()) {  // the table has directions
+    constants.ray_x = vec3(axes[0]);
+    constants.ray_y = vec3(axes[1]);
+    constants.ray_0 = vec3(axes[2]);
+  }
   constants.focal = vec2(dvec2(desc_.fx, desc_.fy));
   constants.principal = vec2(dvec2(desc_.cx, desc_.cy));
   constants.width = desc_.width;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "renderer/lens/wide_lens.h"
 
 namespace greatx::render {
 
@@ -49,6 +50,7 @@ struct LensGeometry {
   uint32_t width = 0, height = 0;
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;
   Distortion distortion;
+  WideLens wide;  ///< instead of `distortion`; renderer/lens/lens_rays.h
 };
 
 /// Describes a part of the plane of undistorted normalised coordinates.
@@ -56,8 +58,8 @@ struct LensBounds {
   dvec2 least{0.0}, most{0.0};
 };
 
-/// Represents a lens over a whole picture. Every result is exact to `tolerance` in normalised coordinates
-/// before it is rounded.
+/// Represents a pinhole camera's lens over a whole picture. Every result is exact to `tolerance` in
+/// normalised coordinates before it is rounded.
 class Lens {
  public:
   /// An inverse counts as found at this step of Newton's iteration.

@@ -60,9 +60,13 @@ SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& light
   effects_.haze = effects.haze && lighting.haze_extinction_per_m > 0.0;
   effects_.clouds = effects.clouds && effects_.sky && lighting.sky_model != SkyModel::uniform &&
                     (lighting.clouds > 0.0 || lighting.sky_model == SkyModel::overcast);
-  horizon_kind_ = !effects.horizon || !effects_.sky            ? HorizonKind::none
-                  : lighting.horizon == HorizonKind::automatic ? horizon_of(scene.scene())
-                                                               : lighting.horizon;
+  if (effects.horizon && effects_.sky) {
+    horizon_kind_ = lighting.horizon == HorizonKind::automatic ? horizon_of(scene.scene()) : lighting.horizon;
+    // Whoever switches the effect on around an object or a room gets plain land.
+    if (lighting.horizon == HorizonKind::automatic && horizon_kind_ == HorizonKind::none &&
+        !scene.scene().bounds.empty())
+      horizon_kind_ = HorizonKind::plain;
+  }
   effects_.horizon = horizon_kind_ != HorizonKind::none;
   marks_ = MarkMap(scene, effects.markings);
   effects_.markings = effects.markings && marks_.any();

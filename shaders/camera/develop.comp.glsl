@@ -33,6 +33,7 @@ layout(set = 0, binding = develop_triangle_ids_binding, scalar) readonly buffer 
   uint64_t triangle_ids[];
 };
 layout(push_constant, scalar) uniform Constants { DevelopConstants picture; };
+#include "camera/chromatic.glsl"
 layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer Words { uint64_t v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Pairs { uint64_t v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Exposure { MeterResult v; };
@@ -66,6 +67,7 @@ void main() {
     if (want_rgb || want_hdr) {
       if ((i & 1u) == 0u) color_words = picture_color[pairs * group + i / 2u];
       vec3 color = unpack_color((i & 1u) == 0u ? color_words.xy : color_words.zw).rgb;
+      if (chromatic_on && first + i < picture.width * picture.height) color = through_prism(color, first + i);
       if (want_hdr) {
         [[unroll]] for (uint c = 0u; c < 3u; ++c)
           radiance[3u * i + c] = floatBitsToUint(color[c] * picture.radiance_scale);

@@ -44,7 +44,8 @@ uint neighbor(ivec2 at, int k) {
 /// Returns the pixel, mixed with the triangles of those neighbours whose bits are set in `differing`, each by
 /// the share that it covers.
 Shaded smoothed(ivec2 at, uvec2 mine, uint differing, Shaded pixel) {
-  vec3 ray = pixel_ray(pinhole_place(at));
+  vec2 place = own_place(at);
+  vec3 ray = pixel_ray(place);
   Shaded across = Shaded(vec4(0.0), 0.0), down = across;
   vec2 share = vec2(0.0);
   while (differing != 0u) {
@@ -55,7 +56,7 @@ Shaded smoothed(ivec2 at, uvec2 mine, uint differing, Shaded pixel) {
     bool edge = mine.y == 0u || other.y == 0u || scene_facet(mine.y - 1u) != scene_facet(other.y - 1u);
     if (edge) {
       ivec2 there = at + step_to(k);
-      vec3 other_ray = pixel_ray(pinhole_place(there));
+      vec3 other_ray = faces_on ? ray + face_step(step_to(k), place) : pixel_ray(pinhole_place(there));
       bool nearer = uintBitsToFloat(mine.x) <= uintBitsToFloat(other.x);
       Seen seen = see((nearer ? mine.y : other.y) - 1u);
       float covered = nearer ? reach(seen, ray, other_ray - ray) : reach(seen, other_ray, ray - other_ray);
@@ -77,12 +78,17 @@ Shaded smoothed(ivec2 at, uvec2 mine, uint differing, Shaded pixel) {
 }
 
 void main() {
-  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 at = own_pixel();
   if (outside_picture(at)) return;
   uint element = picture_element(at);
   uvec2 mine = picture_seen[element];
   uint differing = 0u;
   for (int k = 0; k < 4; ++k) differing |= uint(picture_seen[neighbor(at, k)].y != mine.y) << k;
+  if (band_rows != 0u) {  // pixels of another band show another instant
+    uint row = uint(at.y) % band_rows;
+    if (row == 0u) differing &= ~4u;
+    if (row == band_rows - 1u) differing &= ~8u;
+  }
   Shaded pixel = shaded(at);
   if (differing != 0u) pixel = smoothed(at, mine, differing, pixel);
   if (color_on) to_color[element] = pack_color(pixel.color);

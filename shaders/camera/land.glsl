@@ -6,6 +6,7 @@
 // optical background: no other pass knows of it.
 #ifndef GREATX_CAMERA_LAND_GLSL
 #define GREATX_CAMERA_LAND_GLSL
+#include "camera/footprint.glsl"
 #include "camera/haze.glsl"
 #include "camera/light.glsl"
 #include "shared/horizon.h"
@@ -216,7 +217,7 @@ vec4 land_radiance(uint kind, vec3 direction) {
   ray.along = level > 1e-4 ? direction.xy * ray.lengthen : vec2(1.0, 0.0);
   ray.height = camera.eye_high.z - horizon.floor;
   ray.slope = direction.z * ray.lengthen;
-  ray.pixel = length(camera.ray_x);
+  ray.pixel = length(footprint_x());
   Gathered all = Gathered(vec3(0.0), 1.0);
   float top = kind == horizon_city ? city_top : kind == horizon_country ? country_top : 0.0;
   float begin = way_out(ray);

@@ -72,12 +72,16 @@ Center rim_of(Seen seen, vec3 ray) {
 }
 
 void main() {
-  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 at = own_pixel();
   if (outside_picture(at)) return;
   uint element = picture_element(at);
-  vec2 pixel = pinhole_place(at);
+  vec2 pixel = own_place(at);
   ivec2 in_pinhole = distortion_on ? ivec2(pixel) : at;  // a conversion costs a CPU driver more than a sum
   vec3 ray = pixel_ray(pixel);
+  if (faces_on) {
+    footprint_of_lens_x = face_step(ivec2(1, 0), pixel);
+    footprint_of_lens_y = face_step(ivec2(0, 1), pixel);
+  }
   const float infinity = uintBitsToFloat(0x7f800000u);
 
   vec3 radiance = vec3(0.0);
@@ -120,5 +124,6 @@ void main() {
     if (adds) stored += picture_luminance[element];
     picture_luminance[element] = stored;
   }
+  if (range_on) center.depth *= length(ray);
   if (ids_on) picture_seen[element] = uvec2(floatBitsToUint(center.depth), center.id);
 }

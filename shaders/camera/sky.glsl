@@ -4,6 +4,7 @@
 // Computes the light that a pixel sees where there is no surface.
 #ifndef GREATX_CAMERA_SKY_GLSL
 #define GREATX_CAMERA_SKY_GLSL
+#include "camera/footprint.glsl"
 #include "camera/haze.glsl"
 #include "camera/land.glsl"
 #include "camera/light.glsl"
@@ -21,8 +22,8 @@ struct PixelSpan {
 
 PixelSpan pixel_span(vec3 direction, float inverse_length) {
   PixelSpan s;
-  s.x = (camera.ray_x - direction * dot(direction, camera.ray_x)) * inverse_length;
-  s.y = (camera.ray_y - direction * dot(direction, camera.ray_y)) * inverse_length;
+  s.x = (footprint_x() - direction * dot(direction, footprint_x())) * inverse_length;
+  s.y = (footprint_y() - direction * dot(direction, footprint_y())) * inverse_length;
   s.xx = dot(s.x, s.x);
   s.xy = dot(s.x, s.y);
   s.yy = dot(s.y, s.y);

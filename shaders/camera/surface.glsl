@@ -5,6 +5,7 @@
 #ifndef GREATX_CAMERA_SURFACE_GLSL
 #define GREATX_CAMERA_SURFACE_GLSL
 #include "camera/effects.glsl"
+#include "camera/footprint.glsl"
 #include "camera/octahedral.glsl"
 #include "camera/triangle.glsl"
 #include "lib/textures.glsl"
@@ -68,8 +69,8 @@ float marked_share(vec2 middle, vec2 dx, vec2 dy) {
 void mix_markings(inout Surface s, uint kind, Seen seen, vec3 ray) {
   // The pixel's sides on the triangle's plane.
   float facing = dot(ray, seen.normal);
-  vec3 x = camera.ray_x - ray * (dot(camera.ray_x, seen.normal) / facing),
-       y = camera.ray_y - ray * (dot(camera.ray_y, seen.normal) / facing);
+  vec3 x = footprint_x() - ray * (dot(footprint_x(), seen.normal) / facing),
+       y = footprint_y() - ray * (dot(footprint_y(), seen.normal) / facing);
   float depth = dot(seen.p0, seen.normal) / facing;
   x *= depth;
   y *= depth;
@@ -117,8 +118,8 @@ Surface surface_at(Seen seen, vec3 ray) {
     Footprint at;
     mat2 along = mat2(uintBitsToFloat(r3.zw), uintBitsToFloat(r4.xy));
     at.uv = uintBitsToFloat(r3.xy) + along * b;
-    at.dx = along * (barycentrics(seen, ray + camera.ray_x) - center);
-    at.dy = along * (barycentrics(seen, ray + camera.ray_y) - center);
+    at.dx = along * (barycentrics(seen, ray + footprint_x()) - center);
+    at.dy = along * (barycentrics(seen, ray + footprint_y()) - center);
     if (textures_on) {
       uint of_color = m0.w;
       uint roughness_in = m0.y >> 16;

@@ -21,6 +21,9 @@ layout(constant_id = truth_spec_p1) const float p1 = 0.0;
 layout(constant_id = truth_spec_p2) const float p2 = 0.0;
 layout(constant_id = truth_spec_k3) const float k3 = 0.0;
 layout(constant_id = truth_spec_fold_squared) const float fold_squared = 0.0;
+layout(constant_id = truth_spec_wide) const uint wide = 0u;
+layout(constant_id = truth_spec_k4) const float k4 = 0.0;
+layout(constant_id = truth_spec_half_angle) const float half_angle = 0.0;
 
 layout(set = 0, binding = truth_seen_binding, scalar) readonly buffer SeenBlock { uvec2 picture_seen[]; };
 layout(set = 0, binding = truth_triangle_primitives_binding, scalar) readonly buffer TrianglePrimitivesBlock {
@@ -31,7 +34,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Fl
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Words { uint v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Motions { GpuBodyMotion v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LensTable { vec2 v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Directions { vec3 v[]; };
 #include "camera/pixel_ray.glsl"
+#include "camera/wide_flow.glsl"
 
 const uint infinity_bits = 0x7f800000u, nan_bits = 0x7fc00000u;
 
@@ -78,6 +83,22 @@ vec2 distorted_difference(vec2 n, vec2 by) {
   return by * radial + n * radial_difference + tangential;
 }
 
+/// Returns the same for the point seen along a unit direction of optical axes, behind a lens of `wide`. It is
+/// NaN where the point will be nearer than the near plane's distance or outside the image circle.
+uvec2 wide_flow_bits(vec3 n, float inverse_range, GpuBodyMotion motion) {
+  vec4 r = vec4(n, inverse_range);
+  vec3 d = vec3(dot(motion.row0, r), dot(motion.row1, r), dot(motion.row2, r)), m = n + d;
+  bool seen = length(m) > max(camera.near_m * inverse_range, 1e-6);
+  vec2 by;
+  if (wide == truth_lens_fisheye) {
+    seen = seen && atan(length(m.xy), m.z) <= half_angle;
+    by = fisheye_difference(n, d);
+  } else {
+    by = equirectangular_difference(n, d);
+  }
+  return seen && n != vec3(0.0) ? floatBitsToUint(camera.focal * by) : uvec2(nan_bits);
+}
+
 /// Returns the displacement, in pixels until the next sample, of the point seen at undistorted normalised
 /// coordinates n. It is NaN where the point will be nearer than the near plane, behind the camera or beyond
 /// the lens's fold.
@@ -101,11 +122,14 @@ void main() {
   ivec2 at = ivec2(pixel % camera.width, pixel / camera.width);
   uvec2 seen = picture_seen[pixel];
   vec2 position = distorted ? LensTable(camera.lens).v[pixel] : vec2(at) + 0.5;
-  vec3 ray = pixel_ray(position);
+  vec3 direction = wide != 0u ? Directions(camera.lens).v[pixel] : vec3(0.0);
+  vec3 ray = wide != 0u ? camera.ray_x * direction.x + camera.ray_y * direction.y + camera.ray_0 * direction.z
+                        : pixel_ray(position);
   bool sky = seen.y == 0u;
   float depth = sky ? 1.0 : uintBitsToFloat(seen.x);
   if (want_depth_ray)
-    Words(camera.depth_ray).v[pixel] = sky ? infinity_bits : floatBitsToUint(depth * length(ray));
+    Words(camera.depth_ray).v[pixel] =
+        sky ? infinity_bits : floatBitsToUint(wide != 0u ? depth : depth * length(ray));
 
   uint body = 0u;
   if (moving && (want_flow || want_normals) && !sky)
@@ -117,7 +141,11 @@ void main() {
   }
   if (want_flow) {
     vec2 n = (position - camera.principal) / camera.focal;
-    uvec2 flow = flow_bits(n, sky ? 0.0 : 1.0 / depth, Motions(camera.motions).v[body]);
+    uvec2 flow;
+    if (wide != 0u)
+      flow = wide_flow_bits(direction, sky ? 0.0 : 1.0 / depth, Motions(camera.motions).v[body]);
+    else
+      flow = flow_bits(n, sky ? 0.0 : 1.0 / depth, Motions(camera.motions).v[body]);
     Words(camera.flow).v[2u * pixel] = flow.x;
     Words(camera.flow).v[2u * pixel + 1u] = flow.y;
   }

@@ -31,6 +31,8 @@ const uint edges_from_binding = 5u;
 const uint edges_to_binding = 6u;
 const uint edges_luminance_from_binding = 7u;
 const uint edges_luminance_to_binding = 8u;
+// shade and edges, of a camera with several views (renderer/camera/faces.h): storage, FacePixel
+const uint face_pixels_binding = 27u;
 const uint horizon_binding = 28u;   // uniform: GpuHorizon (shaders/shared/horizon.h)
 const uint panorama_binding = 29u;  // sampled: the sky's radiance with clouds, and what they let through
 const uint marks_binding = 30u;     // uniform: GpuMarks (shaders/shared/marks.h)
@@ -64,6 +66,11 @@ const uint spec_emissive_arrays = 20u;
 // The records of triangles may be larger than the part of a buffer that a shader sees at once. Their address
 // is then bound.
 const uint spec_triangle_address = 22u;
+// A camera with several views lists the pixels of each. Its depth may be the distance along the ray, and
+// bands of rows may be of different instants (their rows; 0: they are not).
+const uint spec_faces = 23u;
+const uint spec_range = 24u;
+const uint spec_band_rows = 25u;
 const uint spec_clouds = 26u;
 const uint spec_horizon = 27u;  // a HorizonKind (renderer/light/lighting.h)
 const uint spec_markings = 28u;
@@ -163,6 +170,15 @@ struct BodyView {
   float near_m;
 };
 
+/// Holds a pixel that looks through a view: column | row << 16 of the picture (all ones: no pixel), and the
+/// places in the view, in its pixels, where its ray and those of its right and lower neighbours pass.
+struct FacePixel {
+  uint at;
+  vec2 place;
+  vec2 right;
+  vec2 down;
+};
+
 /// Holds the lighting, which is set at construction: key light (sun or moon), sky, haze, the static shadow
 /// map. Radiometric units are photometric: lux and cd/m^2 per linear Rec. 709 channel, such that 0.2126 R +
 /// 0.7152 G + 0.0722 B is the illuminance or luminance.
@@ -252,6 +268,10 @@ GREATX_SHARED_END
 
 #ifdef __cplusplus
 static_assert(sizeof(greatx::shared::CameraConstants) == 128);
+// A group of FacePixels begins where every device lets a binding begin.
+static_assert(sizeof(greatx::shared::FacePixel) * greatx::shared::shade_group_width *
+                  greatx::shared::shade_group_height % 256 ==
+              0);
 static_assert(sizeof(greatx::shared::GpuLighting) == 112 + 80 + 40 + 144);
 static_assert(sizeof(greatx::shared::ShadowTilesHeader) == 32);
 static_assert(sizeof(greatx::shared::GpuShadowTile) == 32);

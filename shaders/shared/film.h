@@ -40,7 +40,13 @@ const uint develop_spec_material = 5u;
 const uint develop_spec_metered = 6u;     // exposure by the meter
 const uint develop_spec_flat_field = 7u;  // vignetting
 const uint develop_spec_noise = 8u;
-const uint develop_spec_count = 9u;
+// Chromatic aberration: the principal point in pixels, and 1 over the magnification of red and blue (floats).
+const uint develop_spec_chromatic = 9u;
+const uint develop_spec_chromatic_x = 10u;
+const uint develop_spec_chromatic_y = 11u;
+const uint develop_spec_chromatic_red = 12u;
+const uint develop_spec_chromatic_blue = 13u;
+const uint develop_spec_count = 14u;
 
 const uint develop_group_size = 64u;
 /// The pixels that one invocation of the developing pass packs into whole 64-bit words.

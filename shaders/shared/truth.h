@@ -25,7 +25,14 @@ const uint truth_spec_p1 = 7u;
 const uint truth_spec_p2 = 8u;
 const uint truth_spec_k3 = 9u;
 const uint truth_spec_fold_squared = 10u;  // undistorted radius at which the lens folds, squared
-const uint truth_spec_count = 11u;
+// A fisheye or an equirectangular lens (renderer/lens/wide_lens.h): k1, k2, k3 as above. Seen depth is then
+// the distance along the ray.
+const uint truth_spec_wide = 11u;  // truth_lens_...; 0: neither
+const uint truth_spec_k4 = 12u;
+const uint truth_spec_half_angle = 13u;  // fisheye: where the image circle ends, rad
+const uint truth_spec_count = 14u;
+const uint truth_lens_fisheye = 1u;
+const uint truth_lens_equirectangular = 2u;
 
 const uint truth_group_size = 64u;
 
@@ -46,7 +53,7 @@ struct TruthConstants {
   uint64_t flow;
   uint64_t motions;  ///< GpuBodyMotion[bodies]
   /// Address of vec2[height * width]: the place, in pixels, where a pinhole camera shows what the pixel's
-  /// centre sees.
+  /// centre sees. With truth_spec_wide: of vec3[height * width], unit directions in optical axes; 0: nothing.
   uint64_t lens;
   vec3 eye_high;
   vec3 eye_low;

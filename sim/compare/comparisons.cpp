@@ -33,7 +33,8 @@ void keep_lidar(const TickEvidence& tick, const KeepErrors& keep) {
       if (!depth || depth->node != returns->node) continue;
       keep(lidar, &camera,
            lidar_against_depth(*depth->camera, *depth->images, depth->mount.inverse() * returns->mount,
-                               returns->xyzi, returns->instances, returns->materials, returns->error_m));
+                               returns->xyzi, returns->instances, returns->materials, returns->error_m,
+                               returns->noise, returns->power));
     }
   }
 }
@@ -53,7 +54,7 @@ void keep_sensing(const TickEvidence& tick, const KeepErrors& keep) {
 /// Returns what recomputing needs. A camera with boxes compares instances in a run even if it does not write
 /// them. The figure can then be recomputed only if they are written.
 Comparison::Needs lidar_needs(const SensorSpec& camera) {
-  Comparison::Needs needs{{"points", "instance", "material"}, {"depth"}};
+  Comparison::Needs needs{{"points", "instance", "material", "power"}, {"depth"}};
   if (std::ranges::any_of(camera.arrays, [](const ArraySpec& s) { return s.name.starts_with("box_"); }))
     needs.of_other.emplace_back("instance");
   return needs;

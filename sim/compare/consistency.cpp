@@ -43,6 +43,11 @@ std::vector<glm::uvec2> probe_pixels(uint32_t width, uint32_t height, uint32_t c
   return pixels;
 }
 
+double RangeNoise::bound_m(double power) const {
+  constexpr double deviations = 6.0;
+  return deviations * std::hypot(std_m, rise_m > 0.0 ? rise_m * noise_equivalent_power / power : 0.0);
+}
+
 dvec3 pixel_ray(const render::CameraDesc& camera, double column, double row) {
   // Optical frame: x right, y down, z forward; sensor frame: x forward, y left, z up.
   return {1.0, -(column - camera.cx) / camera.fx, -(row - camera.cy) / camera.fy};
@@ -50,21 +55,26 @@ dvec3 pixel_ray(const render::CameraDesc& camera, double column, double row) {
 
 namespace {
 
-/// Returns how much rounding by `error_m` can change the relative difference in depth of a point in the plane
-/// around a pixel. In the camera's frame, points p of the plane have n p = 1, and 1/z of the pixel that sees
-/// p is n p / z. A point p + e therefore differs by |n e / (1 + n e)|.
-double rounding_bound(const render::CameraDesc& camera, const InverseDepthPlane& plane, double column,
-                      double row, double error_m) {
+/// Returns how much the errors of a point can change its relative difference in depth in the plane around a
+/// pixel. In the camera's frame, points p of the plane have n p = 1, and 1/z of the pixel that sees p is
+/// n p / z. A point p + e therefore differs by |n e / (1 + n e)|. The part of e by noise lies along the beam.
+double error_bound(const render::CameraDesc& camera, const InverseDepthPlane& plane, double column,
+                   double row, const ReturnedPoint& point) {
   const dvec3 n(plane.at(camera.cx - column, camera.cy - row), -camera.fx * plane.per_column,
                 -camera.fy * plane.per_row);
-  const double most = glm::length(n) * error_m;
+  const double most = glm::length(n) * point.error_m + std::abs(glm::dot(n, point.beam)) * point.beam_error_m;
   return most < 1.0 ? most / (1.0 - most) : std::numeric_limits<double>::infinity();
 }
 
-/// Returns whether rounding may move the projection of a point by more than a pixel.
-bool may_leave_pixel(const render::CameraDesc& camera, const dvec3& point, double error_m) {
-  const double per_m = std::max(camera.fx, camera.fy) * glm::length(point) / (point.x * (point.x - error_m));
-  return point.x <= error_m || error_m * per_m > 1.0;
+/// Returns whether the errors may move the projection of a point by more than a pixel. The noise moves it by
+/// what its beam does not point away from the camera alone.
+bool may_leave_pixel(const render::CameraDesc& camera, const ReturnedPoint& point) {
+  const dvec3& p = point.in_camera;
+  const double nearest = p.x - point.error_m - point.beam_error_m;
+  if (nearest <= 0.0) return true;
+  const double across =
+      glm::length(p) * point.error_m + glm::length(glm::cross(p, point.beam)) * point.beam_error_m;
+  return std::max(camera.fx, camera.fy) * across / (p.x * nearest) > 1.0;
 }
 
 }  // namespace
@@ -85,21 +95,27 @@ std::optional<double> lidar_against_depth(const render::CameraDesc& camera,
   if (!plane) return std::nullopt;
   const double depth = 1.0 / plane->at(column - (i + 0.5), row - (j + 0.5));
   const double difference = std::abs(depth - z) / z;
-  if (point.error_m == 0.0) return difference;
-  if (may_leave_pixel(camera, point.in_camera, point.error_m)) return std::nullopt;
-  return std::max(0.0, difference - rounding_bound(camera, *plane, i + 0.5, j + 0.5, point.error_m));
+  if (point.error_m == 0.0 && point.beam_error_m == 0.0) return difference;
+  if (may_leave_pixel(camera, point)) return std::nullopt;
+  return std::max(0.0, difference - error_bound(camera, *plane, i + 0.5, j + 0.5, point));
 }
 
 ErrorStatistics lidar_against_depth(const render::CameraDesc& camera, const render::CameraImages& images,
                                     const Pose& camera_from_lidar, std::span<const float> xyzi,
                                     std::span<const uint32_t> instances, std::span<const uint32_t> materials,
-                                    double error_m) {
+                                    double error_m, const RangeNoise& noise, std::span<const float> power) {
+  GREATX_CHECK(power.empty() || power.size() == instances.size(), "{} powers of {} returns", power.size(),
+               instances.size());
   ErrorStatistics errors;
   const size_t stride = std::max<size_t>(1, instances.size() / lidar_comparisons);
   for (size_t i = 0; i < instances.size(); i += stride) {
-    const dvec3 point = camera_from_lidar.apply(dvec3(xyzi[4 * i], xyzi[4 * i + 1], xyzi[4 * i + 2]));
-    if (const auto error = lidar_against_depth(camera, images, {point, instances[i], materials[i], error_m}))
-      errors.add(*error);
+    const dvec3 in_lidar(xyzi[4 * i], xyzi[4 * i + 1], xyzi[4 * i + 2]);
+    ReturnedPoint point{camera_from_lidar.apply(in_lidar), instances[i], materials[i], error_m};
+    if (!power.empty()) {
+      point.beam = camera_from_lidar.rotate(glm::normalize(in_lidar));
+      point.beam_error_m = noise.bound_m(power[i]);
+    }
+    if (const auto error = lidar_against_depth(camera, images, point)) errors.add(*error);
   }
   return errors;
 }

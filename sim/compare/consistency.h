@@ -12,6 +12,7 @@
 #include "core/vec.h"
 #include "renderer/camera/camera.h"
 #include "sim/compare/error_statistics.h"
+#include "sim/compare/evidence.h"
 
 namespace greatx::sim {
 
@@ -39,21 +40,25 @@ dvec3 pixel_ray(const render::CameraDesc& camera, double column, double row);
 struct ReturnedPoint {
   dvec3 in_camera{0.0};
   uint32_t instance = 0, material = 0;
-  double error_m = 0.0;  ///< largest distance of the position from the true one, by rounding
+  double error_m = 0.0;       ///< largest distance of the position from the true one, by rounding
+  dvec3 beam{0.0};            ///< direction of the beam in the camera's frame, unit, for `beam_error_m`
+  double beam_error_m = 0.0;  ///< largest distance of the position along the beam, by noise
 };
 /// Returns the relative difference in depth between a return and the picture of the same tick, at the place
 /// where the return projects to. The result is empty if the return projects outside the picture, or to a
 /// pixel that is not interior or shows another instance or material (the camera sees the pane that the beam
-/// passed). If the position was rounded, the result is what the rounding does not account for; it is empty if
-/// rounding may move the point by more than a pixel.
+/// passed). If the position has errors, the result is what they do not account for; it is empty if rounding
+/// or noise may move the point by more than a pixel.
 std::optional<double> lidar_against_depth(const render::CameraDesc& camera,
                                           const render::CameraImages& images, const ReturnedPoint& point);
 /// Does the same for some returns of a sweep, evenly spaced: at most twice `lidar_comparisons`. `xyzi` holds
-/// 4 n values in the LiDAR's frame, `error_m` from the true points; `instances` and `materials` are [n].
+/// 4 n values in the LiDAR's frame, `error_m` from the true points; `instances` and `materials` are [n], and
+/// so is `power` if there is noise.
 inline constexpr size_t lidar_comparisons = 1024;
 ErrorStatistics lidar_against_depth(const render::CameraDesc& camera, const render::CameraImages& images,
                                     const Pose& camera_from_lidar, std::span<const float> xyzi,
                                     std::span<const uint32_t> instances, std::span<const uint32_t> materials,
-                                    double error_m = 0.0);
+                                    double error_m = 0.0, const RangeNoise& noise = {},
+                                    std::span<const float> power = {});
 
 }  // namespace greatx::sim

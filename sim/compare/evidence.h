@@ -24,14 +24,22 @@ struct DepthEvidence {
   const render::CameraImages* images = nullptr;
 };
 
-/// Holds the returns of a LiDAR whose shots were all taken at the tick, along the axes of the beams and
-/// without noise.
+/// The noise of a LiDAR's ranges: normal, with the variance std_m^2 + (rise_m NEP / P)^2 at the power P.
+struct RangeNoise {
+  double std_m = 0.0, rise_m = 0.0, noise_equivalent_power = 0.0;
+  /// Returns six standard deviations at a power, m. Two returns in a thousand million are farther off.
+  double bound_m(double power) const;
+};
+
+/// Holds the returns of a LiDAR whose shots were all taken at the tick, along the axes of the beams.
 struct ReturnEvidence {
   uint32_t node = 0;                               ///< the node that carries the LiDAR
   Pose mount;                                      ///< body_from_sensor
   std::span<const float> xyzi;                     ///< [4 n] in the LiDAR's frame
   std::span<const uint32_t> instances, materials;  ///< [n]
-  double error_m = 0.0;  ///< largest distance between a point and its rounded coordinates
+  double error_m = 0.0;          ///< largest distance between a point and its rounded coordinates
+  RangeNoise noise;              ///< along the beams
+  std::span<const float> power;  ///< [n], as in the record; empty if there is no noise
 };
 
 /// Holds everything by which the record collected last can be compared with those of other sensors. A sensor

@@ -182,8 +182,14 @@ ErrorStatistics compare_lidar(const RecordView& lidar, const RecordView& camera)
   const auto returns = static_cast<size_t>(instance.element_count());
   const Array points = expect_array(lidar, "points", DType::f32, 4 * returns),
               material = expect_array(lidar, "material", DType::u32, returns);
+  const Json receiver = about_lidar.value("receiver", Json::object());
+  const RangeNoise noise{receiver.value("range_std_m", 0.0), receiver.value("rise_m", 0.0),
+                         receiver.value("noise_equivalent_power", 0.0)};
+  Array power;
+  if (noise.std_m > 0.0 || noise.rise_m > 0.0) power = expect_array(lidar, "power", DType::f32, returns);
   return lidar_against_depth(desc, images, camera_from_lidar, points.as<float>(), instance.as<uint32_t>(),
-                             material.as<uint32_t>(), about_lidar.value("point_error_m", 0.0));
+                             material.as<uint32_t>(), about_lidar.value("point_error_m", 0.0), noise,
+                             power.bytes.empty() ? std::span<const float>() : power.as<float>());
 }
 
 ErrorStatistics compare_sights(const RecordView& channel, const RecordView& poses) {

@@ -17,6 +17,7 @@ void set_pinhole(render::CameraDesc& desc, const PinholeConfig& config) {
   desc.msaa = config.msaa;
   desc.smooth_edges = config.smooth_edges;
   desc.distortion = config.distortion;
+  desc.wide = config.wide;
 }
 
 bool needs_seen(const EventCameraConfig& config) {
@@ -44,6 +45,8 @@ render::CameraDesc camera_desc(const Scenario& scenario, const NodeConfig& node,
   desc.automatic_exposure = config.exposure.automatic;
   desc.compensation_ev = config.exposure.compensation_ev;
   desc.vignetting = config.vignetting;
+  desc.bands = config.rolling.any() ? config.rolling.bands : 0;
+  desc.chromatic = config.chromatic;
   if (config.noise)
     desc.noise = {config.noise->full_well_e, config.noise->read_noise_e, config.noise->bits, scenario.seed,
                   fnv1a32(desc.name)};

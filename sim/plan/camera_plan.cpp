@@ -9,6 +9,7 @@
 
 #include "core/units.h"
 #include "renderer/camera/camera_view.h"
+#include "renderer/lens/lens_rays.h"
 #include "renderer/light/horizon.h"
 #include "renderer/light/sky.h"
 #include "renderer/surface/mark_map.h"
@@ -67,6 +68,7 @@ namespace {
 void add(CameraAsks& asks, const PinholeConfig& camera) {
   asks.smooth_edges |= camera.smooth_edges;
   asks.distortion |= camera.distortion.any();
+  asks.wide_lens |= camera.wide.any();
 }
 
 void add(CameraAsks& asks, const CameraConfig& camera) {
@@ -81,6 +83,8 @@ void add(CameraAsks& asks, const CameraConfig& camera) {
   asks.boxes |= camera.boxes;
   asks.vignetting |= camera.rgb && camera.vignetting.any();
   asks.noise |= camera.rgb && camera.noise.has_value();
+  asks.rolling_shutter |= camera.rolling.any();
+  asks.chromatic_aberration |= camera.chromatic.any() && (camera.rgb || camera.hdr);
   asks.motion_blur |= camera.motion_blur_samples > 0 && (camera.rgb || camera.hdr);
   asks.automatic_exposure |= camera.rgb && camera.exposure.automatic;
   add(asks, static_cast<const PinholeConfig&>(camera));
@@ -170,12 +174,15 @@ void check_lenses(const Scenario& scenario) {
       // Natural vignetting passes light everywhere.
       const bool vignetting =
           of_light != nullptr && of_light->vignetting.any() && !of_light->vignetting.natural;
-      if (!camera->distortion.any() && !vignetting) continue;
+      if (!camera->distortion.any() && !camera->wide.any() && !vignetting) continue;
       render::CameraDesc desc;
       desc.name = node.name + "/" + sensor.name;
       set_pinhole(desc, *camera);
       try {
-        render::pinhole_of(desc);
+        if (camera->wide.any())
+          render::LensRays(render::lens_geometry(desc));
+        else
+          render::pinhole_of(desc);
         if (vignetting) render::flat_field(of_light->vignetting, render::lens_geometry(desc));
       } catch (const UserError& error) {
         throw_user_error_at(sensor.where, "{}", error.what());
@@ -195,6 +202,12 @@ void plan_lens(EffectPlan& plan, const Planner& planner, const CameraAsks& asks)
   asked(plan.smooth_edges, asks.smooth_edges && asks.color());
   planner.decide(plan.lens_distortion, asks.distortion,
                  asks.distortion ? "asked for" : "no camera asks for it");
+  planner.decide(plan.wide_lens, asks.wide_lens, asks.wide_lens ? "asked for" : "no camera asks for it",
+                 "draws up to six pictures for one");
+  planner.decide(plan.rolling_shutter, asks.rolling_shutter,
+                 asks.rolling_shutter ? "asked for" : "no camera asks for it",
+                 "draws the scene once for each band of rows");
+  asked(plan.chromatic_aberration, asks.chromatic_aberration);
   asked(plan.vignetting, asks.vignetting);
   asked(plan.motion_blur, asks.motion_blur, "costs a picture for each of its samples");
   asked(plan.auto_exposure, asks.automatic_exposure);

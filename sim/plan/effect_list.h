@@ -46,6 +46,9 @@
   X(markings, true, camera, "far markings of roads keep their share of each pixel") \
   X(smooth_edges, false, none, "antialiasing along the edges of meshes") \
   X(lens_distortion, false, none, "distortion by the lens") \
+  X(wide_lens, false, none, "fisheye and equirectangular lenses") \
+  X(rolling_shutter, false, none, "rows of a picture exposed one after the other") \
+  X(chromatic_aberration, false, none, "red and blue pictures that differ in size from the green one") \
   X(vignetting, false, none, "loss of light towards the corners of a picture") \
   X(motion_blur, false, none, "motion during the exposure") \
   X(auto_exposure, false, none, "exposure that follows the light of the scene") \

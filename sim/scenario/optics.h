@@ -62,7 +62,8 @@ struct Environment {
 };
 
 /// These types describe a lens (docs/film.md).
-using render::Distortion, render::Vignetting;
+using render::ChromaticAberration, render::Distortion, render::LensModel, render::RollingShutter,
+    render::Vignetting, render::WideLens;
 
 /// Describes the exposure of a picture. `automatic` meters each picture by itself, so that no picture depends
 /// on another.
@@ -89,6 +90,7 @@ struct PinholeConfig {
   uint32_t msaa = 1;         ///< samples per pixel of the colour: 1 or 4
   bool smooth_edges = true;  ///< with one sample: outlines are blended by their share of the pixel
   Distortion distortion;
+  WideLens wide;  ///< instead of `distortion`; never of an event camera
 };
 
 struct CameraConfig : PinholeConfig {
@@ -96,6 +98,8 @@ struct CameraConfig : PinholeConfig {
   uint32_t motion_blur_samples = 0;  ///< instants within the shutter time, an odd number; 0: sharp
   Vignetting vignetting;
   std::optional<SensorNoise> noise;
+  RollingShutter rolling;
+  ChromaticAberration chromatic;
   // The members below select the arrays to deliver.
   bool rgb = true, depth = true, ids = true;
   bool listed = false;    ///< whether the scenario lists the outputs; otherwise they are the default ones

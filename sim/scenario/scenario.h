@@ -28,6 +28,7 @@
 #include "sim/scenario/accuracy.h"
 #include "sim/scenario/antenna.h"
 #include "sim/scenario/limits.h"
+#include "sim/scenario/navigation.h"
 #include "sim/scenario/optics.h"
 #include "sim/scenario/radar.h"
 #include "sim/scenario/rational.h"
@@ -149,7 +150,9 @@ struct LidarConfig {
 struct SensorConfig {
   std::string name;
   Mount mount;
-  std::variant<CameraConfig, EventCameraConfig, LidarConfig, RadarConfig, AntennaConfig> config;
+  std::variant<CameraConfig, EventCameraConfig, LidarConfig, RadarConfig, AntennaConfig, ImuConfig,
+               GnssConfig, BarometerConfig, MagnetometerConfig>
+      config;
   Rational rate_hz;  ///< not used by antennas, which fire with their channel
   SourceLocation where;
 };

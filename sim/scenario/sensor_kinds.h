@@ -33,7 +33,11 @@ inline constexpr std::array<SensorKind, sensor_kind_count> sensor_kinds{
      {"event_camera", "event camera", true},
      {"lidar", "LiDAR", true},
      {"radar", "radar", true},
-     {"antenna", "antenna", false}}};
+     {"antenna", "antenna", false},
+     {"imu", "inertial sensor", true},
+     {"gnss", "GNSS receiver", true},
+     {"barometer", "barometer", true},
+     {"magnetometer", "magnetometer", true}}};
 
 /// Returns the row of the table for the settings of type `Config`.
 template <typename Config>

@@ -96,7 +96,8 @@ def check_trajectories(name, data, out, worst):
     import numpy as np
     from evo.core import lie_algebra, metrics, sync
     from evo.tools import file_interface
-    from greatx.convert.trajectories import write_euroc, write_tum
+    from greatx.convert.euroc import write_euroc
+    from greatx.convert.trajectories import write_tum
     from greatx.links import rotation
 
     write_tum(data, out / "tum")

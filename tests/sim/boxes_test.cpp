@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "renderer/lens/lens.h"
+#include "renderer/lens/lens_rays.h"
 #include "tests/renderer/camera_rig.h"
 #include "tests/sim/box_camera.h"
 
@@ -291,6 +291,77 @@ TEST(Boxes, BehindALensHoldTheirMasks) {
     }
     EXPECT_EQ(at, found.size());
     EXPECT_GT(seen, 20u);
+  }
+}
+
+TEST(Boxes, BehindAWideLensHoldTheirMasks) {
+  Crowd around = crowd_of_long_things();
+  // Things behind the eye, one of them across the rims of the panorama.
+  for (const double bearing : {140.0, 181.0, 215.0}) {
+    const std::string name = "behind " + std::to_string(int(bearing));
+    around.tiny.object(name, around.tiny.body(name)).box({-1, -1, -1}, {1, 1, 1});
+    around.bodies.push_back(
+        look({7 * std::cos(radians(bearing)), 7 * std::sin(radians(bearing)), bearing / 100 - 2}, bearing, 20,
+             10));
+  }
+  const scene::Scene scene = labelled(around.tiny);
+  const std::vector<Pose> moving(around.bodies.begin() + 1, around.bodies.end());
+  const Pose camera = look({0.3, -0.2, 0.1}, 4, 3, 2);
+  CameraDesc fisheye = box_camera(120, 120), panorama = box_camera(160, 80);
+  fisheye.wide = {.model = render::LensModel::fisheye, .k1 = -0.02, .half_angle = radians(100.0)};
+  fisheye.fx = fisheye.fy = 60.0 / fisheye.wide.shown(radians(95.0));
+  panorama.wide.model = render::LensModel::equirectangular;
+  panorama.fx = panorama.fy = 80.0 / pi;
+  panorama.cx = 80.0;
+  panorama.cy = 40.0;
+  for (const CameraDesc& desc : {fisheye, panorama}) {
+    const std::vector<dvec3> directions = render::LensRays(render::lens_geometry(desc)).centers();
+    Boxes boxes(scene, desc, {});
+    test::CameraRig rig(scene, test::plain_light(), desc);
+    const std::vector<ObjectBox> found =
+        boxes.find(camera, around.bodies, rig.shoot(camera, moving).instance);
+    size_t at = 0, seen = 0;
+    for (uint32_t i = 0; i < boxes.objects().size(); ++i) {
+      const Boxes::Object& object = boxes.objects()[i];
+      const std::string& name = scene.instances[object.first_instance].name;
+      std::vector<dvec3> corners;
+      for (const uint32_t k : object.indices)
+        corners.push_back(around.bodies[object.body].apply(object.vertices[k]));
+      uint32_t alone = 0;
+      std::array<double, 4> mask{1e9, 1e9, -1e9, -1e9};
+      for (uint32_t pixel = 0; pixel < directions.size(); ++pixel) {
+        // Scaled so that the ray parameter is the depth within the face of the cube.
+        dvec3 d = directions[pixel];
+        if (d == dvec3(0.0)) continue;
+        d /= std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+        const dvec3 ray = camera.rotate({d.z, -d.x, -d.y});
+        bool met = false;
+        for (size_t k = 0; !met && k < corners.size(); k += 3)
+          met = meets(camera.position, ray, corners[k], corners[k + 1], corners[k + 2], desc.near_m);
+        if (!met) continue;
+        ++alone;
+        const double u = pixel % desc.width + 0.5, v = pixel / desc.width + 0.5;
+        mask = {std::min(mask[0], u), std::min(mask[1], v), std::max(mask[2], u), std::max(mask[3], v)};
+      }
+      const bool is_found = at < found.size() && found[at].object == i;
+      EXPECT_TRUE(is_found || alone == 0) << name;
+      if (!is_found) continue;
+      const ObjectBox& box = found[at++];
+      EXPECT_NEAR(box.alone, alone, 2.0 + 0.02 * alone) << name;  // pixels that rounding shows are added
+      seen += box.visible > 0 ? 1 : 0;
+      constexpr double small = 1.0 / 128;
+      for (int side = 0; alone > 0 && side < 4; ++side) {
+        const double edge = box.amodal[side],
+                     out = side < 2 ? mask[size_t(side)] - edge : edge - mask[size_t(side)];
+        EXPECT_GE(out, -small) << name << ", side " << side;
+        // No side lies far beyond the last centre, except that corners reach between centres.
+        if (alone > 60) {
+          EXPECT_LT(out, 3.0) << name << ", side " << side;
+        }
+      }
+    }
+    EXPECT_EQ(at, found.size());
+    EXPECT_GT(seen, 25u);
   }
 }
 

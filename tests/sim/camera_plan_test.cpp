@@ -43,6 +43,21 @@ TEST(CameraPlan, ADistortionThatFoldsThePictureIsNamedWithFileAndLine) {
   EXPECT_EQ(message_of("type: camera, rate_hz: 30, fov_deg: 35, distortion: {k1: -0.4}"), "accepted");
 }
 
+TEST(CameraPlan, AFisheyeThatFoldsIsNamedWithFileAndLine) {
+  // 1 + 3 k1 t^2 = 0 at t = 1, where t_d = 2/3.
+  const std::string lens =
+      "type: camera, rate_hz: 30, width: 800, height: 600, fx: 300, lens: {model: fisheye, ";
+  EXPECT_THAT(
+      message_of(lens + "k1: -0.333333333333333333}"),
+      ::testing::StartsWith("s.yaml:8: camera car/front: lens: expected a model that does not fold within "
+                            "the picture, or a narrower circle_deg, found one that holds up to 114.592 "
+                            "degrees (200 pixels from the principal point)"));
+  EXPECT_THAT(message_of(lens + "k1: -0.333333333333333333, circle_deg: 120}"),
+              ::testing::StartsWith("s.yaml:8: camera car/front: lens: expected a model that grows up to the "
+                                    "image circle of 120 degrees, found one that holds up to 114.592"));
+  EXPECT_EQ(message_of(lens + "k1: -0.333333333333333333, circle_deg: 114}"), "accepted");
+}
+
 TEST(CameraPlan, AVignettingThatLetsNoLightThroughIsNamedWithFileAndLine) {
   EXPECT_THAT(
       message_of("type: camera, rate_hz: 30, fov_deg: 90, vignetting: [-2, 0, 0]"),

@@ -75,6 +75,27 @@ TEST(LidarAgainstDepth, BetweenPixelCentresThePlaneIsExact) {
   EXPECT_FALSE(lidar_against_depth(camera(), images, {point, 1, 4})) << "behind a pane of another material";
 }
 
+TEST(LidarAgainstDepth, NoiseAlongTheBeamAccountsForAsMuchAsItCan) {
+  const dvec3 normal = glm::normalize(dvec3(1, 0.3, 0.2));
+  const render::CameraImages images = picture_of_plane(normal, 9.0);
+  const dvec3 ray = pixel_ray(camera(), 17.83, 11.29), beam = glm::normalize(ray);
+  const dvec3 point = ray * (9.0 / glm::dot(normal, ray));
+  const auto error = [&](double off_m, double bound_m) {
+    return lidar_against_depth(camera(), images, {point + off_m * beam, 1, 3, 0.0, beam, bound_m});
+  };
+  // Within the bound everything is explained; beyond it, what is left is the way beyond it.
+  for (const double off_m : {-0.199, -0.1, 0.0, 0.1, 0.199}) {
+    ASSERT_TRUE(error(off_m, 0.2));
+    EXPECT_LT(*error(off_m, 0.2), 1e-6) << off_m;
+  }
+  ASSERT_TRUE(error(0.3, 0.2));
+  EXPECT_NEAR(*error(0.3, 0.2), 0.1 * beam.x / point.x, 0.1 * 0.1 * beam.x / point.x);
+  // A beam from the side moves the point over the picture: not compared.
+  EXPECT_FALSE(lidar_against_depth(camera(), images, {point, 1, 3, 0.0, {0, 1, 0}, 1.0}));
+  EXPECT_NEAR(RangeNoise({0.01, 0.3, 1e-9}).bound_m(1e-8), 6.0 * std::hypot(0.01, 0.03), 1e-12);
+  EXPECT_EQ(RangeNoise({}).bound_m(1e-8), 0.0);
+}
+
 TEST(ErrorStatistics, BoundsQuantiles) {
   ErrorStatistics statistics;
   EXPECT_EQ(statistics.quantile(0.99), 0.0);

@@ -21,6 +21,7 @@ name: kinds
 ticks: 2
 tick_rate_hz: 10
 scene: {generate: {kind: room}}
+environment: {place: {latitude_deg: 52, longitude_deg: 4.4}, time: 2026-06-21T12:00:00Z}
 nodes:
   - name: a
     trajectory: {type: static, position_m: [1, 1, 1.5]}
@@ -36,6 +37,10 @@ nodes:
       - {name: eye, type: camera, rate_hz: 10, width: 16, height: 12, fov_deg: 70}
       - {name: dvs, type: event_camera, rate_hz: 10, camera: eye}
       - {name: antenna, type: antenna}
+      - {name: imu, type: imu, rate_hz: 10}
+      - {name: gnss, type: gnss, rate_hz: 5}
+      - {name: air, type: barometer, rate_hz: 10}
+      - {name: compass, type: magnetometer, rate_hz: 10}
 channels:
   - {name: csi, tx: a/antenna, rx: b/antenna, rate_hz: 5}
 )";
@@ -56,7 +61,8 @@ TEST(Registry, EverySensorIsMadeInTheScenariosOrderByTheMakerOfItsKind) {
     EXPECT_TRUE(io::has_panels(spec.kind)) << spec.kind;
   }
   EXPECT_THAT(made, ::testing::ElementsAre("poses pose", "a/radar radar", "a/camera camera", "b/lidar lidar",
-                                           "b/eye camera", "b/dvs event_camera", "csi csi"));
+                                           "b/eye camera", "b/dvs event_camera", "b/imu imu", "b/gnss gnss",
+                                           "b/air barometer", "b/compass magnetometer", "csi csi"));
 }
 
 TEST(SensorKinds, EveryKindThatFiresHasPanels) {
@@ -67,8 +73,9 @@ TEST(SensorKinds, EveryKindThatFiresHasPanels) {
 TEST(SensorKinds, ASentenceHasTheRightArticle) {
   std::vector<std::string> words;
   for (const SensorKind& kind : sensor_kinds) words.push_back(with_article(kind));
-  EXPECT_THAT(words,
-              ::testing::ElementsAre("a camera", "an event camera", "a LiDAR", "a radar", "an antenna"));
+  EXPECT_THAT(words, ::testing::ElementsAre("a camera", "an event camera", "a LiDAR", "a radar", "an antenna",
+                                            "an inertial sensor", "a GNSS receiver", "a barometer",
+                                            "a magnetometer"));
 }
 
 }  // namespace

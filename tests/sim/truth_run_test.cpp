@@ -5,6 +5,7 @@
 // bytes as each alone, flow leads to the camera's own next sample, and boxes stand where the poses say.
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/units.h"
@@ -25,8 +26,18 @@ const std::string left = camera("left", "10", "mount: {position_m: [1.2, 0.3, 1.
 const std::string right = camera("right", "10", "mount: {position_m: [1.2, -0.3, 1.4]}");
 const std::string side = camera("side", "5", "mount: {position_m: [0, 0, 1.4], rotation_deg: [90, 0, 0]}");
 
-std::string scenario(const std::string& cameras) {
-  return "greatx: 1\nname: test\nseed: 5\nticks: 4\ntick_rate_hz: 10\n"
+const std::string fisheye =
+    "      - {name: fisheye, type: camera, rate_hz: 10, width: 48, height: 48, fov_deg: 180, mount: "
+    "{position_m: [0, 0, 3]}, lens: {model: fisheye, k1: -0.02, circle_deg: 190}, outputs: [rgb, depth, ids, "
+    "depth_ray, normals, flow]}\n";
+const std::string rolling =
+    "      - {name: rolling, type: camera, rate_hz: 5, width: 48, height: 32, fov_deg: 90, mount: "
+    "{position_m: "
+    "[0, 0, 1.4], rotation_deg: [90, 0, 0]}, rolling_shutter: {readout_s: 0.1, bands: 2}, outputs: [rgb, "
+    "depth, ids, depth_ray]}\n";
+
+std::string scenario(const std::string& cameras, int ticks = 4, int tick_rate_hz = 10) {
+  return fmt::format("greatx: 1\nname: test\nseed: 5\nticks: {}\ntick_rate_hz: {}\n", ticks, tick_rate_hz) +
          "scene: {generate: {kind: canyon, seed: 9, size_m: 60}, optical_only: true}\n"
          "nodes:\n"
          "  - name: van\n"
@@ -44,11 +55,14 @@ std::string scenario(const std::string& cameras) {
 }
 
 TEST(Cameras, OfOneNodeHaveTheBytesThatEachHasAlone) {
-  const KeptRun together = keep_run(scenario(left + right + side));
+  const KeptRun together = keep_run(scenario(left + right + side + fisheye + rolling));
   EXPECT_EQ(together.counters.submits, together.statistics.ticks);
   EXPECT_EQ(together.statistics.ticks, 4u);
-  const std::pair<std::string, std::string> alone[] = {
-      {"van/left", left}, {"van/right", right}, {"van/side", side}};
+  const std::pair<std::string, std::string> alone[] = {{"van/left", left},
+                                                       {"van/right", right},
+                                                       {"van/side", side},
+                                                       {"van/fisheye", fisheye},
+                                                       {"van/rolling", rolling}};
   for (const auto& [name, text] : alone) {
     const KeptRun one = keep_run(scenario(text));
     int compared = 0;
@@ -56,7 +70,8 @@ TEST(Cameras, OfOneNodeHaveTheBytesThatEachHasAlone) {
       for (const ArraySpec& array : together.spec(name).arrays) {
         const Array* const a = together.find(i, name, array.name);
         if (a == nullptr) continue;
-        const Array* const b = one.find(i / (name == "van/side" ? 2 : 1), name, array.name);
+        const Array* const b =
+            one.find(i / (name == "van/side" || name == "van/rolling" ? 2 : 1), name, array.name);
         ASSERT_NE(b, nullptr);
         EXPECT_EQ(a->shape, b->shape) << name << ' ' << array.name;
         EXPECT_TRUE(a->bytes == b->bytes) << name << ' ' << array.name;
@@ -87,6 +102,34 @@ TEST(Cameras, OfAStereoPairDifferByTheirBaseline) {
     }
   EXPECT_GT(compared, 500);
   EXPECT_GT(same, 0.85 * compared);
+}
+
+/// Two bands of rows stand at a quarter of the readout before and after the tick, where a camera of a higher
+/// rate takes whole pictures.
+TEST(Cameras, RowsOfARollingShutterAreThoseOfTheirInstants) {
+  std::string whole = side, slow = rolling;
+  whole.replace(whole.find("rate_hz: 5"), 10, "rate_hz: 40");
+  const KeptRun outcome = keep_run(scenario(whole + slow, 12, 40));
+  const auto rows_of = [&](const char* camera, size_t packet, size_t row) {
+    const auto depth = outcome.array<float>(packet, camera, "depth");
+    const auto ids = outcome.array<uint16_t>(packet, camera, "instance");
+    std::vector<std::pair<uint16_t, float>> pixels;
+    for (size_t i = 48 * row; i < 48 * (row + 16); ++i) pixels.emplace_back(ids[i], depth[i]);
+    return pixels;
+  };
+  // Returns the pixels that differ. Outlines may, by rounding.
+  const auto other = [&](size_t row, size_t packet) {
+    const auto a = rows_of("van/rolling", 8, row), b = rows_of("van/side", packet, row);
+    int count = 0;
+    for (size_t i = 0; i < a.size(); ++i)
+      count += a[i].first != b[i].first ||
+               !(a[i].second == b[i].second || std::abs(a[i].second - b[i].second) < 1e-5f * b[i].second);
+    return count;
+  };
+  EXPECT_LE(other(0, 7), 4);
+  EXPECT_LE(other(16, 9), 4);
+  EXPECT_GT(other(0, 8), 300);
+  EXPECT_GT(other(16, 8), 300);
 }
 
 TEST(Flow, IsToTheCamerasOwnNextSample) {

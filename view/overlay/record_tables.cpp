@@ -36,7 +36,7 @@ CameraFacts camera_facts(const JsonValue& json) {
   facts.cx = json.at("cx").number(-largest_pixels, largest_pixels);
   facts.cy = json.at("cy").number(-largest_pixels, largest_pixels);
   facts.near_m = number_or(json, "near_m", 0.0, 0.0, 1e9);
-  facts.distorted = json.has("distortion");
+  facts.distorted = json.has("distortion") || json.has("lens");
   if (json.has("camera")) facts.shared_with = json.at("camera").text();
   return facts;
 }

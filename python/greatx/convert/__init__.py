@@ -8,13 +8,15 @@
 from .coco import write_coco
 from .deepmimo import write_deepmimo
 from .dsec import write_dsec
+from .euroc import write_euroc
 from .hdf5 import write_hdf5
 from .kitti import write_kitti_object, write_kitti_odometry, write_kitti_raw, write_kitti_tracking
 from .mcap import write_mcap
 from .nuscenes import write_nuscenes
 from .radar import write_carrada, write_radial
+from .rgbd import write_rgbd
 from .sionna import SionnaPaths, sionna_paths, write_sionna
-from .trajectories import write_euroc, write_tum
+from .trajectories import write_tum
 from .webdataset import write_webdataset
 
 __all__ = [
@@ -33,6 +35,7 @@ __all__ = [
     "write_mcap",
     "write_nuscenes",
     "write_radial",
+    "write_rgbd",
     "write_sionna",
     "write_tum",
     "write_webdataset",

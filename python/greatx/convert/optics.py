@@ -25,6 +25,8 @@ from ..errors import DatasetError
 from ..files import Field
 
 COEFFICIENTS = ("k1", "k2", "p1", "p2", "k3")
+#: Of a fisheye (Kannala and Brandt, as OpenCV's fisheye).
+FISHEYE_COEFFICIENTS = ("k1", "k2", "k3", "k4")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -37,8 +39,9 @@ class Lens:
     cy: float
     width: int
     height: int
-    distortion: Dict[str, float]  #: k1, k2, p1, p2, k3; all 0 for a pinhole camera
+    distortion: Dict[str, float]  #: k1, k2, p1, p2, k3; all 0 for a pinhole camera; of a fisheye k1 to k4
     where: str = dataclasses.field(default="", compare=False)  #: the camera, in messages
+    fisheye: bool = False  #: whether `distortion` is that of a fisheye; distort() and undistort() know none
 
     @property
     def distorts(self) -> bool:
@@ -49,9 +52,11 @@ class Lens:
         return np.array([[self.fx, 0.0, self.cx], [0.0, self.fy, self.cy], [0.0, 0.0, 1.0]])
 
     def coefficients(self, most: int = 5) -> List[float]:
-        """Returns k1, k2, p1, p2 and, if `most` is 5, k3. Raises DatasetError if k3 has no place and is not
-        0.
+        """Returns k1, k2, p1, p2 and, if `most` is 5, k3; of a fisheye k1 to k4. Raises DatasetError if k3
+        has no place and is not 0.
         """
+        if self.fisheye:
+            return [self.distortion[name] for name in FISHEYE_COEFFICIENTS]
         values = [self.distortion[name] for name in COEFFICIENTS]
         if any(values[most:]):
             raise DatasetError(
@@ -116,14 +121,30 @@ class Lens:
         raise DatasetError(f"{self.where}: expected a distortion with an inverse within the picture")
 
 
-def lens_of(sensor: Sensor) -> Lens:
-    """Returns the lens of a camera or an event camera. Raises DatasetError if its description lacks it."""
+def lens_model(sensor: Sensor) -> str:
+    """Returns `pinhole` (with or without distortion), `fisheye` or `equirectangular`."""
     field = Field(sensor.metadata.where, sensor.metadata)
+    return field["lens"]["model"].text() if "lens" in field else "pinhole"
+
+
+def lens_of(sensor: Sensor, fisheye: bool = False) -> Lens:
+    """Returns the lens of a camera or an event camera. `fisheye` says whether it may be one. Raises
+    DatasetError if its description lacks it, or if it is a lens that the caller does not know.
+    """
+    field = Field(sensor.metadata.where, sensor.metadata)
+    model = lens_model(sensor)
+    if model not in (("pinhole", "fisheye") if fisheye else ("pinhole",)):
+        raise DatasetError(
+            f"{sensor.sequence.dataset.path}: {sensor.name}: expected a pinhole camera"
+            f"{' or a fisheye' if fisheye else ''}, for this format describes no other, found {model!r}"
+        )
     numbers = [field[key].number(-1e9, 1e9) for key in ("fx", "fy", "cx", "cy")]
     centre = field["pixel_center"].number(0.0, 0.5)
     distortion = {name: 0.0 for name in COEFFICIENTS}
     if "distortion" in field:
         distortion = {name: field["distortion"][name].number(-1e6, 1e6) for name in COEFFICIENTS}
+    if model == "fisheye":
+        distortion = {name: field["lens"][name].number(-1e6, 1e6) for name in FISHEYE_COEFFICIENTS}
     if not (numbers[0] > 0 and numbers[1] > 0):
         raise DatasetError(f"{sensor.metadata.where}: expected fx and fy above 0, found {numbers[:2]}")
     return Lens(
@@ -135,4 +156,5 @@ def lens_of(sensor: Sensor) -> Lens:
         field["height"].integer(1, 1 << 20),
         distortion,
         str(sensor.metadata.where),
+        model == "fisheye",
     )

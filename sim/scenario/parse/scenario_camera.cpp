@@ -15,12 +15,15 @@ constexpr uint32_t largest_image_edge = 16384;
 /// Parses fov_deg (horizontal, square pixels), or fx and, if it differs, fy. The principal point is the
 /// centre by default.
 void parse_intrinsics(const FieldMap& map, PinholeConfig& camera) {
+  if (camera.wide.model == LensModel::equirectangular) return;  // they follow from the size
   map.exclude("fov_deg", "fx");
   map.exclude("fov_deg", "fy");
   if (const auto f = map.find("fov_deg")) {
     const double fov_deg = f->number();
-    if (!(fov_deg > 0.0 && fov_deg < 180.0)) f->fail("an angle greater than 0 and less than 180");
-    camera.fx = camera.fy = 0.5 * camera.width / std::tan(0.5 * radians(fov_deg));
+    const bool fisheye = camera.wide.fisheye();
+    if (!fisheye && !(fov_deg > 0.0 && fov_deg < 180.0)) f->fail("an angle greater than 0 and less than 180");
+    camera.fx = camera.fy =
+        fisheye ? fisheye_focal_length(*f, camera) : 0.5 * camera.width / std::tan(0.5 * radians(fov_deg));
   } else {
     camera.fx = camera.fy = map.require("fx", "a focal length in pixels (or 'fov_deg')").positive(1e-3, 1e9);
     if (const auto fy = map.find("fy")) camera.fy = fy->positive(1e-3, 1e9);
@@ -105,6 +108,20 @@ SensorNoise parse_noise(const Field& field) {
   return noise;
 }
 
+/// Fails where an effect does not work behind a fisheye or an equirectangular lens, or with a rolling
+/// shutter.
+void check_lens_and_shutter(const FieldMap& map, const CameraConfig& camera) {
+  if (camera.wide.any() && camera.vignetting.natural)
+    map.find("vignetting")
+        ->fail("a radial vignetting, for 'natural' is that of a pinhole camera", "'natural' beside a lens");
+  if (!camera.rolling.any()) return;
+  if (camera.motion_blur_samples > 0)
+    map.find("motion_blur_samples")->fail("none beside a rolling_shutter, which draws its own instants");
+  if (camera.boxes || camera.flow || camera.normals)
+    map.find("outputs")->fail(
+        "no 'boxes', 'flow' or 'normals' beside a rolling_shutter, for they are those of one instant");
+}
+
 void parse_outputs(const Field& field, CameraConfig& camera) {
   struct Output {
     std::string_view name;
@@ -136,6 +153,7 @@ void parse_outputs(const Field& field, CameraConfig& camera) {
 void parse_pinhole(const FieldMap& map, PinholeConfig& camera) {
   if (const auto f = map.find("width")) camera.width = f->integer32(1, largest_image_edge);
   if (const auto f = map.find("height")) camera.height = f->integer32(1, largest_image_edge);
+  if (const auto f = map.find("lens")) parse_lens(map, *f, camera);
   parse_intrinsics(map, camera);
   if (const auto f = map.find("near_m")) camera.near_m = f->positive(1e-6, 1e6);
   if (const auto f = map.find("antialiasing")) {
@@ -166,6 +184,9 @@ CameraConfig parse_camera(const FieldMap& map) {
     for (const Field& item : f->list("classes", 1)) camera.box_classes.push_back(parse_semantic_class(item));
   }
   if (const auto f = map.find("see_own_body")) camera.see_own_body = f->boolean();
+  if (const auto f = map.find("rolling_shutter")) camera.rolling = parse_rolling_shutter(*f, camera.height);
+  if (const auto f = map.find("chromatic_aberration")) camera.chromatic = parse_chromatic_aberration(*f);
+  check_lens_and_shutter(map, camera);
   return camera;
 }
 

@@ -90,9 +90,9 @@ void parse_difference(const Field& field, EventCameraConfig& camera) {
 }
 
 /// The keys that belong to the shared camera.
-constexpr std::string_view of_the_camera[] = {"mount",   "see_own_body", "width",        "height",
-                                              "fov_deg", "fx",           "fy",           "cx",
-                                              "cy",      "near_m",       "antialiasing", "distortion"};
+constexpr std::string_view of_the_camera[] = {"mount",        "see_own_body", "width", "height", "fov_deg",
+                                              "fx",           "fy",           "cx",    "cy",     "near_m",
+                                              "antialiasing", "distortion",   "lens"};
 
 /// Returns the camera whose pixels the node's event camera `s` shares.
 const SensorConfig& camera_of(const NodeConfig& node, size_t s, const std::string& path) {
@@ -111,6 +111,10 @@ const SensorConfig& camera_of(const NodeConfig& node, size_t s, const std::strin
          fmt::format("'{}' of {} Hz", name, found->rate_hz.str()));
   if (std::get<CameraConfig>(found->config).motion_blur_samples > 0)
     fail("a camera without motion blur", fmt::format("'{}' with it", name));
+  if (std::get<CameraConfig>(found->config).wide.any())
+    fail("a camera without a lens that is fisheye or equirectangular", fmt::format("'{}' with one", name));
+  if (std::get<CameraConfig>(found->config).rolling.any())
+    fail("a camera without a rolling shutter", fmt::format("'{}' with one", name));
   return *found;
 }
 
@@ -146,6 +150,7 @@ EventCameraConfig parse_event_camera(const FieldMap& map, const Rational& rate_h
     for (const std::string_view key : of_the_camera) map.exclude("camera", key);
   } else {
     parse_pinhole(map, camera);
+    if (const auto lens = map.find("lens")) lens->fail("none, for an event camera compares pinhole pictures");
   }
   if (rate_hz.value() < slowest_rate_hz)
     map.require("rate_hz", "a rate")

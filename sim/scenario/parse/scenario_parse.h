@@ -56,10 +56,20 @@ Environment parse_environment(const Field& field, const std::optional<Georeferen
 Trajectory parse_trajectory(const Field& field, size_t node, const EarthPositions& earth,
                             std::vector<NodeReference>& references);
 SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz, PatternFiles& patterns);
-/// Parses width, height, intrinsics, near_m, msaa, distortion.
+/// Parses width, height, intrinsics, near_m, msaa, distortion or lens.
 void parse_pinhole(const FieldMap& map, PinholeConfig& camera);
+/// Parses `lens`, after width and height. An equirectangular one sets the intrinsics, too.
+void parse_lens(const FieldMap& of_camera, const Field& field, PinholeConfig& camera);
+/// Returns the focal length, pixels, with which the width shows this angle through the camera's fisheye lens.
+double fisheye_focal_length(const Field& fov_deg, const PinholeConfig& camera);
+RollingShutter parse_rolling_shutter(const Field& field, uint32_t height);
+ChromaticAberration parse_chromatic_aberration(const Field& field);
 CameraConfig parse_camera(const FieldMap& map);
 EventCameraConfig parse_event_camera(const FieldMap& map, const Rational& rate_hz);
+ImuConfig parse_imu(const FieldMap& map);
+GnssConfig parse_gnss(const FieldMap& map);
+BarometerConfig parse_barometer(const FieldMap& map);
+MagnetometerConfig parse_magnetometer(const FieldMap& map);
 LidarConfig parse_lidar(const FieldMap& map, const Rational& rate_hz);
 /// The keys of an antenna, without those that every sensor has.
 extern const Keys antenna_keys;

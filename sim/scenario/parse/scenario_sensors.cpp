@@ -20,10 +20,11 @@ Mount parse_mount(const Field& field) {
   return mount;
 }
 
-/// The keys of every sensor that fires at a rate of its own, and the keys of all cameras.
-const Keys fired{"name", "type", "mount", "rate_hz", "see_own_body"};
-const Keys pinhole{"width", "height", "fov_deg",      "fx",         "fy",     "cx",
-                   "cy",    "near_m", "antialiasing", "distortion", "outputs"};
+/// The keys of every sensor that fires at a rate of its own, of those that see, and of all cameras.
+const Keys mounted{"name", "type", "mount", "rate_hz"};
+const Keys fired = mounted + Keys{"see_own_body"};
+const Keys pinhole{"width", "height", "fov_deg",      "fx",         "fy",   "cx",
+                   "cy",    "near_m", "antialiasing", "distortion", "lens", "outputs"};
 
 /// Holds the inputs of a parser besides its map.
 struct SensorContext {
@@ -43,8 +44,14 @@ SensorParsers sensor_parsers() {
   SensorParsers parsers;
   parsers[sensor_kind_index<CameraConfig>()] = {
       fired + pinhole +
-          Keys{"exposure_ev100", "exposure", "motion_blur_samples", "vignetting", "noise", "box_classes"},
-      [](const FieldMap& map, const SensorContext&) -> SensorSettings { return parse_camera(map); }};
+          Keys{"exposure_ev100", "exposure", "motion_blur_samples", "vignetting", "noise", "box_classes",
+               "rolling_shutter", "chromatic_aberration"},
+      [](const FieldMap& map, const SensorContext& context) -> SensorSettings {
+        const CameraConfig camera = parse_camera(map);
+        if (camera.rolling.readout_s * context.rate_hz.value() > 1.0)
+          map.find("rolling_shutter")->fail("a readout_s of at most the time from picture to picture");
+        return camera;
+      }};
   parsers[sensor_kind_index<EventCameraConfig>()] = {
       fired + pinhole +
           Keys{"camera", "steps", "threshold", "noise", "dark_cd_m2", "bright_cd_m2", "refractory_s",
@@ -88,6 +95,20 @@ SensorParsers sensor_parsers() {
       [](const FieldMap& map, const SensorContext& context) -> SensorSettings {
         return parse_antenna(map, context.patterns);
       }};
+  parsers[sensor_kind_index<ImuConfig>()] = {
+      mounted +
+          Keys{"device", "samples_per_record", "output", "earth_rotation", "accelerometer", "gyroscope"},
+      [](const FieldMap& map, const SensorContext&) -> SensorSettings { return parse_imu(map); }};
+  parsers[sensor_kind_index<GnssConfig>()] = {
+      mounted + Keys{"time", "mask_deg", "most_pdop", "reflections", "errors"},
+      [](const FieldMap& map, const SensorContext&) -> SensorSettings { return parse_gnss(map); }};
+  parsers[sensor_kind_index<BarometerConfig>()] = {
+      mounted + Keys{"sea_level_hpa", "noise_pa", "bias_pa", "drift_pa", "drift_time_s", "resolution_pa"},
+      [](const FieldMap& map, const SensorContext&) -> SensorSettings { return parse_barometer(map); }};
+  parsers[sensor_kind_index<MagnetometerConfig>()] = {
+      mounted + Keys{"noise_ut", "hard_iron_ut", "soft_iron", "drift_ut", "drift_time_s", "resolution_ut",
+                     "range_ut"},
+      [](const FieldMap& map, const SensorContext&) -> SensorSettings { return parse_magnetometer(map); }};
   for (size_t kind = 0; kind < sensor_kind_count; ++kind)
     GREATX_CHECK(parsers[kind].parse != nullptr, "sensors of type {} have no parser",
                  sensor_kinds[kind].type);

@@ -134,6 +134,7 @@ Boxes::Boxes(const scene::Scene& scene, const render::CameraDesc& camera,
       projection_(camera),
       object_of_id_(scene.instances.size() + 1, 0),
       coverage_(projection_) {
+  if (camera.wide.any()) wide_.emplace(camera);
   const auto wanted = [&](const Object& object) {
     if (camera.excluded_body && object.body == *camera.excluded_body) return false;
     if (classes.empty()) return boxed_by_default(object.semantic_class);
@@ -228,6 +229,7 @@ void Boxes::count_seen(std::span<const uint32_t> instances) {
 }
 
 bool Boxes::outside(const Object& object, const Pose& optical_from_body) const {
+  if (wide_) return false;  // it sees nearly everything
   // The test in homogeneous coordinates also holds for corners behind the camera.
   uint32_t beyond_all = 31;
   const dvec2 least = projection_.least(), most = projection_.most();
@@ -263,6 +265,16 @@ void Boxes::project(const Object& object, ObjectBox& box) {
   const double near = projection_.near_m();
   const double infinity = std::numeric_limits<double>::infinity();
   box.unclipped = {infinity, infinity, -infinity, -infinity};
+  if (wide_) {
+    WideProjection::Shape shape{box.unclipped};
+    for (size_t i = 0; i < object.indices.size(); i += 3)
+      wide_->add(
+          {optical_[object.indices[i]], optical_[object.indices[i + 1]], optical_[object.indices[i + 2]]},
+          shape, coverage_);
+    box.unclipped = shape.bounds;
+    box.crosses_near = shape.crosses_near;
+    return;
+  }
   for (size_t i = 0; i < object.indices.size(); i += 3) {
     std::array<dvec2, 4> polygon;
     size_t corners = 0;

@@ -15,6 +15,7 @@
 #include "core/vec.h"
 #include "scene/description/scene.h"
 #include "sim/sensors/camera/coverage.h"
+#include "sim/sensors/camera/wide_coverage.h"
 
 namespace greatx::sim {
 
@@ -89,6 +90,7 @@ class Boxes {
 
   const scene::Scene& scene_;
   Projection projection_;
+  std::optional<WideProjection> wide_;  ///< behind a fisheye or an equirectangular lens
   std::vector<Object> objects_;
   std::vector<uint32_t> object_of_id_;  ///< [instance + 1] object + 1; 0: none
   // Data of the current picture.

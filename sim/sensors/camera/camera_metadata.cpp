@@ -2,9 +2,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/sensors/camera/camera_metadata.h"
 
+#include <algorithm>
+
+#include "core/units.h"
 #include "sim/sensors/sensor_metadata.h"
 
 namespace greatx::sim {
+
+namespace {
+
+nlohmann::json lens_metadata(const WideLens& lens) {
+  if (!lens.fisheye()) return {{"model", "equirectangular"}};
+  return {{"model", "fisheye"},
+          {"formula", "Kannala-Brandt as OpenCV's fisheye"},
+          {"k1", lens.k1},
+          {"k2", lens.k2},
+          {"k3", lens.k3},
+          {"k4", lens.k4},
+          {"circle_deg", degrees(2.0 * std::min(lens.half_angle, lens.fold_angle()))}};
+}
+
+}  // namespace
 
 nlohmann::json pinhole_metadata(const PinholeConfig& config, const Pose& body_from_sensor) {
   nlohmann::json metadata;
@@ -27,6 +45,7 @@ nlohmann::json pinhole_metadata(const PinholeConfig& config, const Pose& body_fr
                               {"p1", lens.p1},
                               {"p2", lens.p2},
                               {"k3", lens.k3}};
+  if (config.wide.any()) metadata["lens"] = lens_metadata(config.wide);
   return metadata;
 }
 
@@ -45,7 +64,14 @@ nlohmann::json camera_metadata(const CameraConfig& config, const Pose& body_from
     metadata["noise"] = {{"full_well_e", config.noise->full_well_e},
                          {"read_noise_e", config.noise->read_noise_e},
                          {"bits", config.noise->bits}};
-  metadata["depth"] = "planar";
+  if (config.rolling.any())
+    metadata["rolling_shutter"] = {
+        {"readout_s", config.rolling.readout_s},
+        {"bands", config.rolling.bands},
+        {"rows", "row r of height h is that of tick time + readout_s ((r + 0.5) / h - 0.5)"}};
+  if (config.chromatic.any())
+    metadata["chromatic_aberration"] = {{"red", config.chromatic.red}, {"blue", config.chromatic.blue}};
+  metadata["depth"] = config.wide.any() ? "range" : "planar";
   if (config.normals)
     metadata["normals"] = "interpolated vertex normals, world axes, on the camera's side; 0 0 0: sky";
   if (config.flow) {

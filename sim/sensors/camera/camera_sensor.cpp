@@ -23,6 +23,11 @@ Array narrow_ids(const std::vector<uint32_t>& ids, std::vector<int64_t> shape) {
   return array;
 }
 
+/// Returns whether every pixel looks from one instant, along the straight ray of a pinhole camera.
+bool is_pinhole(const render::CameraDesc& desc) {
+  return !desc.distortion.any() && !desc.wide.any() && desc.bands == 0;
+}
+
 bool fits_16_bits(size_t instances) { return instances < 65535; }
 
 }  // namespace
@@ -38,7 +43,7 @@ CameraSensor::CameraSensor(PosedScene& posed, const render::ProbePass* probe, co
       times_(scenario.tick_rate_hz, scenario.nodes[node].sensors[sensor].rate_hz),
       pass_(posed.lighting(), camera_desc(scenario, scenario.nodes[node],
                                           scenario.nodes[node].sensors[sensor], world_.body_of_node[node])),
-      probe_(pass_.desc().outputs.depth && !config_.distortion.any() ? probe : nullptr) {
+      probe_(pass_.desc().outputs.depth && is_pinhole(pass_.desc()) ? probe : nullptr) {
   spec_.name = pass_.desc().name;
   spec_.kind = "camera";
   spec_.rate = scenario.nodes[node].sensors[sensor].rate_hz.str();
@@ -72,12 +77,16 @@ void CameraSensor::describe(const CameraConfig& config, size_t instances) {
     output("hdr", FileFormat::exr, "hdr");
   }
   if (config.depth || config.depth_png24) {
-    array("depth", DType::f32, {h, w}, "m", "[row, column] planar depth at the pixel's centre; sky: +inf");
+    array("depth", DType::f32, {h, w}, "m",
+          config.wide.any() ? "[row, column] distance along the pixel's ray; nothing there: +inf"
+                            : "[row, column] planar depth at the pixel's centre; sky: +inf");
     if (config.depth) output("depth", config.depth_exr ? FileFormat::exr : FileFormat::npy_frame, "depth");
     if (config.depth_png24) output("depth24", FileFormat::png_depth24, "depth");
   }
   if (config.depth_log) {
-    array("depth_log", DType::f32, {h, w}, "1", "[row, column] ln(planar depth in metres + 1); sky: +inf");
+    array("depth_log", DType::f32, {h, w}, "1",
+          config.wide.any() ? "[row, column] ln(distance in metres + 1); nothing there: +inf"
+                            : "[row, column] ln(planar depth in metres + 1); sky: +inf");
     output("depth_log", FileFormat::exr, "depth_log");
   }
   if (config.depth_ray) {
@@ -124,6 +133,7 @@ TruthMoment CameraSensor::next_sample(const TickContext& context) const {
 /// ids of the picture are those of the tick.
 void CameraSensor::expose(gpu::TickSlot& slot, const TickContext& context, const Pose& local_from_sensor) {
   const render::FrameNumber frame{context.sequence, context.tick};
+  if (config_.rolling.any()) return expose_rows(slot, context);
   const uint32_t instants = config_.motion_blur_samples;
   if (!pass_.desc().parts) return pass_.record(slot, local_from_sensor, frame);
   const float weight = 1.0f / static_cast<float>(instants);
@@ -139,6 +149,20 @@ void CameraSensor::expose(gpu::TickSlot& slot, const TickContext& context, const
     }
   });
   pass_.record(slot, local_from_sensor, frame, {.weight = weight, .first = false, .last = true});
+}
+
+/// Records the bands of a rolling shutter, each at the instant of its middle row.
+void CameraSensor::expose_rows(gpu::TickSlot& slot, const TickContext& context) {
+  const render::FrameNumber frame{context.sequence, context.tick};
+  const uint32_t bands = pass_.bands();
+  posed_.at_instants(slot, context, [&](Instants& at) {
+    for (uint32_t band = 0; band < bands; ++band) {
+      const double time_s = context.time_s + config_.rolling.readout_s * pass_.middle_of_band(band);
+      at.move_to(time_s);
+      const Pose pose = world_.scene.to_local(context.motion_at(node_, time_s).pose) * mount_;
+      pass_.record(slot, pose, frame, {.first = band == 0, .last = band + 1 == bands, .band = band});
+    }
+  });
 }
 
 void CameraSensor::record(gpu::TickSlot& slot, const TickContext& context) {
@@ -215,8 +239,8 @@ void CameraSensor::check(const gpu::TickSlot& slot) {
 Evidence CameraSensor::evidence() const {
   Evidence evidence;
   if (probe_ != nullptr) evidence.pixels_against_rays = &depth_errors_;
-  const bool pinhole = !pass_.desc().distortion.any();
-  if (pinhole && !images_.depth.empty()) evidence.depth = {node_, mount_, &pass_.desc(), &images_};
+  if (is_pinhole(pass_.desc()) && !images_.depth.empty())
+    evidence.depth = {node_, mount_, &pass_.desc(), &images_};
   return evidence;
 }
 

@@ -43,6 +43,7 @@ class CameraSensor : public Sensor {
 
  private:
   void expose(gpu::TickSlot& slot, const TickContext& context, const Pose& local_from_sensor);
+  void expose_rows(gpu::TickSlot& slot, const TickContext& context);
   void describe(const CameraConfig& config, size_t instances);
   void check(const gpu::TickSlot& slot);
   /// Returns the moment at which the camera fires next. After the last sample of a sequence the trajectories

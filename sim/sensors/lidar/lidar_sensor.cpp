@@ -78,15 +78,21 @@ void LidarSensor::describe(const SensorConfig& sensor) {
 }
 
 bool LidarSensor::exact() const {
-  return !per_shot_ && !pass_.desc().target_motion && pass_.desc().rings == 0 &&
-         pass_.desc().receiver.range_std_m == 0.0 && pass_.desc().receiver.rise_m == 0.0;
+  return !per_shot_ && !pass_.desc().target_motion && pass_.desc().rings == 0;
 }
 
 Evidence LidarSensor::evidence() const {
   Evidence evidence;
   if (!exact()) return evidence;
   const std::span<const float> xyzi(scan_.size() > 0 ? &scan_.points[0].x : nullptr, 4 * scan_.size());
-  evidence.returns = {node_, mount_, xyzi, scan_.instance, scan_.material, point_error_m(config_)};
+  const render::Receiver& receiver = pass_.desc().receiver;
+  const RangeNoise noise{receiver.range_std_m, receiver.rise_m,
+                         receiver.detection ? receiver.detection->noise_equivalent_power : 0.0};
+  const bool noisy = noise.std_m > 0.0 || noise.rise_m > 0.0;
+  evidence.returns = {node_,          mount_,
+                      xyzi,           scan_.instance,
+                      scan_.material, point_error_m(config_),
+                      noise,          noisy ? std::span<const float>(scan_.power) : std::span<const float>()};
   return evidence;
 }
 

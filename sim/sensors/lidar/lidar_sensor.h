@@ -32,7 +32,7 @@ class LidarSensor : public Sensor {
   };
   void describe(const SensorConfig& sensor);
   /// Returns whether returns may be compared with pictures of the tick: all shots are at the tick, along the
-  /// axis of the beam, and without noise.
+  /// axis of the beam.
   bool exact() const;
   std::vector<Pose> poses(const TickContext& context, const render::ScanPattern& pattern) const;
   render::ShotNoise noise_of(const TickContext& context) const;

@@ -13,6 +13,9 @@
 #include "sim/sensors/event/event_sensor.h"
 #include "sim/sensors/lidar/lidar_sensor.h"
 #include "sim/sensors/located.h"
+#include "sim/sensors/navigation/air_sensors.h"
+#include "sim/sensors/navigation/gnss_sensor.h"
+#include "sim/sensors/navigation/imu_sensor.h"
 #include "sim/sensors/pose/pose_sensor.h"
 #include "sim/sensors/radar/radar_sensor.h"
 
@@ -59,6 +62,12 @@ std::unique_ptr<Sensor> make_radar(Workshop& shop, SensorPlace at) {
   return std::make_unique<RadarSensor>(p.gpu_scene, p.experiment, at.node, at.sensor);
 }
 
+/// Makes a sensor that measures on the host.
+template <typename Made>
+std::unique_ptr<Sensor> make_on_host(Workshop& shop, SensorPlace at) {
+  return std::make_unique<Made>(shop.parts.experiment, at.node, at.sensor);
+}
+
 std::unique_ptr<Sensor> make_channel(const SensorParts& p, uint32_t channel) {
   return std::make_unique<ChannelSensor>(p.gpu_scene, *p.passes.crossings, p.experiment, channel);
 }
@@ -75,6 +84,10 @@ constexpr Maker makers[] = {
     {sensor_kind_index<EventCameraConfig>(), make_event_camera},
     {sensor_kind_index<LidarConfig>(), make_lidar},
     {sensor_kind_index<RadarConfig>(), make_radar},
+    {sensor_kind_index<ImuConfig>(), make_on_host<ImuSensor>},
+    {sensor_kind_index<GnssConfig>(), make_on_host<GnssSensor>},
+    {sensor_kind_index<BarometerConfig>(), make_on_host<BarometerSensor>},
+    {sensor_kind_index<MagnetometerConfig>(), make_on_host<MagnetometerSensor>},
 };
 
 /// Returns the maker of a kind; null: the kind does not fire.

@@ -17,7 +17,7 @@ from ...dataset import Record, Sensor, Sequence
 from ...files import read_bytes
 from ...links import receivers, rotation, transmitters
 from ..files import Records
-from ..optics import lens_of
+from ..optics import lens_model, lens_of
 from ..poses import OPTICAL_FROM_BODY, Pose, mount, node_of, nodes_of
 from .output import Foxglove
 
@@ -128,14 +128,14 @@ def _picture(fox: Foxglove, record: Record, time: Any, name: str) -> Optional[An
 
 def calibration(fox: Foxglove, sensor: Sensor, time: Any) -> Any:
     """Returns the intrinsics. Pixel centres are at whole numbers, as ROS and OpenCV have them."""
-    lens = lens_of(sensor)
+    lens = lens_of(sensor, fisheye=True)
     matrix = lens.matrix()
     return fox.CameraCalibration(
         timestamp=time,
         frame_id=optical_frame(sensor.name),
         width=lens.width,
         height=lens.height,
-        distortion_model="plumb_bob",
+        distortion_model="kannala_brandt" if lens.fisheye else "plumb_bob",
         D=lens.coefficients(5),
         K=matrix.ravel().tolist(),
         R=np.eye(3).ravel().tolist(),
@@ -145,7 +145,8 @@ def calibration(fox: Foxglove, sensor: Sensor, time: Any) -> Any:
 
 def camera_messages(fox: Foxglove, record: Record, time: Any, left_out: Dict[str, int]) -> Iterator[Named]:
     name = record.sensor.name
-    yield f"/{name}/calibration", calibration(fox, record.sensor, time)
+    if lens_model(record.sensor) != "equirectangular":  # Foxglove has no calibration of a panorama
+        yield f"/{name}/calibration", calibration(fox, record.sensor, time)
     for array, info in record.sensor.arrays.items():
         if array.startswith("box_") or len(info.shape) < 2 or -1 in info.shape:
             continue

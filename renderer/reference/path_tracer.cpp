@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/reference/path_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/daylight/haze.h"
+#include "renderer/reference/scatter.h"
+
+namespace greatx::render {
+
+namespace {
+
+/// The reflections after which a path may end by chance (Russian roulette).
+constexpr uint32_t certain_bounces = 3;
+
+}  // namespace
+
+PathTracer::PathTracer(const scene::Scene& scene, std::span<const Pose> body_poses, const Lighting& lighting,
+                       const CameraEffects& effects, const PathOptions& options)
+    : effects_(effects),
+      options_(options),
+      sky_(lighting, effects.haze && lighting.haze_extinction_per_m > 0.0),
+      rays_(scene, body_poses, effects),
+      sky_light_(sky_),
+      disc_(sky_, effects.sun ? key_light(lighting) : KeyLight{}),
+      lamps_(effects.punctual_lights ? std::span<const scene::PunctualLight>(scene.lights)
+                                     : std::span<const scene::PunctualLight>(),
+             body_poses),
+      shows_disc_(key_light(lighting).body == KeyLight::Body::sun),
+      key_direction_(key_light(lighting).direction),
+      haze_extinction_(effects.haze ? lighting.haze_extinction_per_m : 0.0) {}
+
+dvec3 PathTracer::airlight(const dvec3& direction) const {
+  const double g = haze_asymmetry, base = 1.0 + g * g - 2.0 * g * glm::dot(direction, key_direction_);
+  return sky_.haze_ambient() + sky_.haze_directed() / (base * std::sqrt(base));
+}
+
+dvec3 PathTracer::background(const dvec3& direction) const {
+  if (!effects_.sky) return dvec3(0.0);
+  dvec3 radiance =
+      haze_extinction_ > 0.0 && direction.z <= 0.0 ? airlight(direction) : sky_light_.radiance(direction);
+  if (shows_disc_ && disc_.shines() && disc_.holds(direction)) radiance += disc_.radiance();
+  return radiance;
+}
+
+/// One path from its first surface on.
+class PathTracer::Path {
+ public:
+  Path(const PathTracer& tracer, PathDraws& draws) : tracer_(tracer), draws_(draws) {}
+
+  PathLight follow(const Ray& first, const RayHit& first_hit) {
+    Ray ray = first;
+    RayHit hit = first_hit;
+    dvec3 weight(1.0);
+    for (uint32_t bounce = 0;; ++bounce) {
+      RaySurface surface = tracer_.rays_.surface(ray, hit);
+      if (bounce > 0) surface.roughness = std::max(surface.roughness, tracer_.options_.later_roughness);
+      if (bounce == 0) {
+        light_.roughness = surface.roughness;
+        light_.radiance += surface.glow;
+      }
+      const Scatter scatter(surface, -ray.direction, tracer_.effects_.specular);
+      const Ray from{surface.position + surface.geometric * tracer_.rays_.clearance(surface.position), {}};
+      sample_lights(surface, scatter, from, weight, bounce == 0);
+      ray = {from.origin, scatter.draw(draws_.next(), draws_.next(), draws_.next())};
+      const dvec3 reflected = scatter.reflected(ray.direction);
+      const double density = scatter.density(ray.direction);
+      if (reflected == dvec3(0.0) || !(density > 0.0)) break;
+      weight *= reflected / density;
+      hit = tracer_.rays_.nearest(ray, 0.0);
+      if (!hit.any()) {
+        add_outside(ray.direction, density, weight, bounce == 0);
+        break;
+      }
+      if (tracer_.effects_.emissive) light_.radiance += weight * tracer_.rays_.surface(ray, hit).glow;
+      if (bounce >= tracer_.options_.bounces) break;
+      if (bounce >= certain_bounces) {
+        const double survives = std::min(0.95, std::max({weight.x, weight.y, weight.z}));
+        if (draws_.next() >= survives) break;
+        weight /= survives;
+      }
+    }
+    return light_;
+  }
+  PathLight& light() { return light_; }
+
+ private:
+  /// Adds the light of lamps, key light and sky that reaches the point straight.
+  void sample_lights(const RaySurface& surface, const Scatter& scatter, const Ray& from, const dvec3& weight,
+                     bool first) {
+    if (tracer_.effects_.sky) {
+      const LightSample sky = tracer_.sky_light_.draw(draws_.next(), draws_.next(), draws_.next());
+      add(sky, scatter, from, weight, scatter.density(sky.to_light));
+    }
+    if (tracer_.disc_.shines()) {
+      const LightSample disc = tracer_.disc_.draw(draws_.next(), draws_.next());
+      const dvec3 added = add(disc, scatter, from, weight, scatter.density(disc.to_light));
+      if (first) light_.key += added;
+    }
+    if (const auto lamp = tracer_.lamps_.draw(surface.position, surface.normal, draws_.next()))
+      add(*lamp, scatter, from, weight, 0.0);
+  }
+
+  /// Adds light from one direction. `other_density` is the density of drawing it by the surface.
+  dvec3 add(const LightSample& sample, const Scatter& scatter, const Ray& from, const dvec3& weight,
+            double other_density) {
+    const dvec3 reflected = scatter.reflected(sample.to_light);
+    if (reflected == dvec3(0.0) || sample.radiance == dvec3(0.0)) return dvec3(0.0);
+    if (tracer_.rays_.blocked({from.origin, sample.to_light}, 0.0, sample.distance)) return dvec3(0.0);
+    const dvec3 added = weight * reflected * sample.radiance / (sample.density + other_density);
+    light_.radiance += added;
+    return added;
+  }
+
+  /// Adds the light of sky and disc along a drawn ray that meets nothing.
+  void add_outside(const dvec3& direction, double density, const dvec3& weight, bool first) {
+    if (tracer_.effects_.sky)
+      light_.radiance += weight * tracer_.sky_light_.radiance(direction) *
+                         (density / (density + tracer_.sky_light_.density(direction)));
+    if (!tracer_.disc_.shines() || !tracer_.disc_.holds(direction)) return;
+    const dvec3 added = weight * tracer_.disc_.radiance() * (density / (density + tracer_.disc_.density()));
+    light_.radiance += added;
+    if (first) light_.key += added;
+  }
+
+  const PathTracer& tracer_;
+  PathDraws& draws_;
+  PathLight light_;
+};
+
+PathLight PathTracer::trace(const Ray& ray, double near_m, PathDraws& draws,
+                            std::optional<uint32_t> excluded) const {
+  const RayHit hit = rays_.nearest(ray, near_m, excluded);
+  PathLight light;
+  if (!hit.any()) {
+    light.radiance = background(ray.direction);
+    return light;
+  }
+  light = Path(*this, draws).follow(ray, hit);
+  light.scene = true;
+  if (haze_extinction_ > 0.0) {
+    const double kept = std::exp(-haze_extinction_ * hit.distance);
+    light.radiance = light.radiance * kept + airlight(ray.direction) * (1.0 - kept);
+    light.key *= kept;
+  }
+  return light;
+}
+
+}  // namespace greatx::render
