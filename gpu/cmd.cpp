@@ -254,7 +254,7 @@ void Cmd::begin_rendering(const RenderTargets& targets) {
   if (targets.depth != nullptr) {
     depth.imageView = targets.depth->view();
     depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-    depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    depth.loadOp = targets.keep_depth ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
     depth.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     depth.clearValue.depthStencil = {targets.clear_depth, 0};
   }
@@ -269,6 +269,17 @@ void Cmd::begin_rendering(const RenderTargets& targets) {
                             0.0f, 1.0f};
   vkCmdSetViewport(handle_, 0, 1, &viewport);
   vkCmdSetScissor(handle_, 0, 1, &info.renderArea);
+}
+
+void Cmd::clear_depth(std::span<const VkRect2D> parts, float value) {
+  if (parts.empty()) return;
+  VkClearAttachment attachment{};
+  attachment.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT;
+  attachment.clearValue.depthStencil = {value, 0};
+  std::vector<VkClearRect> rects;
+  rects.reserve(parts.size());
+  for (const VkRect2D& part : parts) rects.push_back({part, 0, 1});
+  vkCmdClearAttachments(handle_, 1, &attachment, static_cast<uint32_t>(rects.size()), rects.data());
 }
 
 void Cmd::end_rendering() { vkCmdEndRendering(handle_); }

@@ -77,6 +77,7 @@ struct RenderTargets {
   std::vector<ColorTarget> color;
   Image* depth = nullptr;
   float clear_depth = 0.0f;  ///< reversed depth: far is 0
+  bool keep_depth = false;   ///< the depth image keeps its content instead of being cleared
   uint32_t width = 0, height = 0;
 };
 
@@ -158,7 +159,12 @@ class Cmd {
   void draw_indexed(uint32_t first_index, uint32_t index_count, uint32_t first_instance);
 
   void begin_rendering(const RenderTargets& targets);
+  /// Clears parts of the depth image that is being rendered to.
+  void clear_depth(std::span<const VkRect2D> parts, float value);
   void end_rendering();
+
+  /// Returns whether the GPU may leave out the draws that are being recorded (gpu/condition.h).
+  bool conditional() const { return conditional_; }
 
   void copy(const Slice& from, const Slice& to);
   /// The copies between images and slices take all layers of one mip, tightly packed.
@@ -171,12 +177,14 @@ class Cmd {
   Device& device() const { return *device_; }
 
  private:
+  friend class Condition;
   void push_constants(const void* data, uint32_t bytes);
   void check_range(const Descriptor& descriptor) const;
   Device* device_;
   VkCommandBuffer handle_;
   Timestamps* timestamps_;
   const Pipeline* bound_ = nullptr;
+  bool conditional_ = false;
 };
 
 /// Records set-up work outside the ticks with `record(cmd)`, submits it and waits.

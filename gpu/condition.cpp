@@ -20,10 +20,13 @@ Condition::Condition(Cmd& cmd, const Slice& condition)
   info.buffer = condition.buffer;
   info.offset = condition.offset;
   cmd.device().functions().begin_condition(cmd.handle(), &info);
+  cmd.conditional_ = true;
 }
 
 Condition::~Condition() {
-  if (cmd_ != nullptr) cmd_->device().functions().end_condition(cmd_->handle());
+  if (cmd_ == nullptr) return;
+  cmd_->device().functions().end_condition(cmd_->handle());
+  cmd_->conditional_ = false;
 }
 
 }  // namespace greatx::gpu

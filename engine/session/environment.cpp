@@ -22,6 +22,8 @@ void change_environment(sim::Environment& to, const sim::Environment& from, cons
       {"sky_illuminance_lux", [](E& a, const E& b) { a.sky_illuminance_lux = b.sky_illuminance_lux; }},
       {"sky_glow_cd_m2", [](E& a, const E& b) { a.sky_glow_cd_m2 = b.sky_glow_cd_m2; }},
       {"turbidity", [](E& a, const E& b) { a.turbidity = b.turbidity; }},
+      {"clouds", [](E& a, const E& b) { a.clouds = b.clouds; }},
+      {"horizon", [](E& a, const E& b) { a.horizon = b.horizon; }},
       {"temperature_k", [](E& a, const E& b) { a.temperature_k = b.temperature_k; }},
       {"pressure_hpa", [](E& a, const E& b) { a.pressure_hpa = b.pressure_hpa; }},
       {"water_vapour_g_m3", [](E& a, const E& b) { a.water_vapour_g_m3 = b.water_vapour_g_m3; }},

@@ -120,13 +120,33 @@ void CameraPass::sort_primitives() {
     if (desc_.excluded_body && scene.owner_of(body) == *desc_.excluded_body) continue;
     const scene::PbrMaterial& pbr = scene.materials[primitive.material].pbr;
     const bool masked = effects_.alpha_mask && pbr.alpha_mode == scene::AlphaMode::mask;
-    const bool moves = body != 0;
-    (masked ? masked_ : moves ? moving_ : still_).push_back(i);
+    if (!masked && body != 0)
+      add_moving(body, i);
+    else
+      (masked ? masked_ : still_).push_back(i);
     textured_ |=
         pbr.base_color_texture >= 0 || pbr.metallic_roughness_texture >= 0 || pbr.emissive_texture >= 0;
     normal_mapped_ |= pbr.normal_texture >= 0;
     emissive_ |= pbr.emissive != vec3(0.0f);
   }
+}
+
+/// Adds a primitive to the last piece of its body if it follows it, so that one draw serves both.
+void CameraPass::add_moving(uint32_t body, uint32_t i) {
+  const scene::Scene& scene = scene_->scene();
+  const scene::Primitive& primitive = scene.primitives[i];
+  MovingPiece next{primitive.first_index, primitive.index_count, body, {}};
+  if (!moving_.empty() && moving_.back().body == body &&
+      moving_.back().first_index + moving_.back().index_count == next.first_index) {
+    next.first_index = moving_.back().first_index;
+    next.index_count += moving_.back().index_count;
+    moving_.pop_back();
+  }
+  scene::Bounds bounds;
+  for (uint32_t k = 0; k < next.index_count; ++k)
+    bounds.add(dvec3(scene.positions[scene.indices[next.first_index + k]]));
+  next.sphere = {bounds.center(), 0.5 * glm::length(bounds.size())};
+  moving_.push_back(next);
 }
 
 void CameraPass::build_pipelines() {
@@ -141,9 +161,12 @@ void CameraPass::build_pipelines() {
   draw.vertex_shader = "camera/visibility.vert";
   draw.fragment_shader = "camera/visibility.frag";
   if (!still_.empty()) visibility_still_ = gpu::GraphicsPipeline(device, draw, desc_.name + " visibility");
-  draw.specialization[shared::spec_moving_bodies] = 1;
-  if (!moving_.empty())
-    visibility_moving_ = gpu::GraphicsPipeline(device, draw, desc_.name + " visibility of bodies");
+  if (!moving_.empty()) {
+    gpu::GraphicsDesc bodies = draw;
+    bodies.vertex_shader = "camera/visibility_moving.vert";
+    bodies.push_constant_bytes = sizeof(shared::BodyView);
+    visibility_moving_ = gpu::GraphicsPipeline(device, bodies, desc_.name + " visibility of bodies");
+  }
   if (!masked_.empty()) {
     draw.vertex_shader = "camera/visibility_masked.vert";
     draw.fragment_shader = "camera/visibility_masked.frag";
@@ -184,6 +207,9 @@ void CameraPass::build_pipelines() {
   shade.specialization[shared::spec_specular] = effects_.specular;
   shade.specialization[shared::spec_haze] = effects_.haze;
   shade.specialization[shared::spec_night_sky] = effects_.night_sky;
+  shade.specialization[shared::spec_markings] = effects_.markings;
+  shade.specialization[shared::spec_clouds] = effects_.clouds;
+  shade.specialization[shared::spec_horizon] = static_cast<uint32_t>(lighting_->horizon_kind());
   shade.specialization[shared::spec_ambient_occlusion] = effects_.ambient_occlusion;
   shade.specialization[shared::spec_distortion] = desc_.distortion.any() || faces_;
   shade.specialization[shared::spec_faces] = faces_ != nullptr;
@@ -314,6 +340,7 @@ void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, cons
   view.constants.weight = part.weight;
   view.constants.first = part.first;
   view.constants.size = desc_.width | desc_.height << 16;
+  draw_shadows(slot, view);
   record_visibility(*slot.cmd, view);
   record_shading(slot, view, seen_.slice());
   if (!part.last) return;
@@ -335,6 +362,7 @@ void CameraPass::record_faces(gpu::TickSlot& slot, const Pose& local_from_sensor
     view.constants.weight = part.weight;
     view.constants.first = desc_.bands > 0 || part.first;
     view.constants.size = desc_.width | desc_.height << 16;
+    draw_shadows(slot, view);
     record_visibility(*slot.cmd, view);
     record_shading(slot, view, face.pixels);
     views.emplace_back(&face, view);
@@ -382,9 +410,43 @@ void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {
     }
   };
   draw_all(visibility_still_, still_);
-  draw_all(visibility_moving_, moving_);
+  draw_moving(cmd, view);
   draw_all(visibility_masked_, masked_);
   cmd.end_rendering();
+}
+
+void CameraPass::draw_shadows(gpu::TickSlot& slot, const CameraView& view) const {
+  if (!desc_.outputs.color() && !desc_.outputs.luminance) return;
+  lighting_->draw_shadows(slot, [&](const dvec3& from, const dvec3& to, double radius) {
+    return view.outside(from - view.eye, to - view.eye, radius);
+  });
+}
+
+void CameraPass::draw_moving(gpu::Cmd& cmd, const CameraView& view) {
+  struct Drawn {
+    double nearest;
+    uint32_t piece;
+  };
+  std::vector<Drawn> order;
+  for (uint32_t i = 0; i < moving_.size(); ++i) {
+    const MovingPiece& piece = moving_[i];
+    const dvec3 center = lighting_->body_poses()[piece.body].apply(piece.sphere.center) - view.eye;
+    if (!view.outside(center, piece.sphere.radius))
+      order.push_back({glm::dot(view.forward, center) - piece.sphere.radius, i});
+  }
+  culled_ += static_cast<uint32_t>(moving_.size() - order.size());
+  drawn_ += static_cast<uint32_t>(order.size());
+  if (order.empty()) return;
+  std::ranges::sort(order, [](const Drawn& a, const Drawn& b) {
+    return a.nearest != b.nearest ? a.nearest < b.nearest : a.piece < b.piece;
+  });
+  cmd.bind(visibility_moving_);
+  cmd.push(scene_->raster_descriptors());
+  for (const Drawn& drawn : order) {
+    const MovingPiece& piece = moving_[drawn.piece];
+    cmd.constants(view.of_body(lighting_->body_poses()[piece.body]));
+    cmd.draw_range(piece.first_index, piece.index_count, 0);
+  }
 }
 
 void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view, const gpu::Slice& pixels) {

@@ -193,7 +193,10 @@ class CameraPass {
   gpu::Slice upload_lamps(gpu::TickSlot& slot, const CameraView& view);
   void build_faces();
   void record_faces(gpu::TickSlot& slot, const Pose& local_from_sensor, const ExposurePart& part);
+  void add_moving(uint32_t body, uint32_t primitive);
+  void draw_shadows(gpu::TickSlot& slot, const CameraView& view) const;
   void record_visibility(gpu::Cmd& cmd, const CameraView& view);
+  void draw_moving(gpu::Cmd& cmd, const CameraView& view);
   /// `pixels` lists those that look through this view. Without a FaceTable all do.
   void record_shading(gpu::TickSlot& slot, const CameraView& view, const gpu::Slice& pixels);
 
@@ -202,7 +205,13 @@ class CameraPass {
   CameraDesc desc_;
   CameraEffects effects_;
   std::vector<Sphere> spheres_;
-  std::vector<uint32_t> still_, moving_, masked_;                     ///< primitives; the first two opaque
+  std::vector<uint32_t> still_, masked_;  ///< primitives; the first opaque
+  /// Opaque primitives of a moving body that follow one another.
+  struct MovingPiece {
+    uint32_t first_index = 0, index_count = 0, body = 0;
+    Sphere sphere;
+  };
+  std::vector<MovingPiece> moving_;
   bool textured_ = false, normal_mapped_ = false, emissive_ = false;  ///< the needs of their materials
   gpu::GraphicsPipeline visibility_still_, visibility_moving_, visibility_masked_;
   gpu::ComputePipeline shade_;

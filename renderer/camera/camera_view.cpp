@@ -36,8 +36,8 @@ CameraView::CameraView(const PinholeView& pinhole_view, double near_m, const Pos
       down(local_from_sensor.rotate({0.0, 0.0, -1.0})) {
   // In Vulkan's clip space u = cx + fx x / z, with y down and -w to w over the width.
   const double width = pinhole.width, height = pinhole.height;
-  const dvec3 clip_x = right * (2.0 * pinhole.fx / width) + forward * (2.0 * pinhole.cx / width - 1.0);
-  const dvec3 clip_y = down * (2.0 * pinhole.fy / height) + forward * (2.0 * pinhole.cy / height - 1.0);
+  clip_x = right * (2.0 * pinhole.fx / width) + forward * (2.0 * pinhole.cx / width - 1.0);
+  clip_y = down * (2.0 * pinhole.fy / height) + forward * (2.0 * pinhole.cy / height - 1.0);
   constants.eye_high = vec3(eye);
   constants.eye_low = vec3(eye - dvec3(constants.eye_high));
   constants.clip_x = vec3(clip_x);
@@ -59,11 +59,21 @@ CameraView::CameraView(const PinholeView& pinhole_view, double near_m, const Pos
              plane(forward - clip_y, 0.0), plane(forward, near_m)};
 }
 
-bool CameraView::outside(const dvec3& center, double radius) const {
+shared::BodyView CameraView::of_body(const Pose& local_from_body) const {
+  const dmat3 turn = glm::mat3_cast(local_from_body.orientation);
+  const dvec3 from_eye = local_from_body.position - eye;
+  const auto row = [&](const dvec3& axis) { return vec4(dvec4(axis * turn, glm::dot(axis, from_eye))); };
+  return {row(clip_x), row(clip_y), row(forward), constants.near_m};
+}
+
+bool CameraView::outside(const dvec3& center, double radius) const { return outside(center, center, radius); }
+
+bool CameraView::outside(const dvec3& from, const dvec3& to, double radius) const {
   // The sphere is taken a little larger, since vertices are rounded to floats.
-  const double reach = radius + 1e-3 + 1e-6 * glm::length(center);
-  return std::ranges::any_of(
-      planes_, [&](const Plane& plane) { return glm::dot(plane.normal, center) < plane.offset - reach; });
+  const double reach = radius + 1e-3 + 1e-6 * std::max(glm::length(from), glm::length(to));
+  return std::ranges::any_of(planes_, [&](const Plane& plane) {
+    return std::max(glm::dot(plane.normal, from), glm::dot(plane.normal, to)) < plane.offset - reach;
+  });
 }
 
 }  // namespace greatx::render

@@ -31,10 +31,15 @@ struct CameraView {
   PinholeView pinhole;
   dvec3 eye;                   ///< local coordinates
   dvec3 forward, right, down;  ///< unit, local axes
+  dvec3 clip_x, clip_y;        ///< clip coordinates of p are dot(clip_x, p - eye), dot(clip_y, p - eye)
   shared::CameraConstants constants;
 
+  /// Returns the constants by which the visibility pass draws a body with this pose.
+  shared::BodyView of_body(const Pose& local_from_body) const;
   /// Returns whether a sphere lies wholly outside the view; `center` is in local axes, from the eye.
   bool outside(const dvec3& center, double radius) const;
+  /// The same of a sphere that moves straight from one point to another.
+  bool outside(const dvec3& from, const dvec3& to, double radius) const;
 
  private:
   /// Describes a unit normal that points into the view, and the offset along it where the view begins.

@@ -9,7 +9,9 @@
 #include "core/units.h"
 #include "renderer/daylight/haze.h"
 #include "renderer/light/environment_map.h"
+#include "renderer/light/horizon.h"
 #include "renderer/light/night_sky.h"
+#include "renderer/light/panorama.h"
 #include "renderer/light/sky.h"
 #include "renderer/light/sky_view.h"
 
@@ -36,6 +38,7 @@ void check(const Lighting& lighting) {
   in_range("haze depth", lighting.haze_depth, 0.0, 1e4);
   in_range("sky illuminance (lux)", lighting.sky_illuminance_lux, 0.0, 1e6);
   in_range("turbidity", lighting.turbidity, 1.1, 10.0);
+  in_range("clouds", lighting.clouds, 0.0, 1.0);
   in_range("ground albedo", lighting.ground_albedo, 0.0, 1.0);
   in_range("static shadow map (texels)", lighting.static_shadow_texels, 64, 16384);
   in_range("moving shadow tile (texels)", lighting.moving_shadow_texels, 16, 2048);
@@ -55,7 +58,19 @@ SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& light
   effects_.sky = effects.sky && lighting.sky_illuminance_lux > 0.0;
   effects_.ambient_occlusion = effects.ambient_occlusion && effects_.sky && !scene.scene().bounds.empty();
   effects_.haze = effects.haze && lighting.haze_extinction_per_m > 0.0;
-  const Sky sky(lighting, effects_.haze);
+  effects_.clouds = effects.clouds && effects_.sky && lighting.sky_model != SkyModel::uniform &&
+                    (lighting.clouds > 0.0 || lighting.sky_model == SkyModel::overcast);
+  if (effects.horizon && effects_.sky) {
+    horizon_kind_ = lighting.horizon == HorizonKind::automatic ? horizon_of(scene.scene()) : lighting.horizon;
+    // Whoever switches the effect on around an object or a room gets plain land.
+    if (lighting.horizon == HorizonKind::automatic && horizon_kind_ == HorizonKind::none &&
+        !scene.scene().bounds.empty())
+      horizon_kind_ = HorizonKind::plain;
+  }
+  effects_.horizon = horizon_kind_ != HorizonKind::none;
+  marks_ = MarkMap(scene, effects.markings);
+  effects_.markings = effects.markings && marks_.any();
+  const Sky sky(lighting, effects_.haze, effects_.clouds);
   const KeyLight key = key_light(lighting);
   effects_.sun = effects.sun && luminance(sky.key_illuminance()) > 0.0;
   if (effects_.sun) ground_illuminance_lux_ += luminance(sky.key_illuminance()) * key.direction.z;
@@ -68,7 +83,7 @@ SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& light
                          .alpha_mask = effects_.alpha_mask,
                          .static_texels = lighting.static_shadow_texels,
                          .moving_tile_texels = lighting.moving_shadow_texels});
-  effects_.moving_shadows = effects_.moving_shadows && shadows_.tile_count() > 0;
+  effects_.moving_shadows = effects_.moving_shadows && shadows_.moving().tile_count() > 0;
   body_poses_.resize(scene.scene().bodies.size());
   bake(lighting, sky);
 }
@@ -114,6 +129,8 @@ void SceneLighting::bake(const Lighting& lighting, const Sky& sky) {
   for (size_t i = 0; i < irradiance.size(); ++i) block.irradiance[i] = vec4(vec3(irradiance[i]), 0.0f);
   block_ = gpu::upload_buffer(device, std::as_bytes(std::span(&block, 1)), "lighting",
                               VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+  bake_land(lighting, sky, dvec3(irradiance[0] + irradiance[2] + 2.0 * irradiance[6]) * pi);
+  bake_panorama_of(sky, map.scale);
 
   const auto levels = static_cast<uint32_t>(map.levels.size());
   const uint32_t edge = effects_.sky ? shared::environment_size : 1;
@@ -129,6 +146,34 @@ void SceneLighting::bake(const Lighting& lighting, const Sky& sky) {
   std::vector<std::span<const std::byte>> mips;
   for (const std::vector<uint16_t>& texels : map.levels) mips.push_back(std::as_bytes(std::span(texels)));
   gpu::upload_image(device, environment_, mips);
+}
+
+void SceneLighting::bake_land(const Lighting& lighting, const Sky& sky, const dvec3& sky_lux) {
+  shared::GpuHorizon land{};
+  if (effects_.horizon) {
+    const KeyLight key = key_light(lighting);
+    land = describe_horizon(scene_->scene(), horizon_kind_, lighting,
+                            {.key = effects_.sun ? sky.key_illuminance() : dvec3(0.0),
+                             .sky = sky_lux,
+                             .key_height = key.direction.z});
+  }
+  horizon_ = gpu::upload_buffer(scene_->device(), std::as_bytes(std::span(&land, 1)), "horizon",
+                                VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+}
+
+void SceneLighting::bake_panorama_of(const Sky& sky, double scale) {
+  constexpr uint32_t panorama_size = 768;
+  const uint32_t size = effects_.clouds ? panorama_size : 1;
+  const std::vector<uint16_t> texels =
+      effects_.clouds ? bake_panorama(sky, size, scale) : std::vector<uint16_t>(4);
+  panorama_ = gpu::Image(scene_->device(),
+                         {.format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                          .width = size,
+                          .height = size,
+                          .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+                         "sky panorama");
+  const std::span<const std::byte> mip = std::as_bytes(std::span(texels));
+  gpu::upload_image(scene_->device(), panorama_, std::span(&mip, 1));
 }
 
 void SceneLighting::bake_sky_view(shared::GpuLighting& block) {
@@ -157,7 +202,11 @@ void SceneLighting::record(gpu::TickSlot& slot, std::span<const Pose> body_poses
                body_poses_.size());
   body_poses_.assign(body_poses.begin(), body_poses.end());
   body_poses_[0] = Pose{};
-  if (effects_.moving_shadows) shadows_.record(slot, body_poses_, block_.slice());
+  if (effects_.moving_shadows) shadows_.moving().record(slot, body_poses_);
+}
+
+void SceneLighting::draw_shadows(gpu::TickSlot& slot, const MovingShadows::Outside& outside) const {
+  if (effects_.moving_shadows) shadows_.moving().draw(slot, outside);
 }
 
 std::vector<gpu::Binding> SceneLighting::surface_bindings() {
@@ -173,20 +222,30 @@ std::vector<gpu::Descriptor> SceneLighting::surface_descriptors() const {
 }
 
 std::vector<gpu::Binding> SceneLighting::bindings() {
-  return {{shared::lighting_binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
-          {shared::shadow_tiles_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-          {shared::stars_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-          {shared::sky_view_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
-          {shared::environment_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
-          {shared::static_shadow_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
-          {shared::moving_shadow_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}};
+  std::vector<gpu::Binding> all = MarkMap::bindings();
+  for (const gpu::Binding& binding : std::initializer_list<gpu::Binding>{
+           {shared::lighting_binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
+           {shared::shadow_tiles_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {shared::stars_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {shared::horizon_binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
+           {shared::panorama_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+           {shared::sky_view_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+           {shared::environment_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+           {shared::static_shadow_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+           {shared::moving_shadow_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}})
+    all.push_back(binding);
+  return all;
 }
 
 std::vector<gpu::Descriptor> SceneLighting::descriptors() const {
   std::vector<gpu::Descriptor> all = shadows_.descriptors();
+  for (const gpu::Descriptor& descriptor : marks_.descriptors()) all.push_back(descriptor);
   all.push_back(gpu::Descriptor::buffer(shared::lighting_binding, block_));
   all.back().type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
   all.push_back(gpu::Descriptor::buffer(shared::stars_binding, stars_));
+  all.push_back(gpu::Descriptor::buffer(shared::horizon_binding, horizon_));
+  all.back().type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+  all.push_back(gpu::Descriptor::sampled(shared::panorama_binding, panorama_, sky_view_sampler_));
   all.push_back(gpu::Descriptor::sampled(shared::sky_view_binding, sky_view_, sky_view_sampler_));
   all.push_back(gpu::Descriptor::sampled(shared::environment_binding, environment_, environment_sampler_));
   return all;

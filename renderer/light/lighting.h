@@ -12,6 +12,7 @@
 #include "gpu/cmd.h"
 #include "gpu/tick_ring.h"
 #include "renderer/light/shadow.h"
+#include "renderer/surface/mark_map.h"
 #include "renderer/surface/surface_tables.h"
 #include "scene/device/gpu_scene.h"
 
@@ -22,6 +23,9 @@ enum class SkyModel {
   overcast,  ///< clouds from horizon to horizon, three times as bright at the zenith as at the horizon
   uniform,   ///< the same white radiance from everywhere, ground included: a closed form for tests, a furnace
 };
+
+/// Names the land that pictures show beyond the scene (renderer/light/horizon.h).
+enum class HorizonKind : uint32_t { none, plain, city, country, automatic };
 
 /// Describes the light that reaches the scene from outside. It is photometric, in lux. The sun's and the
 /// sky's colours are scaled so that 0.2126 R + 0.7152 G + 0.0722 B of a horizontal plane's irradiance is
@@ -42,6 +46,9 @@ struct Lighting {
   double ground_albedo = 0.15;
   double haze_extinction_per_m = 0.0;  ///< extinction of fog and rain, renderer/daylight/haze.h
   double haze_depth = 0.0;             ///< vertical optical depth of fog and rain between scene and sky
+  double clouds = 0.0;                 ///< share of the sky's area under clouds, of a clear sky
+  uint64_t cloud_seed = 1;
+  HorizonKind horizon = HorizonKind::automatic;  ///< the land beyond the scene
   uint64_t star_seed = 1;
   uint32_t static_shadow_texels = 4096;  ///< edge of the map over everything that never moves
   uint32_t moving_shadow_texels = 128;   ///< edge of a moving body's tile, at most
@@ -74,6 +81,9 @@ struct CameraEffects {
   bool punctual_lights = true;
   bool haze = false;               ///< fog and rain
   bool night_sky = false;          ///< stars, the moon's disc
+  bool clouds = false;             ///< renderer/light/clouds.h
+  bool horizon = false;            ///< the land beyond the scene, renderer/light/horizon.h
+  bool markings = false;           ///< far markings by their share of a pixel, renderer/surface/mark_map.h
   bool ambient_occlusion = false;  ///< occlusion of sky light by static bodies
   bool specular = true;            ///< off: every surface is Lambertian
 };
@@ -86,11 +96,15 @@ class SceneLighting {
   /// UserError if a value of `lighting` is out of its range.
   SceneLighting(const scene::GpuScene& scene, const Lighting& lighting, const CameraEffects& effects);
 
-  /// Records the moving bodies' shadows, once a tick, after the scene's update and before the cameras. The
-  /// poses are those given to GpuScene::record_update.
+  /// Records where the moving bodies' shadows are, once a tick, after the scene's update and before the
+  /// cameras. The poses are those given to GpuScene::record_update.
   void record(gpu::TickSlot& slot, std::span<const Pose> body_poses);
+  /// Records the moving bodies' shadows that may fall into a picture, as far as they have changed.
+  void draw_shadows(gpu::TickSlot& slot, const MovingShadows::Outside& outside) const;
 
   const CameraEffects& effects() const { return effects_; }
+  /// The land that pictures show beyond the scene; none without the effect.
+  HorizonKind horizon_kind() const { return horizon_kind_; }
   const scene::GpuScene& scene() const { return *scene_; }
   /// The poses of the tick that is being recorded; [0] is the identity.
   const std::vector<Pose>& body_poses() const { return body_poses_; }
@@ -109,10 +123,12 @@ class SceneLighting {
  private:
   void bake(const Lighting& lighting, const Sky& sky);
   void bake_sky_view(shared::GpuLighting& block);
+  void bake_land(const Lighting& lighting, const Sky& sky, const dvec3& sky_lux);
+  void bake_panorama_of(const Sky& sky, double scale);
 
   const scene::GpuScene* scene_;
-  CameraEffects effects_;  ///< the effects asked for, less those that this light cannot cast
-  ShadowMaps shadows_;
+  CameraEffects effects_;       ///< the effects asked for, less those that this light cannot cast
+  mutable ShadowMaps shadows_;  ///< its atlas is a cache: cameras fill in the tiles that they need
   double ground_illuminance_lux_ = 0.0;
   gpu::Image environment_;
   gpu::Sampler environment_sampler_;
@@ -120,7 +136,11 @@ class SceneLighting {
   gpu::Sampler sky_view_sampler_;
   gpu::Buffer stars_;  ///< shared::GpuStar [star_cells^2]; one without night_sky
   gpu::Buffer block_;  ///< GpuLighting
+  HorizonKind horizon_kind_ = HorizonKind::none;
+  gpu::Buffer horizon_;  ///< GpuHorizon
+  gpu::Image panorama_;  ///< renderer/light/panorama.h; one texel without clouds
   SurfaceTables surfaces_;
+  MarkMap marks_;
   std::vector<Pose> body_poses_;
 };
 

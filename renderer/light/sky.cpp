@@ -75,7 +75,7 @@ struct Sky::Lit {
   double sky_lux() const { return luminance(air.sky_illuminance() * tint); }
 };
 
-Sky::Sky(const Lighting& lighting, bool haze)
+Sky::Sky(const Lighting& lighting, bool haze, bool clouds)
     : model_(lighting.sky_model), illuminance_(lighting.sky_illuminance_lux) {
   const KeyLight key = key_light(lighting);
   key_direction_ = key.direction;
@@ -110,18 +110,88 @@ Sky::Sky(const Lighting& lighting, bool haze)
     scale_ = illuminance_ / overcast_shape_lux;
   }
   if (key.lux > 0.0) key_illuminance_ = of_luminance(key_color, key.lux);
-  ground_ = model_ == SkyModel::uniform ? dvec3(illuminance_ / pi) : dvec3(0.0);
-  if (model_ != SkyModel::uniform) {
-    dvec3 on_ground = key_illuminance_ * std::max(key.direction.z, 0.0);
-    over_sphere([&](const dvec3& d, double solid_angle) {
-      if (d.z > 0.0) on_ground += clear(d) * (d.z * solid_angle);
-    });
-    ground_ = lighting.ground_albedo / pi * on_ground;
+  add_ground(lighting, key);
+  if (clouds && model_ != SkyModel::uniform) {
+    add_clouds(lighting);
+    add_ground(lighting, key);
   }
   if (haze) add_haze(lighting, key);
 }
 
-dvec3 Sky::clear(const dvec3& d) const {
+void Sky::add_ground(const Lighting& lighting, const KeyLight& key) {
+  if (model_ == SkyModel::uniform) {
+    ground_ = dvec3(illuminance_ / pi);
+    return;
+  }
+  dvec3 on_ground = key_illuminance_ * std::max(key.direction.z, 0.0);
+  over_sphere([&](const dvec3& d, double solid_angle) {
+    if (d.z > 0.0) on_ground += clear(d) * (d.z * solid_angle);
+  });
+  ground_ = lighting.ground_albedo / pi * on_ground;
+}
+
+void Sky::add_clouds(const Lighting& lighting) {
+  // Most of the light that a thick cloud takes comes back out of it: nine tenths of the direct light on the
+  // side of the key light, and four fifths of what comes from everywhere.
+  constexpr double direct_share = 0.9, ambient_share = 0.8;
+  // Lit from below, clouds are brighter than the glow of a city in clear air (C. Kyba et al., "Red is the new
+  // black", MNRAS 425 (2012): threefold and more).
+  constexpr double glow_share = 3.0;
+  dvec3 level(0.0);
+  over_sphere([&](const dvec3& d, double solid_angle) {
+    if (d.z > 0.0) level += clear(d) * (d.z * solid_angle);
+  });
+  cloud_key_ = direct_share / pi * key_illuminance_;
+  cloud_ambient_ = ambient_share * (level / pi + ground_) +
+                   (model_ == SkyModel::clear
+                        ? of_luminance(city_glow, 1.0) * (lighting.sky_glow_cd_m2 * glow_share * scale_)
+                        : dvec3(0.0));
+  const double elevation = elevation_of(lighting.sun_direction);
+  if (sun_ && elevation < 0.0) {
+    // After sunset the sun still shines on the clouds for a while.
+    const double left = glm::smoothstep(radians(-4.5), 0.0, elevation);
+    cloud_key_ +=
+        direct_share / pi * scale_ * left * sun_->scale * sun_->air.direct_illuminance() * sun_->tint;
+  }
+  clouds_ = std::make_shared<Clouds>(model_ == SkyModel::clear ? lighting.clouds : 0.0, lighting.cloud_seed,
+                                     sun_ && elevation < 0.0 ? lighting.sun_direction : key_direction_);
+  // The sky's illuminance stays what it is, whatever the clouds add to it.
+  double sum = 0.0;
+  over_sphere([&](const dvec3& d, double solid_angle) {
+    if (d.z > 0.0) sum += luminance(clear(d)) * d.z * solid_angle;
+  });
+  if (sum <= 0.0) return;
+  scale_ *= illuminance_ / sum;
+  cloud_key_ *= illuminance_ / sum;
+  cloud_ambient_ *= illuminance_ / sum;
+}
+
+CloudView Sky::clouds(const dvec3& direction, float shift) const {
+  if (!clouds_) return {};
+  if (model_ == SkyModel::clear) return clouds_->see(vec3(direction), shift);
+  // A closed cover lets nothing pass; its own brightness stands for `direct`.
+  CloudView closed;
+  closed.passed = 0.0f;
+  closed.direct = clouds_->closed(vec3(direction));
+  return closed;
+}
+
+dvec3 Sky::with_clouds(const dvec3& cloudless, const CloudView& view) const {
+  if (!clouds_) return cloudless;
+  if (model_ != SkyModel::clear) return cloudless * double(view.direct);
+  const double own = double(view.air), behind = 1.0 - double(view.passed);
+  return cloudless * (double(view.passed) + behind * (1.0 - own)) +
+         own * (cloud_key_ * double(view.direct) + cloud_ambient_ * double(view.ambient));
+}
+
+dvec3 Sky::over_clouds(const dvec3& direction, const dvec3& cloudless, const CloudView& view) const {
+  const double share = haze_share(direction.z);
+  return with_clouds(cloudless, view) * (1.0 - share) + airlight(direction) * share;
+}
+
+dvec3 Sky::clear(const dvec3& d) const { return with_clouds(cloudless(d), clouds(d)); }
+
+dvec3 Sky::cloudless(const dvec3& d) const {
   if (model_ == SkyModel::uniform) return dvec3(illuminance_ / pi);
   if (model_ == SkyModel::overcast) return dvec3(scale_ * overcast_shape(d.z));
   dvec3 sum = night_ * night_shape(d.z);

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "core/vec.h"
+#include "renderer/light/clouds.h"
 #include "renderer/light/lighting.h"
 
 namespace greatx::render {
@@ -26,10 +27,15 @@ inline constexpr dvec3 daylight_white{1.114954, 0.977658, 0.882823};
 
 class Sky {
  public:
-  /// `haze` says whether fog and rain count.
-  Sky(const Lighting& lighting, bool haze);
+  /// `haze` says whether fog and rain count, and `clouds` whether clouds do.
+  Sky(const Lighting& lighting, bool haze, bool clouds = false);
   /// Returns cd/m^2 per channel from a unit direction, z up, without discs and stars.
   dvec3 radiance(const dvec3& direction) const;
+  /// These three compute the radiance above the horizon in parts, for finer maps: without clouds and haze,
+  /// what an observer sees of the clouds (`shift`: Clouds::see), and the whole.
+  dvec3 cloudless(const dvec3& direction) const;
+  CloudView clouds(const dvec3& direction, float shift = 0.5f) const;
+  dvec3 over_clouds(const dvec3& direction, const dvec3& cloudless, const CloudView& view) const;
   /// Returns the lux per channel of the key light on a surface that faces it, below fog and rain; zero
   /// without a key light.
   const dvec3& key_illuminance() const { return key_illuminance_; }
@@ -44,6 +50,9 @@ class Sky {
   /// Describes a clear sky lit by one body.
   struct Lit;
   dvec3 clear(const dvec3& direction) const;  ///< above the horizon, without haze
+  dvec3 with_clouds(const dvec3& cloudless, const CloudView& view) const;
+  void add_clouds(const Lighting& lighting);
+  void add_ground(const Lighting& lighting, const KeyLight& key);
   void add_haze(const Lighting& lighting, const KeyLight& key);
   dvec3 airlight(const dvec3& direction) const;
   double haze_share(double z) const;  ///< share of haze in a view above the horizon
@@ -54,6 +63,9 @@ class Sky {
   double scale_ = 1.0, illuminance_ = 0.0, depth_ = 0.0;
   dvec3 key_direction_{0.0, 0.0, 1.0}, key_illuminance_{0.0}, ground_{0.0};
   dvec3 haze_ambient_{0.0}, haze_directed_{0.0};
+  std::shared_ptr<const Clouds> clouds_;
+  dvec3 cloud_key_{0.0};      ///< radiance of a cloud in the key light (CloudView::direct 1)
+  dvec3 cloud_ambient_{0.0};  ///< and in all other light
 };
 
 /// Returns the irradiance over pi in real spherical harmonics to order 2, with the basis' constants

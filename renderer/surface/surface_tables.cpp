@@ -9,6 +9,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/error.h"
+#include "renderer/surface/mark_map.h"
 #include "renderer/surface/octahedral.h"
 #include "shaders/shared/camera.h"
 
@@ -28,7 +29,7 @@ void put(Words& words, const vec2& value) {
 }
 
 void put_triangle(Words& words, const scene::Scene& scene, uint32_t triangle, uint32_t body_and_material,
-                  bool has_holes) {
+                  bool has_holes, uint32_t marks) {
   const uint32_t* corner = &scene.indices[size_t{3} * triangle];
   const vec3 a = scene.positions[corner[0]];
   const vec2 uv = scene.uvs[corner[0]];
@@ -42,7 +43,7 @@ void put_triangle(Words& words, const scene::Scene& scene, uint32_t triangle, ui
   put(words, scene.uvs[corner[1]] - uv);
   put(words, scene.uvs[corner[2]] - uv);
   words.push_back(octahedral_word(scene.normals[corner[2]]));
-  words.push_back(scene.tangents[corner[0]].w < 0.0f ? 1u : 0u);
+  words.push_back((scene.tangents[corner[0]].w < 0.0f ? shared::triangle_mirrored : 0u) | marks);
   for (int i = 0; i < 3; ++i) words.push_back(octahedral_word(vec3(scene.tangents[corner[i]])));
   words.push_back(has_holes ? 1u : 0u);
 }
@@ -88,13 +89,14 @@ SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
     GREATX_CHECK(triangles.size() == size_t{4} * shared::triangle_record_quads * (primitive.first_index / 3),
                  "primitive {} does not follow the one before", i);
     const bool has_holes = scene.materials[primitive.material].pbr.alpha_mode == scene::AlphaMode::mask;
+    const uint32_t marks = marks_of(scene, primitive);
     for (uint32_t t = 0; t < primitive.index_count / 3; ++t) {
       primitives[primitive.first_index / 3 + t] = i;
       ids[primitive.first_index / 3 + t + 1] = {
           primitive.instance + 1, static_cast<uint32_t>(scene.instances[primitive.instance].semantic_class) |
                                       (primitive.material + 1) << 16};
       put_triangle(triangles, scene, primitive.first_index / 3 + t, body << 16 | primitive.material,
-                   has_holes);
+                   has_holes, marks);
     }
   }
   for (size_t i = 0; i < scene.materials.size(); ++i)

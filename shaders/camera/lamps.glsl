@@ -12,9 +12,6 @@ layout(set = 0, binding = lights_binding, scalar) readonly buffer LampQuadsBlock
 
 float lamp_float(uint word) { return uintBitsToFloat(lamp_words[word]); }
 
-/// Returns floor(x) for 0 <= x < 2^22 from the digits of a float: CPU drivers convert lane by lane.
-uint whole(float x) { return floatBitsToUint(floor(x) + 8388608.0) & 0x7fffffu; }
-
 /// Returns the word where the cluster of a point begins. It holds the first entry, and the next word their
 /// number.
 uint cluster_of(vec3 p) {

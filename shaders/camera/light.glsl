@@ -7,12 +7,16 @@
 #include "camera/effects.glsl"
 #include "camera/octahedral.glsl"
 #include "camera/visibility_view.glsl"
+#include "lib/words.glsl"
 #include "shared/brdf.h"
 
 layout(set = 0, binding = lighting_binding, scalar) uniform LightingBlock { GpuLighting lighting; };
 layout(set = 0, binding = shadow_tiles_binding, scalar) readonly buffer ShadowTilesBlock {
   ShadowTilesHeader shadow_tiles_header;
-  GpuShadowTile shadow_tiles[];
+  uint shadow_cells[];
+};
+layout(set = 0, binding = shadow_tiles_binding, scalar) readonly buffer ShadowTileQuadsBlock {
+  u64vec2 shadow_quads[];
 };
 layout(set = 0, binding = environment_binding) uniform sampler2D environment;
 layout(set = 0, binding = static_shadow_binding) uniform sampler2DShadow static_shadow;
@@ -57,18 +61,33 @@ vec3 shadow_point(vec3 p, vec3 n_light, float texel_m) {
   return p + n_light * (texel_m * (0.25 + 1.75 * slope)) + vec3(0.0, 0.0, 0.25 * texel_m);
 }
 
-/// Returns the share of the sun that passes the tile of one moving body.
-float tile_visibility(uint i, vec3 p, vec3 n, float pixel_m) {
+/// Returns floor(x) for 0 <= x < 2^22 from the digits of a float: CPU drivers convert lane by lane.
+uint whole(float x) { return floatBitsToUint(floor(x) + 8388608.0) & 0x7fffffu; }
+
+/// Returns the share of the sun that passes the tile of one moving body, which stands at a quadruple of words.
+float tile_visibility(uint quad, vec3 p, vec3 n, float pixel_m) {
   float visible = 1.0;
-  vec3 q = (p - shadow_tiles[i].center) / shadow_tiles[i].radius;
+  vec4 ball = uintBitsToFloat(quad_of(shadow_quads[quad]));  // centre, radius
+  vec3 q = (p - ball.xyz) / ball.w;
   bool inside = max(abs(q.x), abs(q.y)) < 1.0 && q.z < 1.0;
   if (inside) {
-    GpuShadowTile tile = shadow_tiles[i];
-    q = (shadow_point(p, n, tile.texel_m) - tile.center) / tile.radius;
+    vec4 tile = uintBitsToFloat(quad_of(shadow_quads[quad + 1u]));  // uv of the centre, half edge, texel
+    q = (shadow_point(p, n, tile.w) - ball.xyz) / ball.w;
     float depth = clamp(0.5 * q.z + 0.5, 0.0, 1.0);
-    visible = shadow_filter(moving_shadow, tile.uv_center + q.xy * tile.uv_radius, depth,
-                            1.0 / lighting.moving_map_size, pixel_m < shadow_near * tile.texel_m);
+    visible = shadow_filter(moving_shadow, tile.xy + q.xy * tile.z, depth, 1.0 / lighting.moving_map_size,
+                            pixel_m < shadow_near * tile.w);
   }
+  return visible;
+}
+
+/// Returns the share of the sun that passes the moving bodies, of which only those of the point's cell count.
+float moving_visibility(vec3 p, vec3 n, float pixel_m) {
+  vec2 at = clamp(floor((p.xy - shadow_tiles_header.min) * shadow_tiles_header.cells_per_m), vec2(0.0),
+                  vec2(shadow_tiles_header.columns, shadow_tiles_header.rows) - 1.0);
+  uint cell = shadow_cells[whole(at.y * shadow_tiles_header.columns + at.x)];
+  uint quad = cell >> shadow_cell_bits, end = quad + 2u * (cell & shadow_cell_most);
+  float visible = 1.0;
+  for (; quad < end; quad += 2u) visible *= tile_visibility(quad, p, n, pixel_m);
   return visible;
 }
 
@@ -93,9 +112,7 @@ float sun_visibility(vec3 p_eye, vec3 normal) {
     // The common bounds of the tiles stand at fixed places, so one load serves all lanes.
     bool near =
         all(greaterThan(p.xy, shadow_tiles_header.min)) && all(lessThan(p.xy, shadow_tiles_header.max));
-    if (near) {
-      for (uint i = 0u; i < shadow_tiles_header.count; ++i) visible *= tile_visibility(i, p, n, pixel_m);
-    }
+    if (near) visible *= moving_visibility(p, n, pixel_m);
   }
   return visible;
 }

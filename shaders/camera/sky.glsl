@@ -6,8 +6,10 @@
 #define GREATX_CAMERA_SKY_GLSL
 #include "camera/footprint.glsl"
 #include "camera/haze.glsl"
+#include "camera/land.glsl"
 #include "camera/light.glsl"
 
+layout(set = 0, binding = panorama_binding) uniform sampler2D panorama;
 layout(set = 0, binding = stars_binding, scalar) readonly buffer StarsBlock { GpuStar stars[]; };
 
 /// Describes how a picture samples the directions around one: the gradients of the unit direction by pixel
@@ -73,20 +75,47 @@ vec3 moonlight(vec3 direction, PixelSpan span) {
   return lighting.moon_disc * (rim * clamp(terminator / pixel + 0.5, 0.0, 1.0));
 }
 
+/// Returns the coordinates in the panorama of a unit direction above the horizon: the upper half of an
+/// octahedron, turned so that it fills the square (renderer/light/panorama.h).
+vec2 panorama_uv(vec3 d) {
+  vec2 p = d.xy / (abs(d.x) + abs(d.y) + abs(d.z));
+  return vec2(p.x + p.y, p.x - p.y) * 0.5 + 0.5;
+}
+
+/// Returns the radiance of the sky itself along a unit direction. The map contains the haze above the
+/// horizon. Below the horizon and beyond the scene, haze hides everything.
+vec3 air_and_stars(vec3 direction, float inverse_length) {
+  vec3 radiance;
+  float passed = 1.0;  // of the light from beyond the clouds
+  if (clouds_on && direction.z > 0.0) {
+    vec4 seen = textureLod(panorama, panorama_uv(direction), 0.0);
+    radiance = seen.rgb * lighting.environment_scale;
+    passed = seen.a;
+  } else {
+    radiance = haze_on && direction.z <= 0.0 ? airlight(direction) : environment_radiance(direction, 0.0);
+  }
+  if (sun_on && dot(direction, lighting.sun_direction) > lighting.sun_cos_radius)
+    radiance += lighting.sun_disc;
+  if (night_sky_on && direction.z > 0.0) {
+    PixelSpan span = pixel_span(direction, inverse_length);
+    radiance += passed * (starlight(direction, span) + moonlight(direction, span));
+  }
+  return radiance;
+}
+
 /// Returns the radiance along a ray (of any length) that meets nothing.
 vec3 sky_radiance(vec3 ray) {
   if (!sky_on) return vec3(0.0);
   float inverse_length = inversesqrt(dot(ray, ray));
   vec3 direction = ray * inverse_length;
-  // The map contains the haze above the horizon. Below the horizon and beyond the scene, haze hides
-  // everything.
-  vec3 radiance = haze_on && direction.z <= 0.0 ? airlight(direction) : environment_radiance(direction, 0.0);
-  if (sun_on && dot(direction, lighting.sun_direction) > lighting.sun_cos_radius)
-    radiance += lighting.sun_disc;
-  if (night_sky_on && direction.z > 0.0) {
-    PixelSpan span = pixel_span(direction, inverse_length);
-    radiance += starlight(direction, span) + moonlight(direction, span);
+  vec3 radiance = vec3(0.0);
+  float rest = 1.0;  // share of the pixel that land does not hide
+  if (horizon_kind != horizon_none) {
+    vec4 land = land_radiance(horizon_kind, direction);
+    radiance = land.rgb;
+    rest = land.a;
   }
+  if (rest > 0.0) radiance += rest * air_and_stars(direction, inverse_length);
   return min(radiance, vec3(65504.0) / camera.exposure);
 }
 #endif

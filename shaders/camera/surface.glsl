@@ -9,6 +9,7 @@
 #include "camera/octahedral.glsl"
 #include "camera/triangle.glsl"
 #include "lib/textures.glsl"
+#include "shared/marks.h"
 
 layout(set = 0, binding = material_records_binding, scalar) readonly buffer MaterialRecordsBlock {
   u64vec2 material_records[];
@@ -33,6 +34,57 @@ struct Surface {
   vec3 base_color, glow;
   float metallic, roughness;
 };
+
+layout(set = 0, binding = marks_binding, scalar) uniform MarksBlock { GpuMarks marks; };
+layout(set = 0, binding = mark_map_binding) uniform sampler2D mark_map;
+
+/// Returns the share of a pixel under markings: `middle` is its place on the ground in local x, y, and dx, dy
+/// are its sides there. The map is read along the longer axis of the pixel, since pixels on far ground are
+/// many times longer than wide.
+float marked_share(vec2 middle, vec2 dx, vec2 dy) {
+  bool down = dot(dy, dy) >= dot(dx, dx);
+  vec2 along = down ? dy : dx, other = down ? dx : dy;
+  float length_m = length(along);
+  float width_m = abs(along.x * other.y - along.y * other.x) / length_m;
+  float taps = clamp(ceil(length_m / max(width_m, marks.texel_m)), 1.0, float(marks_taps));
+  float size = max(max(width_m, length_m / taps), 1e-6);
+  float level = max(log2(size / marks.texel_m), 0.0);
+  // Where a pixel is narrower than a texel, the borders of markings are as sharp as the pixel.
+  float sharp = clamp(marks.texel_m / size, 1.0, 4.0);
+  float sum = 0.0;
+  // Most pixels have no marking near them, which one look at texels of a pixel's length shows.
+  float around = ceil(log2(max(length_m / marks.texel_m, 1.0)));
+  if (around <= float(marks_levels) &&
+      textureLod(mark_map, middle * marks.scale + marks.offset, around).r == 0.0)
+    return 0.0;
+  for (float k = 0.5; k < taps; k += 1.0) {
+    vec2 uv = (middle + along * (k / taps - 0.5)) * marks.scale + marks.offset;
+    sum += clamp((textureLod(mark_map, uv, level).r - 0.5) * sharp + 0.5, 0.0, 1.0);
+  }
+  return sum / taps;
+}
+
+/// Replaces the colour of a road or a marking by that of the shares of both in the pixel, where the pixel is
+/// long.
+void mix_markings(inout Surface s, uint kind, Seen seen, vec3 ray) {
+  // The pixel's sides on the triangle's plane.
+  float facing = dot(ray, seen.normal);
+  vec3 x = footprint_x() - ray * (dot(footprint_x(), seen.normal) / facing),
+       y = footprint_y() - ray * (dot(footprint_y(), seen.normal) / facing);
+  float depth = dot(seen.p0, seen.normal) / facing;
+  x *= depth;
+  y *= depth;
+  float longest = sqrt(max(dot(x, x), dot(y, y)));
+  float weight = smoothstep(marks_from_m, marks_whole_m, longest);
+  if (weight > 0.0) {
+    bool mark = (kind & triangle_of_mark) != 0u;
+    float share = marked_share(s.p.xy + camera.eye_high.xy, x.xy, y.xy);
+    vec3 mixed = mix(mark ? marks.road : s.base_color, mark ? s.base_color : marks.mark, share);
+    s.base_color = mix(s.base_color, mixed, weight);
+    float rough = mix(mark ? marks.road_rough : s.roughness, mark ? s.roughness : marks.mark_rough, share);
+    s.roughness = mix(s.roughness, rough, weight);
+  }
+}
 
 /// Returns the surface of a triangle around a ray.
 Surface surface_at(Seen seen, vec3 ray) {
@@ -91,9 +143,11 @@ Surface surface_at(Seen seen, vec3 ray) {
                 octahedral_direction(r5.z) * weights.z;
       in_map = texel(normal_arrays, of_normal, at).xyz * 2.0 - 1.0;
       in_map.xy *= uintBitsToFloat(normal_map.x);
-      in_map.y = r4.w != 0u ? -in_map.y : in_map.y;
+      in_map.y = (r4.w & triangle_mirrored) != 0u ? -in_map.y : in_map.y;
     }
   }
+  bool of_road = markings_on && (r4.w & (triangle_of_road | triangle_of_mark)) != 0u;
+  if (of_road) mix_markings(s, r4.w, seen, ray);
   bool moving = seen.body != 0u;
   if (moving) {
     n = body_direction(seen.body, n);

@@ -3,7 +3,7 @@
 //
 // Pulls a vertex of the scene for the visibility pass. gl_VertexIndex counts the scene's indices, so that
 // every vertex knows its triangle. (With indexed draws and gl_PrimitiveID, a city takes a CPU driver a fifth
-// longer.) For moving bodies gl_InstanceIndex is the primitive.
+// longer.)
 #ifndef GREATX_CAMERA_VISIBILITY_VIEW_GLSL
 #define GREATX_CAMERA_VISIBILITY_VIEW_GLSL
 #include "lib/scene.glsl"

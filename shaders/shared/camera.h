@@ -33,7 +33,11 @@ const uint edges_luminance_from_binding = 7u;
 const uint edges_luminance_to_binding = 8u;
 // shade and edges, of a camera with several views (renderer/camera/faces.h): storage, FacePixel
 const uint face_pixels_binding = 27u;
-const uint stars_binding = 20u;  // storage: GpuStar [star_cells, star_cells]
+const uint horizon_binding = 28u;   // uniform: GpuHorizon (shaders/shared/horizon.h)
+const uint panorama_binding = 29u;  // sampled: the sky's radiance with clouds, and what they let through
+const uint marks_binding = 30u;     // uniform: GpuMarks (shaders/shared/marks.h)
+const uint mark_map_binding = 31u;  // sampled: the share of the ground under markings
+const uint stars_binding = 20u;     // storage: GpuStar [star_cells, star_cells]
 
 // Specialization constants of the shading pipeline: the wanted outputs, and one constant for each effect of
 // the plan.
@@ -58,7 +62,7 @@ const uint spec_base_color_arrays = 17u;  // lib/textures.glsl
 const uint spec_metallic_roughness_arrays = 18u;
 const uint spec_normal_arrays = 19u;
 const uint spec_emissive_arrays = 20u;
-const uint spec_moving_bodies = 21u;  // visibility pass; off: it draws the bodies that never move
+// (21 is free.)
 // The records of triangles may be larger than the part of a buffer that a shader sees at once. Their address
 // is then bound.
 const uint spec_triangle_address = 22u;
@@ -67,9 +71,13 @@ const uint spec_triangle_address = 22u;
 const uint spec_faces = 23u;
 const uint spec_range = 24u;
 const uint spec_band_rows = 25u;
-const uint shade_spec_count = 26u;
-// This constant belongs to the masks of the shadow maps.
+const uint spec_clouds = 26u;
+const uint spec_horizon = 27u;  // a HorizonKind (renderer/light/lighting.h)
+const uint spec_markings = 28u;
+const uint shade_spec_count = 29u;
+// These constants belong to the shadow maps.
 const uint shadow_spec_base_color_arrays = 0u;
+const uint shadow_spec_masked = 1u;
 
 /// A pixel looks at nine texels of the static or moving shadow map if its size in texels is below this.
 const float shadow_near = 0.75f;
@@ -106,7 +114,7 @@ const float lamp_most_roughness = 0.6f;
 ///   1  edge to the second corner; normal at the first
 ///   2  edge to the third corner; normal at the second
 ///   3  texture coordinates at the first corner, then their change to the second
-///   4  ... and to the third; normal at the third; 1 where the normal map is mirrored
+///   4  ... and to the third; normal at the third; bits (shared/marks.h), 1 where the normal map is mirrored
 ///   5  tangents at the three corners; 1 where its material has an alpha mask
 /// Normals and tangents are octahedral in two 16-bit words: 5e-5 rad.
 const uint triangle_record_quads = 6u;
@@ -151,6 +159,15 @@ struct CameraConstants {
   float weight;    ///< fraction of the exposure time of this part; 1: the whole
   uint first;      ///< whether it is the first part
   uint size;       ///< size of the picture: width | height << 16
+};
+
+/// Holds the push constants of the visibility pass for one moving body: a point p of the body has the clip
+/// coordinates dot(clip_x, (p, 1)), dot(clip_y, (p, 1)) and the planar depth dot(forward, (p, 1)).
+struct BodyView {
+  vec4 clip_x;
+  vec4 clip_y;
+  vec4 forward;
+  float near_m;
 };
 
 /// Holds a pixel that looks through a view: column | row << 16 of the picture (all ones: no pixel), and the
@@ -208,12 +225,19 @@ struct GpuStar {
   uint light;  ///< halves: illuminance / 1e-6 lux, 0 where there is none; warmth from 0 (blue) to 1
 };
 
-/// Holds the header before the tiles: their number, and the common bounds in the sun's x, y.
+/// Holds the header before the tiles: their common bounds in the sun's x, y, and a grid over these bounds.
+/// Behind it stands a word for each cell, row by row: its number of tiles, and above shadow_cell_bits the
+/// quadruple of words (from the beginning) where they stand, two quadruples each.
 struct ShadowTilesHeader {
-  uint count;
   vec2 min;
   vec2 max;
+  float cells_per_m;
+  float columns;
+  float rows;
+  float pad;
 };
+const uint shadow_cell_bits = 10u;
+const uint shadow_cell_most = 1023u;  // tiles of a cell
 
 /// Holds the shadow of one moving body: a square of the sun's frame around it, and the place of that square
 /// in the atlas.
@@ -223,6 +247,14 @@ struct GpuShadowTile {
   vec2 uv_center;   ///< centre of the tile
   float uv_radius;  ///< half of its edge, without the margin
   float texel_m;
+};
+
+/// Holds the push constants of the pass that draws a part of a moving body into the atlas. It takes points to
+/// clip coordinates: (dot(row, vec4(p, 1)), 1).
+struct GpuShadowPart {
+  vec4 row0;
+  vec4 row1;
+  vec4 row2;
 };
 
 /// Holds the push constants of the static shadow pipeline: clip = (dot(row, vec4(p, 1)), 1).
@@ -241,7 +273,7 @@ static_assert(sizeof(greatx::shared::FacePixel) * greatx::shared::shade_group_wi
                   greatx::shared::shade_group_height % 256 ==
               0);
 static_assert(sizeof(greatx::shared::GpuLighting) == 112 + 80 + 40 + 144);
-static_assert(sizeof(greatx::shared::ShadowTilesHeader) == 20);
+static_assert(sizeof(greatx::shared::ShadowTilesHeader) == 32);
 static_assert(sizeof(greatx::shared::GpuShadowTile) == 32);
 #endif
 #endif

@@ -10,7 +10,9 @@
 #include "core/units.h"
 #include "renderer/camera/camera_view.h"
 #include "renderer/lens/lens_rays.h"
+#include "renderer/light/horizon.h"
 #include "renderer/light/sky.h"
+#include "renderer/surface/mark_map.h"
 #include "shaders/shared/camera.h"
 #include "sim/plan/camera_desc.h"
 #include "sim/plan/light_plan.h"
@@ -47,12 +49,14 @@ Offers offers_of(const scene::Scene& scene) {
     offers.reflectance_textures |=
         pbr.base_color_texture >= 0 && !(material.reflectance_905nm && material.reflectance_1550nm);
     offers.normal_maps |= pbr.normal_texture >= 0;
+    offers.markings |= render::marks_of(scene, primitive) == shared::triangle_of_mark;
     offers.alpha_mask |= pbr.alpha_mode == scene::AlphaMode::mask;
     offers.emissive |= pbr.emissive != vec3(0.0f);
     offers.brightest_cd_m2 =
         std::max(offers.brightest_cd_m2, shared::emissive_nits * render::luminance(dvec3(pbr.emissive)));
   }
   offers.lights = scene.lights.size();
+  offers.horizon = render::horizon_of(scene);
   const double ground = scene.bounds.empty() ? 0.0 : scene.bounds.min.z;
   for (const scene::PunctualLight& light : scene.lights)
     offers.lamp_illuminance_lux = std::max(offers.lamp_illuminance_lux, lamp_illuminance(light, ground));
@@ -214,6 +218,7 @@ void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shad
                    const CameraAsks& asks, double ground_lux) {
   const bool camera = asks.cameras + asks.event_cameras > 0;
   shading.decide(plan.textures, offers.textures, "materials have them", "no material has one");
+  shading.decide(plan.markings, offers.markings, "roads have them", "no road has one");
   shading.decide(plan.normal_maps, offers.normal_maps && plan.textures.on, "materials have them",
                  offers.normal_maps ? "textures are off" : "no material has one");
   planner.decide(plan.alpha_mask, camera && offers.alpha_mask,
@@ -241,6 +246,17 @@ void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shad
                         digits(offers.lamp_illuminance_lux), digits(ground_lux), 100.0 * tolerance));
 }
 
+const char* name_of(render::HorizonKind kind) {
+  switch (kind) {
+    case render::HorizonKind::city:
+      return "city";
+    case render::HorizonKind::country:
+      return "country";
+    default:
+      return "plain land";
+  }
+}
+
 void plan_light(EffectPlan& plan, const Shading& shading, const Scenario& scenario,
                 const ResolvedLight& light, const Offers& offers) {
   const double key_lux = light.below.direct_lux * std::max(0.0, light.key.direction.z);
@@ -264,6 +280,18 @@ void plan_light(EffectPlan& plan, const Shading& shading, const Scenario& scenar
                  fmt::format("the sun stands at {:.1f} degrees, the moon at {:.1f}",
                              degrees(light.sun_elevation), degrees(light.moon_elevation)),
                  "by day or under clouds there are no stars, and no moon is up");
+  const bool overcast = light.lighting.sky_model == render::SkyModel::overcast;
+  shading.decide(plan.clouds, plan.sky.on && (overcast || light.lighting.clouds > 0.0),
+                 overcast ? "they cover the whole sky"
+                          : fmt::format("they cover {:.0f} % of the sky", 100.0 * light.lighting.clouds),
+                 plan.sky.on ? "the sky is free of them" : "the sky is off", "made once, at the start");
+  const render::HorizonKind kind =
+      light.lighting.horizon == render::HorizonKind::automatic ? offers.horizon : light.lighting.horizon;
+  shading.decide(plan.horizon, plan.sky.on && kind != render::HorizonKind::none,
+                 fmt::format("{} beyond the scene", name_of(kind)),
+                 !plan.sky.on                                    ? "the sky is off"
+                 : scenario.environment.horizon == Horizon::none ? "the scenario wants none"
+                                                                 : "the scene is an object or a room");
 }
 
 }  // namespace

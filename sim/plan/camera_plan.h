@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "renderer/light/lighting.h"
 #include "scene/description/scene.h"
 #include "sim/plan/effect_planner.h"
 
@@ -17,10 +18,12 @@ struct Offers {
   bool triangles = false, static_triangles = false, moving_triangles = false;
   bool textures = false, normal_maps = false, reflectance_textures = false, alpha_mask = false,
        emissive = false;
+  bool markings = false;         ///< static lane markings
   double brightest_cd_m2 = 0.0;  ///< the highest luminance that a material emits
   size_t lights = 0;
   /// The highest illuminance that a single lamp gives the ground.
   double lamp_illuminance_lux = 0.0;
+  render::HorizonKind horizon = render::HorizonKind::none;  ///< the land that suits the scene
 };
 
 /// Summarizes what the scenario asks of cameras, event cameras and LiDARs.

@@ -41,6 +41,9 @@
   X(punctual_lights, true, camera, "lamps") \
   X(haze, true, camera, "fog and rain before the camera") \
   X(night_sky, true, camera, "stars and the disc of the moon") \
+  X(clouds, true, camera, "clouds in the sky, in its light and in its mirror images") \
+  X(horizon, true, camera, "the land beyond the scene, as a background of pictures") \
+  X(markings, true, camera, "far markings of roads keep their share of each pixel") \
   X(smooth_edges, false, none, "antialiasing along the edges of meshes") \
   X(lens_distortion, false, none, "distortion by the lens") \
   X(wide_lens, false, none, "fisheye and equirectangular lenses") \

@@ -3,6 +3,7 @@
 #include "sim/plan/light_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/units.h"
@@ -15,6 +16,8 @@ namespace greatx::sim {
 
 namespace {
 
+/// The share of the sky under clouds where the scenario gives none.
+constexpr double fair_weather_clouds = 0.3;
 constexpr double astronomical_unit_m = 149597870700.0, mean_moon_distance_m = 384400e3;
 
 /// Describes the position of sun or moon and its light in clear air.
@@ -97,6 +100,10 @@ ResolvedLight resolve(const Environment& environment) {
   to.moon_phase_angle = bodies.moon_phase_angle;
   to.turbidity = environment.turbidity;
   to.sky_glow_cd_m2 = environment.sky_glow_cd_m2;
+  to.clouds = overcast ? 0.0 : environment.clouds.value_or(fair_weather_clouds);
+  to.horizon = std::array{render::HorizonKind::automatic, render::HorizonKind::none,
+                          render::HorizonKind::plain, render::HorizonKind::city,
+                          render::HorizonKind::country}[static_cast<size_t>(environment.horizon)];
   to.sky_model = overcast ? render::SkyModel::overcast : render::SkyModel::clear;
 
   const double default_sun = overcast ? 0.0 : by_hand ? 100000.0 : sun.direct_lux;

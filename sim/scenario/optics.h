@@ -36,6 +36,9 @@ struct MoonConfig {
 /// Names the state of the sky above the scene.
 enum class SkyKind { automatic, clear, overcast };
 
+/// Names the land that pictures show beyond the scene.
+enum class Horizon { automatic, none, plain, city, country };
+
 /// Describes the light from outside and the air between. sim/plan/light_plan.h derives the rest from it.
 struct Environment {
   std::optional<PlaceAndTime> place;  ///< given instead of the positions below
@@ -48,6 +51,8 @@ struct Environment {
   SkyKind sky = SkyKind::automatic;  ///< automatic: overcast where it rains, unless the sun's light is given
   double sky_glow_cd_m2 = 0.0;       ///< luminance of city light in the night sky, at the zenith
   double turbidity = 2.0;            ///< turbidity of a clear sky, 1.1 (purest air) to 10
+  std::optional<double> clouds;      ///< share of a clear sky's area under clouds; none: fair weather's
+  Horizon horizon = Horizon::automatic;  ///< automatic: by the scene
   double temperature_k = 288.15;
   double pressure_hpa = 1013.25;  ///< dry-air pressure (ITU-R P.676)
   double water_vapour_g_m3 = 7.5;

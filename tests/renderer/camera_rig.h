@@ -89,6 +89,7 @@ class CameraRig {
     return collect(record(sensor, moving));
   }
   const render::CameraPass& camera() const { return camera_; }
+  const render::SceneLighting& lighting() const { return lighting_; }
   const scene::Scene& scene() const { return *scene_; }
 
  private:

@@ -46,7 +46,7 @@ scene::Material surface(const std::string& name, const std::string& itu, double 
 }
 
 /// Returns a yard with a ground that is textured, bumpy, rough and scatters, a wall, a pane, a fence with
-/// holes, a sign that glows, a lamp, the crown of a tree with a plate behind it, and body 1, a van.
+/// holes, a marking, a sign that glows, a lamp, the crown of a tree with a plate behind it, and body 1, a van.
 scene::Scene yard() {
   TinyScene tiny;
   scene::Material ground = surface("ground", "concrete");
@@ -80,8 +80,11 @@ scene::Scene yard() {
   tiny.object("sign", 0, s).quad({15, 2, 6}, {15, -2, 6}, {15, -2, 9}, {15, 2, 9});
   tiny.object("crown", 0, l).box({-2, -0.6, 1.0}, {2, 1.2, 3.2});
   tiny.object("plate", 0, v).quad({8, 0.6, 1.6}, {8, 0.1, 1.6}, {8, 0.1, 2.1}, {8, 0.6, 2.1});
+  tiny.object("line", 0, w).quad({-2, 2, 0.02}, {3, 2, 0.02}, {3, 2.2, 0.02}, {-2, 2.2, 0.02});
   tiny.object("van", van, v).box({-1, -2, 0}, {1, 2, 5});
   scene::Scene scene = tiny.build();
+  for (scene::Instance& instance : scene.instances)
+    if (instance.name == "line") instance.semantic_class = scene::SemanticClass::lane_marking;
   for (vec4& tangent : scene.tangents) tangent = vec4(1, 0, 0, 1);
   scene::PunctualLight lamp;
   lamp.name = "lamp";
@@ -262,6 +265,9 @@ const std::map<std::string, Tried> tried{
     {"punctual_lights", {camera_sensor, {"sky"}}},
     {"haze", {camera_sensor, {"sky"}}},
     {"night_sky", {camera_sensor, {"sky"}, true}},
+    {"clouds", {camera_sensor, {"sky"}}},
+    {"horizon", {camera_sensor, {"sky"}}},
+    {"markings", {camera_sensor, {"sky"}}},
     {"consistency", {camera_sensor, {}}},
     {"lidar_alpha_mask", {lidar_sensor, {}}},
     {"lidar_textures", {lidar_sensor, {}}},

@@ -95,9 +95,9 @@ void parse_moon(const Field& field, Environment& environment) {
 
 Environment parse_environment(const Field& field, const std::optional<Georeference>& scene,
                               std::vector<std::string>& warnings) {
-  const FieldMap map(
-      field, {"place", "time", "sun", "moon", "sky", "sky_illuminance_lux", "sky_glow_cd_m2", "turbidity",
-              "temperature_k", "pressure_hpa", "water_vapour_g_m3", "rain_mm_h", "fog_g_m3", "fog_height_m"});
+  const FieldMap map(field, {"place", "time", "sun", "moon", "sky", "sky_illuminance_lux", "sky_glow_cd_m2",
+                             "turbidity", "clouds", "horizon", "temperature_k", "pressure_hpa",
+                             "water_vapour_g_m3", "rain_mm_h", "fog_g_m3", "fog_height_m"});
   Environment environment;
   const auto time = map.find("time");
   if (const auto f = map.find("place")) {
@@ -118,6 +118,11 @@ Environment parse_environment(const Field& field, const std::optional<Georeferen
   if (const auto f = map.find("sky_illuminance_lux")) environment.sky_illuminance_lux = f->between(0.0, 1e6);
   if (const auto f = map.find("sky_glow_cd_m2")) environment.sky_glow_cd_m2 = f->between(0.0, 1.0);
   if (const auto f = map.find("turbidity")) environment.turbidity = f->between(1.1, 10.0);
+  if (const auto f = map.find("clouds")) environment.clouds = f->between(0.0, 1.0);
+  if (const auto f = map.find("horizon"))
+    environment.horizon =
+        std::array{Horizon::automatic, Horizon::none, Horizon::plain, Horizon::city,
+                   Horizon::country}[f->choice({"auto", "none", "plain", "city", "country"})];
   if (const auto f = map.find("temperature_k")) environment.temperature_k = f->between(150.0, 350.0);
   if (const auto f = map.find("pressure_hpa")) environment.pressure_hpa = f->between(0.0, 1200.0);
   if (const auto f = map.find("water_vapour_g_m3")) environment.water_vapour_g_m3 = f->between(0.0, 100.0);

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/light/horizon.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/renderer/camera_rig.h"
+
+namespace greatx::test {
+namespace {
+
+using render::HorizonKind;
+
+constexpr float albedo = 0.3f;
+
+/// Level ground of 100 m x 100 m.
+scene::Scene field() {
+  TinyScene tiny;
+  const uint32_t grey = tiny.material_as(optical_material("grey", albedo));
+  tiny.object("ground", 0, grey).quad({-50, -50, 2}, {50, -50, 2}, {50, 50, 2}, {-50, 50, 2});
+  return tiny.build();
+}
+
+render::Lighting sunny(HorizonKind kind) {
+  render::Lighting lighting = plain_light(20.0, 40.0);
+  lighting.horizon = kind;
+  return lighting;
+}
+
+render::CameraEffects with_horizon(bool on = true) {
+  render::CameraEffects effects = lambertian();
+  effects.horizon = on;
+  return effects;
+}
+
+TEST(Horizon, PlainLandHasTheRadianceOfItsClosedForm) {
+  // A level Lambertian plane has rho (E_sun sin h + E_sky) / pi. Clear air takes e^(-sigma d) of it and adds
+  // the radiance of the sky over the horizon in its place.
+  const render::Lighting lighting = sunny(HorizonKind::plain);
+  const render::CameraDesc desc = plain_camera(128);
+  CameraRig rig(field(), lighting, desc, with_horizon());
+  const Pose eye = look({0, 0, 42}, 30.0, 0.0);
+  const render::CameraImages images = rig.shoot(eye);
+  const render::Sky sky(lighting, false);
+  const double plane = double(albedo) * (1e5 * std::sin(radians(40.0)) + 15000.0) / pi;
+  const double sigma = render::clear_air_extinction(lighting.turbidity);
+  EXPECT_NEAR(sigma, 9.4e-5, 1e-6);  // 42 km of sight
+  size_t near = 0, far = 0;
+  for (uint32_t row = 0; row < desc.height; ++row)
+    for (uint32_t column = 0; column < desc.width; ++column) {
+      const size_t i = row * desc.width + column;
+      const dvec3 ray = eye.rotate(pixel_ray(desc, column, row));
+      if (images.instance[i] != 0 || ray.z > -0.02) continue;
+      const double way = 40.0 / -ray.z * glm::length(ray);
+      const double air =
+          render::luminance(sky.radiance(glm::normalize(dvec3(dvec2(ray) / glm::length(dvec2(ray)), 0.03))));
+      const double expected = air + (plane - air) * std::exp(-sigma * way);
+      // The map of the sky is interpolated.
+      ASSERT_NEAR(luminance_at(images, i) / expected, 1.0, 0.01) << way;
+      (way < 200.0 ? near : far) += 1;
+    }
+  EXPECT_GT(near, 500u);
+  EXPECT_GT(far, 500u);
+}
+
+TEST(Horizon, LandGoesOnWhereTheSceneEnds) {
+  // From above, the ground at the scene's border and the land beyond have the same brightness.
+  const render::CameraDesc desc = plain_camera(128);
+  CameraRig rig(field(), sunny(HorizonKind::plain), desc, with_horizon());
+  const render::CameraImages images = rig.shoot(look({0, 0, 82}, 0.0, 60.0));
+  size_t borders = 0;
+  for (uint32_t row = 0; row < desc.height; ++row)
+    for (uint32_t column = 1; column < desc.width; ++column) {
+      const size_t i = row * desc.width + column;
+      if ((images.instance[i] == 0) == (images.instance[i - 1] == 0)) continue;
+      EXPECT_NEAR(luminance_at(images, i) / luminance_at(images, i - 1), 1.0, 0.02);
+      ++borders;
+    }
+  EXPECT_GT(borders, 20u);
+}
+
+TEST(Horizon, IsABackgroundOfTheRadianceAlone) {
+  const render::CameraDesc desc = plain_camera(96);
+  const Pose eye = look({0, 0, 20}, 100.0, 10.0);
+  CameraRig without(field(), sunny(HorizonKind::city), desc, with_horizon(false));
+  const render::CameraImages bare = without.shoot(eye);
+  for (const HorizonKind kind : {HorizonKind::plain, HorizonKind::city, HorizonKind::country}) {
+    CameraRig rig(field(), sunny(kind), desc, with_horizon());
+    const render::CameraImages images = rig.shoot(eye);
+    EXPECT_EQ(images.depth, bare.depth);
+    EXPECT_EQ(images.instance, bare.instance);
+    EXPECT_EQ(images.semantic, bare.semantic);
+    size_t changed = 0, sky = 0;
+    for (size_t i = 0; i < images.depth.size(); ++i) {
+      if (images.instance[i] != 0) {
+        EXPECT_EQ(images.hdr[3 * i], bare.hdr[3 * i]);
+        continue;
+      }
+      EXPECT_TRUE(std::isinf(images.depth[i]));
+      EXPECT_GT(luminance_at(images, i), 0.0);
+      ++sky;
+      changed += images.hdr[3 * i] != bare.hdr[3 * i];
+    }
+    EXPECT_GT(changed, sky / 5) << int(kind);
+  }
+}
+
+TEST(Horizon, FogHidesTheLand) {
+  render::Lighting lighting = sunny(HorizonKind::city);
+  lighting.haze_extinction_per_m = 0.05;
+  lighting.haze_depth = 2.0;
+  render::CameraEffects effects = with_horizon();
+  effects.haze = true;
+  const render::CameraDesc desc = plain_camera(64);
+  const Pose eye = look({0, 0, 12}, 0.0, 0.0);
+  CameraRig with(field(), lighting, desc, effects);
+  effects.horizon = false;
+  CameraRig without(field(), lighting, desc, effects);
+  const render::CameraImages seen = with.shoot(eye), bare = without.shoot(eye);
+  for (size_t i = 0; i < seen.depth.size(); ++i) {
+    if (seen.instance[i] != 0) continue;
+    EXPECT_NEAR(luminance_at(seen, i) / luminance_at(bare, i), 1.0, 0.1) << i;
+  }
+}
+
+TEST(Horizon, SuitsTheScene) {
+  EXPECT_EQ(render::horizon_of(field()), HorizonKind::plain);
+  TinyScene small;
+  small.quad({-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0});
+  EXPECT_EQ(render::horizon_of(small.build()), HorizonKind::none);
+  TinyScene green;
+  scene::Material grass;
+  grass.pbr.base_color = vec4(0.07f, 0.12f, 0.03f, 1.0f);
+  green.object("grass", 0, green.material_as(grass))
+      .quad({-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0});
+  EXPECT_EQ(render::horizon_of(green.build()), HorizonKind::country);
+  scene::Scene town = [] {
+    TinyScene tiny;
+    tiny.object("ground").quad({-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0});
+    tiny.object("house").box({-20, -20, 0}, {20, 20, 12});
+    return tiny.build();
+  }();
+  town.instances[1].semantic_class = scene::SemanticClass::building;
+  EXPECT_EQ(render::horizon_of(town), HorizonKind::city);
+  EXPECT_NEAR(render::land_height(town), 0.0, 1e-4);
+  EXPECT_NEAR(render::land_height(field()), 2.0, 1e-4);
+}
+
+}  // namespace
+}  // namespace greatx::test
