@@ -254,7 +254,7 @@ void Cmd::begin_rendering(const RenderTargets& targets) {
   if (targets.depth != nullptr) {
     depth.imageView = targets.depth->view();
     depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-    depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    depth.loadOp = targets.keep_depth ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
     depth.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     depth.clearValue.depthStencil = {targets.clear_depth, 0};
   }
@@ -271,6 +271,18 @@ void Cmd::begin_rendering(const RenderTargets& targets) {
   vkCmdSetScissor(handle_, 0, 1, &info.renderArea);
 }
 
+void Cmd::viewport(uint32_t x, uint32_t y, uint32_t size) {
+  const VkViewport viewport{static_cast<float>(x),
+                            static_cast<float>(y),
+                            static_cast<float>(size),
+                            static_cast<float>(size),
+                            0.0f,
+                            1.0f};
+  const VkRect2D scissor{{static_cast<int32_t>(x), static_cast<int32_t>(y)}, {size, size}};
+  vkCmdSetViewport(handle_, 0, 1, &viewport);
+  vkCmdSetScissor(handle_, 0, 1, &scissor);
+}
+
 void Cmd::end_rendering() { vkCmdEndRendering(handle_); }
 
 void Cmd::copy(const Slice& from, const Slice& to) {
@@ -282,6 +294,16 @@ void Cmd::copy(const Slice& from, const Slice& to) {
 void Cmd::copy(const Slice& from, const Image& to, uint32_t mip) {
   const VkBufferImageCopy region = whole_mip(to, from.offset, mip);
   vkCmdCopyBufferToImage(handle_, from.buffer, to.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
+void Cmd::copy_square(const Image& from, const Image& to, uint32_t x, uint32_t y, uint32_t size) {
+  VkImageCopy region{};
+  region.srcSubresource = {from.aspect(), 0, 0, 1};
+  region.dstSubresource = {to.aspect(), 0, 0, 1};
+  region.srcOffset = region.dstOffset = {static_cast<int32_t>(x), static_cast<int32_t>(y), 0};
+  region.extent = {size, size, 1};
+  vkCmdCopyImage(handle_, from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(),
+                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 
 void Cmd::fill(const Slice& slice, uint32_t word) {

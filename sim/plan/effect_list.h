@@ -41,9 +41,15 @@
   X(punctual_lights, true, camera, "lamps") \
   X(haze, true, camera, "fog and rain before the camera") \
   X(night_sky, true, camera, "stars and the disc of the moon") \
+  X(wet_surfaces, true, camera, "water on surfaces: dark, smooth ground, puddles, mirror images") \
+  X(snow_cover, true, camera, "snow on what faces upwards") \
+  X(rain_streaks, true, camera, "falling drops as streaks") \
+  X(lamp_shadows, true, camera, "shadows in the light of lamps that do not move") \
+  X(lamp_halos, true, camera, "light of lamps that fog and rain scatter towards the camera") \
   X(smooth_edges, false, none, "antialiasing along the edges of meshes") \
   X(lens_distortion, false, none, "distortion by the lens") \
   X(vignetting, false, none, "loss of light towards the corners of a picture") \
+  X(glare, false, none, "light that the lens scatters over the picture") \
   X(motion_blur, false, none, "motion during the exposure") \
   X(auto_exposure, false, none, "exposure that follows the light of the scene") \
   X(sensor_noise, false, none, "noise of photons and of the sensor")

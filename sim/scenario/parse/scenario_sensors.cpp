@@ -43,7 +43,8 @@ SensorParsers sensor_parsers() {
   SensorParsers parsers;
   parsers[sensor_kind_index<CameraConfig>()] = {
       fired + pinhole +
-          Keys{"exposure_ev100", "exposure", "motion_blur_samples", "vignetting", "noise", "box_classes"},
+          Keys{"exposure_ev100", "exposure", "motion_blur_samples", "vignetting", "noise", "glare",
+               "box_classes"},
       [](const FieldMap& map, const SensorContext&) -> SensorSettings { return parse_camera(map); }};
   parsers[sensor_kind_index<EventCameraConfig>()] = {
       fired + pinhole +
