@@ -50,7 +50,7 @@ PictureRenderer::PictureRenderer(scene::GpuScene& gpu_scene, gpu::TickRing& ring
     : ring_(ring),
       gpu_scene_(gpu_scene),
       moment_(moment),
-      lighting_(gpu_scene, sim::lighting_of(environment), sim::camera_effects(plan)) {}
+      lighting_(gpu_scene, sim::lighting_of(environment, plan), sim::camera_effects(plan)) {}
 
 render::CameraImages PictureRenderer::render(render::CameraPass& pass, const PictureView& view) {
   gpu::TickSlot& slot = ring_.begin();

@@ -14,6 +14,7 @@
 #include "scene/generator/country/country.h"
 #include "scene/generator/objects/objects.h"
 #include "scene/generator/objects/vehicles.h"
+#include "scene/generator/office.h"
 
 namespace greatx::scene {
 
@@ -33,7 +34,7 @@ const std::vector<Kind>& kinds() {
       {"city", "a part of a city: streets, buildings, park, trees, lamps, parked cars", 100, 1000, {}},
       {"country", "hills, a winding road, fields, hedges, farms, woods", 160, 2000, {}},
       {"canyon", "a street between two rows of houses", 60, 1000, {}},
-      {"room", "a closed room of 12 x 8 x 3.2 m", 0, 0, {}},
+      {"room", "a closed room of 12 x 8 x 3.2 m, lit by its lamps", 0, 0, {"bare", "office"}},
       {"mast", "a base-station mast of 24.6 m", 0, 0, {}},
       {"car", "a car or a van", 0, 0, {"hatchback", "van"}},
       {"quadrotor", "a drone with four rotors", 0, 0, {"medium", "small", "large"}}};
@@ -104,6 +105,7 @@ std::vector<std::byte> generate_glb(const GenerateOptions& options) {
     write_canyon(writer, size, options.seed);
   } else if (options.kind == "room") {
     write_room(writer);
+    if (variant == "office") add_furniture(writer);
   } else if (options.kind == "quadrotor") {
     write_quadrotor(writer, variant);
   } else if (options.kind == "car") {
@@ -113,7 +115,8 @@ std::vector<std::byte> generate_glb(const GenerateOptions& options) {
                      .mesh = writer.add_mesh("mast", make_mast()),
                      .semantic_class = SemanticClass::mast});
   }
-  return writer.finish(variant.empty() ? options.kind : options.kind + "_" + variant);
+  const bool plain = variant.empty() || variant == "bare";
+  return writer.finish(plain ? options.kind : options.kind + "_" + variant);
 }
 
 }  // namespace greatx::scene

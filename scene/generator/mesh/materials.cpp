@@ -156,6 +156,8 @@ std::vector<MaterialSpec> make_library() {
       // docs/generator.md states the luminances of the lamps.
       {"lamp_glass", "", dvec2(1.0), 0, vec3(0.9f), 0.3f, 0.0f, lamp_color_4000k * 14.0f, pane},
       {"lamp_glass_warm", "", dvec2(1.0), 0, vec3(0.9f), 0.3f, 0.0f, lamp_color_3000k * 14.0f, pane},
+      // 3600 lm leave 0.36 m^2 evenly: 3200 cd/m^2.
+      {"panel_glass", "", dvec2(1.0), 0, vec3(0.9f), 0.4f, 0.0f, lamp_color_4000k * 3.2f, plastic},
       {"signal_housing", "", dvec2(1.0), 0, vec3(0.03f, 0.035f, 0.03f), 0.6f, 0.0f, vec3(0), plastic},
       {"signal_red", "", dvec2(1.0), 0, vec3(0.5f, 0.02f, 0.02f), 0.3f, 0.0f, vec3(6.0f, 0.01f, 0.005f),
        plastic},
