@@ -152,6 +152,14 @@ void print_places(const sim::Scenario& scenario) {
     std::cout << fmt::format("  warning: {}\n", printable(warning));
 }
 
+std::string turn_words(const sim::PartMotion& motion) {
+  if (const auto* rate = std::get_if<sim::TurnRate>(&motion))
+    return fmt::format("{:+.6g} Hz", rate->value_hz());
+  if (const auto* roll = std::get_if<sim::RollConfig>(&motion))
+    return fmt::format("rolls, radius {:.6g} m,", roll->radius_m);
+  return "with the steps";
+}
+
 void print_words(const sim::Experiment& experiment, const Measured& measured) {
   const sim::Scenario& scenario = experiment.scenario;
   const sim::World& world = *experiment.world;
@@ -160,8 +168,8 @@ void print_words(const sim::Experiment& experiment, const Measured& measured) {
                            world.scene.instances.size(), world.scene.bodies.size());
   print_places(scenario);
   for (const sim::Part& part : world.parts)
-    std::cout << fmt::format("  turns {:<24} {:+.6g} Hz about ({:.3f}, {:.3f}, {:.3f}) of its node\n",
-                             part.name, part.rate.value_hz(), world.scene.bodies[part.body].joint->axis.x,
+    std::cout << fmt::format("  turns {:<24} {} about ({:.3f}, {:.3f}, {:.3f}) of its node\n", part.name,
+                             turn_words(part.motion), world.scene.bodies[part.body].joint->axis.x,
                              world.scene.bodies[part.body].joint->axis.y,
                              world.scene.bodies[part.body].joint->axis.z);
   for (const sim::Effect* effect : experiment.plan.all()) {

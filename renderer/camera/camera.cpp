@@ -51,7 +51,7 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
   if (has_faces(desc_)) faces_ = std::make_unique<FaceTable>(scene_->device(), desc_);
   pinhole_ = std::make_unique<PinholeView>(faces_ ? faces_->largest() : pinhole_of(desc_));
   const bool mirrors = wants_mirrors(effects_, desc_),
-             streaks = effects_.rain_streaks && desc_.outputs.color();
+             streaks = effects_.rain_streaks && desc_.outputs.color() && !has_faces(desc_);
   desc_.outputs.seen = desc_.outputs.seen || desc_.smooth_edges || mirrors || streaks || effects_.lamp_halos;
   const uint32_t most = scene_->device().limits().maxImageDimension2D;
   if (std::max(pinhole_->width, pinhole_->height) > most)
@@ -349,6 +349,7 @@ void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, cons
   drawn_ = culled_ = 0;
   if (faces_) {
     record_faces(slot, local_from_sensor, part);
+    if (part.last && glare_) glare_->record(slot, picture_.color);
     if (part.last && develop_) develop_->record(slot, picture_.color, seen_, frame);
     return;
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/camera/mirror.h"
 
+#include "renderer/camera/faces.h"
+
 #include "shaders/shared/camera.h"
 #include "shaders/shared/weather.h"
 
@@ -9,7 +11,7 @@ namespace greatx::render {
 
 bool wants_mirrors(const CameraEffects& effects, const CameraDesc& desc) {
   return effects.wet_surfaces && effects.specular && desc.outputs.color() && !desc.distortion.any() &&
-         !desc.parts;
+         !has_faces(desc) && !desc.parts;
 }
 
 MirrorPass::MirrorPass(const SceneLighting& lighting, const CameraDesc& desc)

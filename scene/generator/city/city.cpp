@@ -14,6 +14,7 @@
 #include "core/units.h"
 #include "scene/generator/city/city_buildings.h"
 #include "scene/generator/city/city_ground.h"
+#include "scene/generator/city/city_network.h"
 #include "scene/generator/mesh/materials.h"
 #include "scene/generator/objects/objects.h"
 #include "scene/generator/objects/street_furniture.h"
@@ -242,7 +243,9 @@ void write_city(SceneWriter& writer, double size_m, uint64_t seed) {
     writer.add_node({.name = name, .mesh = writer.add_mesh(name, mesh), .semantic_class = semantic_class});
   };
   MeshBuilder base, road, markings;
-  add_streets(plan, seed, road, markings);
+  add_streets(plan, road, markings);
+  writer.set_scene_extras(
+      fmt::format(R"({{"{}": {}}})", street_network_key, street_network_json(city_network(plan))));
   add_base(plan, base);
   add("road", road, SemanticClass::road);
   add("lane_markings", markings, SemanticClass::lane_marking);

@@ -129,7 +129,7 @@ void SceneWriter::add_material(int library_index) {
 
 std::vector<std::byte> SceneWriter::finish(const std::string& scene_name,
                                            const std::string& scene_extras_json) {
-  return file_.finish(scene_name, scene_extras_json);
+  return file_.finish(scene_name, scene_extras_json.empty() ? scene_extras_ : scene_extras_json);
 }
 
 }  // namespace greatx::scene::generator

@@ -55,6 +55,8 @@ class SceneWriter {
   int add_mesh(const std::string& name, std::span<const PrimitiveData> primitives);
   int add_node(const NodeSpec& node);
   int add_light(const LightSpec& light);
+  /// Sets the extras of the scene for a finish() that gives none: JSON, or empty.
+  void set_scene_extras(std::string json) { scene_extras_ = std::move(json); }
   /// Returns the bytes of the whole file.
   std::vector<std::byte> finish(const std::string& scene_name, const std::string& scene_extras_json = "");
 
@@ -76,6 +78,7 @@ class SceneWriter {
   std::map<int, int> materials_;  ///< library index -> glTF material
   std::map<std::string, TextureMaps> maps_;
   std::map<std::string, Textures> textures_;
+  std::string scene_extras_;
 };
 
 }  // namespace greatx::scene::generator
