@@ -3,7 +3,6 @@
 #include "renderer/camera/mirror.h"
 
 #include "renderer/camera/faces.h"
-
 #include "shaders/shared/camera.h"
 #include "shaders/shared/weather.h"
 

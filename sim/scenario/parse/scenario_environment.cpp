@@ -95,10 +95,10 @@ void parse_moon(const Field& field, Environment& environment) {
 
 Environment parse_environment(const Field& field, const std::optional<Georeference>& scene,
                               std::vector<std::string>& warnings) {
-  const FieldMap map(field, {"place", "time", "sun", "moon", "sky", "sky_illuminance_lux", "sky_glow_cd_m2",
-                             "turbidity", "clouds", "horizon", "temperature_k", "pressure_hpa",
-                             "water_vapour_g_m3", "rain_mm_h", "fog_g_m3", "fog_height_m", "wetness", "puddles",
-                             "snow"});
+  const FieldMap map(
+      field, {"place", "time", "sun", "moon", "sky", "sky_illuminance_lux", "sky_glow_cd_m2", "turbidity",
+              "clouds", "horizon", "temperature_k", "pressure_hpa", "water_vapour_g_m3", "rain_mm_h",
+              "fog_g_m3", "fog_height_m", "wetness", "puddles", "snow"});
   Environment environment;
   const auto time = map.find("time");
   if (const auto f = map.find("place")) {
