@@ -12,7 +12,10 @@ namespace {
 class TrafficCourse : public Course {
  public:
   TrafficCourse(std::shared_ptr<Simulation> simulation, uint32_t member)
-      : simulation_(std::move(simulation)), member_(member), body_(simulation_->body(member)) {}
+      : simulation_(std::move(simulation)), member_(member), body_(simulation_->body(member)) {
+    start_ = simulation_->at(member_, 0.0);
+    start_m_ = whole(start_);
+  }
 
   Motion at(double time_s) const override {
     const WayState state = simulation_->at(member_, time_s);
@@ -53,21 +56,29 @@ class TrafficCourse : public Course {
   }
 
   Travel travel(double time_s) const override {
-    const auto whole = [&](const WayState& state) {
-      return state.piece.travelled_m + length_between(state.piece, state.piece.begin_m, state.way_m);
-    };
-    const WayState state = simulation_->at(member_, time_s), start = simulation_->at(member_, 0.0);
+    // People count their steps as seen from above, not down and up kerbs.
+    if (body_.kind == TrafficMember::Kind::pedestrian) {
+      const WayState now = simulation_->at(member_, time_s);
+      return {now.way_m - start_.way_m, now.speed_mps, now.acceleration_mps2};
+    }
+    const WayState state = simulation_->at(member_, time_s);
     const WayPlace place = place_on(state.piece, state.way_m);
     const double stretch = glm::length(place.first);
-    return {whole(state) - whole(start), state.speed_mps * stretch,
+    return {whole(state) - start_m_, state.speed_mps * stretch,
             state.acceleration_mps2 * stretch +
                 state.speed_mps * state.speed_mps * glm::dot(place.first, place.second) / stretch};
   }
 
  private:
+  static double whole(const WayState& state) {
+    return state.piece.travelled_m + length_between(state.piece, state.piece.begin_m, state.way_m);
+  }
+
   std::shared_ptr<Simulation> simulation_;
   uint32_t member_;
   TrafficBody body_;
+  WayState start_;  ///< at time 0
+  double start_m_ = 0.0;
 };
 
 }  // namespace

@@ -92,8 +92,9 @@ CurvePlace Curve::inside(size_t index, double u) const {
   CurvePlace place;
   place.position = dvec2(p);
   place.tangent = a / speed;
-  place.curvature = turn / (speed * speed * speed);
-  place.curvature_rate = (cross(a, c) * speed * speed - 3.0 * turn * along) / std::pow(speed, 6.0);
+  const double cubed = speed * speed * speed;
+  place.curvature = turn / cubed;
+  place.curvature_rate = (cross(a, c) * speed * speed - 3.0 * turn * along) / (cubed * cubed);
   place.height = p.z;
   place.slope = d1.z / speed;
   place.slope_rate = (d2.z - d1.z * along / (speed * speed)) / (speed * speed);

@@ -43,7 +43,7 @@ std::vector<GroundBox> swept_boxes(const Curve& curve, const Extent& extent, std
 
 bool overlap(const GroundBox& a, const GroundBox& b) {
   const dvec2 between = b.middle - a.middle;
-  const double reach = std::hypot(a.half_length, a.half_width) + std::hypot(b.half_length, b.half_width);
+  const double reach = a.half_length + a.half_width + b.half_length + b.half_width;  // more than enough
   if (glm::dot(between, between) > reach * reach) return false;
   const dvec2 a_left(-a.forward.y, a.forward.x), b_left(-b.forward.y, b.forward.x);
   for (const dvec2& axis : {a.forward, a_left, b.forward, b_left}) {
@@ -232,8 +232,7 @@ Streets::Phase Streets::phase_of(uint32_t junction, double time_s) const {
   const std::vector<scene::StreetPhase>& phases = junctions_[junction].phases;
   double cycle = 0.0;
   for (const scene::StreetPhase& phase : phases) cycle += phase.green_s + phase.amber_s + phase.clear_s;
-  // Junctions are out of step with each other by seven seconds.
-  double at = std::fmod(time_s + 7.0 * junction, cycle);
+  double at = std::fmod(time_s, cycle);
   if (at < 0.0) at += cycle;
   for (size_t i = 0;; ++i) {
     const double length = phases[i].green_s + phases[i].amber_s + phases[i].clear_s;

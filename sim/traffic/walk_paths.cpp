@@ -29,13 +29,16 @@ std::optional<double> meeting(const Curve& ring, const Across& line, double reac
   std::optional<double> found;
   double nearest = reach_m;
   const auto side = [&](double s) { return cross_of(line.forward, ring.at(s).position - line.start); };
-  const double step = 0.25;
-  for (double s = 0.0; s + step <= ring.length(); s += step) {
-    double low = s, high = s + step;
-    if ((side(low) < 0.0) == (side(high) < 0.0)) continue;
-    for (int i = 0; i < 50; ++i) {
+  const int steps = static_cast<int>(std::ceil(ring.length() / 0.5));
+  double after = side(0.0);
+  for (int i = 0; i < steps; ++i) {
+    double low = ring.length() * i / steps, high = ring.length() * (i + 1) / steps;
+    const double before = after;
+    after = side(high);
+    if ((before < 0.0) == (after < 0.0)) continue;
+    for (int halving = 0; halving < 45; ++halving) {
       const double middle = 0.5 * (low + high);
-      ((side(middle) < 0.0) == (side(low) < 0.0) ? low : high) = middle;
+      ((side(middle) < 0.0) == (before < 0.0) ? low : high) = middle;
     }
     const double distance = glm::distance(ring.at(low).position, line.start);
     if (distance < nearest) {

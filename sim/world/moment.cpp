@@ -53,14 +53,34 @@ Motion turned(Motion motion, const scene::Joint& joint, const Turned& turn) {
   return motion;
 }
 
+/// How far nodes have travelled, found when it is first asked for.
+class Travels {
+ public:
+  Travels(const Courses& courses, double time_s) : courses_(courses), time_s_(time_s) {}
+  Turned turn(const PartTurn& turn, uint32_t node) {
+    if (turn.travels() && node != node_) {
+      node_ = node;
+      travel_ = courses_.nodes[node]->travel(time_s_);
+    }
+    return turn.at(travel_, time_s_);
+  }
+
+ private:
+  const Courses& courses_;
+  double time_s_;
+  uint32_t node_ = ~0u;
+  Travel travel_;
+};
+
 /// Returns the motions of all bodies from those of the nodes, world frame.
 std::vector<Motion> body_motions(const World& world, const Courses& courses, std::span<const Motion> nodes,
                                  double time_s) {
   std::vector<Motion> motions(world.scene.bodies.size());
+  Travels travels(courses, time_s);
   for (uint32_t body = 1; body < motions.size(); ++body) {
     const uint32_t node = world.node_of_body[body];
     if (const auto& joint = world.scene.bodies[body].joint) {
-      const Turned turn = courses.turns[world.part_of_body[body]].at(*courses.nodes[node], time_s);
+      const Turned turn = travels.turn(courses.turns[world.part_of_body[body]], node);
       motions[body] = turned(motions[joint->owner], *joint, turn);
     } else {
       motions[body] = nodes[node];
@@ -68,6 +88,18 @@ std::vector<Motion> body_motions(const World& world, const Courses& courses, std
     }
   }
   return motions;
+}
+
+/// Returns the motion of a body by going up the chain of joints that carry it.
+Motion chain_motion(const World& world, const Courses& courses, uint32_t body, double time_s,
+                    Travels& travels) {
+  const uint32_t node = world.node_of_body[body];
+  if (const auto& joint = world.scene.bodies[body].joint)
+    return turned(chain_motion(world, courses, joint->owner, time_s, travels), *joint,
+                  travels.turn(courses.turns[world.part_of_body[body]], node));
+  Motion motion = courses.nodes[node]->at(time_s);
+  motion.pose = world.scene.to_local(motion.pose);
+  return motion;
 }
 
 std::vector<Pose> poses_of(std::span<const Motion> motions) {
@@ -87,14 +119,8 @@ std::vector<Motion> node_motions(const Courses& courses, double time_s) {
 Motion body_motion(const World& world, const Courses& courses, uint32_t body, double time_s) {
   if (body == 0) return {};
   GREATX_CHECK(body < world.node_of_body.size(), "body {} of {}", body, world.node_of_body.size());
-  const Course& course = *courses.nodes[world.node_of_body[body]];
-  const std::optional<scene::Joint>& joint = world.scene.bodies[body].joint;
-  if (joint)
-    return turned(body_motion(world, courses, joint->owner, time_s), *joint,
-                  courses.turns[world.part_of_body[body]].at(course, time_s));
-  Motion motion = course.at(time_s);
-  motion.pose = world.scene.to_local(motion.pose);
-  return motion;
+  Travels travels(courses, time_s);
+  return chain_motion(world, courses, body, time_s, travels);
 }
 
 std::vector<Pose> body_poses(const World& world, const Courses& courses, double time_s) {

@@ -9,18 +9,17 @@
 namespace greatx::sim {
 namespace {
 
-Turned turned_by(const Rotation& rotation, const Course&, double time_s) {
+Turned turned_by(const Rotation& rotation, const Travel&, double time_s) {
   return {2.0 * pi * rotation.turns(time_s), 2.0 * pi * rotation.rate_hz(), 0.0};
 }
 
-Turned turned_by(const Roll& roll, const Course& course, double time_s) {
-  const Travel travel = course.travel(time_s);
+Turned turned_by(const Roll& roll, const Travel& travel, double) {
   return {std::remainder(roll.start + travel.distance_m / roll.radius_m, 2.0 * pi),
           travel.speed_mps / roll.radius_m, travel.acceleration_mps2 / roll.radius_m};
 }
 
-Turned turned_by(const LimbTurn& limb, const Course& course, double time_s) {
-  return limb.gait.joint(limb.limb, limb.left, course.travel(time_s));
+Turned turned_by(const LimbTurn& limb, const Travel& travel, double) {
+  return limb.gait.joint(limb.limb, limb.left, travel);
 }
 
 class WalkingCourse : public Course {
@@ -45,8 +44,8 @@ class WalkingCourse : public Course {
 
 }  // namespace
 
-Turned PartTurn::at(const Course& course, double time_s) const {
-  return std::visit([&](const auto& turn) { return turned_by(turn, course, time_s); }, turn_);
+Turned PartTurn::at(const Travel& travel, double time_s) const {
+  return std::visit([&](const auto& turn) { return turned_by(turn, travel, time_s); }, turn_);
 }
 
 PartTurn make_part_turn(const PartMotion& motion, const Rational& tick_rate_hz, double start) {

@@ -30,9 +30,10 @@ class PartTurn {
   explicit PartTurn(Rotation rotation) : turn_(std::move(rotation)) {}
   explicit PartTurn(Roll roll) : turn_(roll) {}
   explicit PartTurn(const LimbTurn& limb) : turn_(limb) {}
-  /// Returns the angle, rad, right-handed about the axis, and its derivative, rad/s. `course` is that of the
-  /// node. The acceleration is that of limbs and wheels; a constant rate has none.
-  Turned at(const Course& course, double time_s) const;
+  /// Returns the angle, rad, right-handed about the axis, and its derivatives, when the node has travelled so
+  /// far. A part that does not travel() turns at a constant rate, whatever its node does.
+  Turned at(const Travel& travel, double time_s) const;
+  bool travels() const { return !std::holds_alternative<Rotation>(turn_); }
 
  private:
   std::variant<Rotation, Roll, LimbTurn> turn_;

@@ -50,7 +50,8 @@ struct Flight {
   }
   /// Returns the turn of a part at tick 0, rad.
   double start(size_t part) const {
-    return courses.turns[part].at(*courses.nodes[world.node_of_body[world.parts[part].body]], 0.0).value;
+    const uint32_t node = world.node_of_body[world.parts[part].body];
+    return courses.turns[part].at(courses.nodes[node]->travel(0.0), 0.0).value;
   }
   Scenario scenario;
   World world;

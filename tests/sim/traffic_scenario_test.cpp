@@ -47,7 +47,6 @@ TEST(TrafficScenario, MakesANodeOfEveryone) {
   EXPECT_EQ(scenario.nodes[1].name, "vehicle_000");
   EXPECT_EQ(scenario.nodes[4].name, "cyclist_000");
   EXPECT_EQ(scenario.nodes[9].name, "pedestrian_003");
-  EXPECT_EQ(scenario.nodes[9].semantic_class, "person");
   EXPECT_EQ(std::get<Generated>(scenario.nodes[9].model->source).kind, "person");
   EXPECT_EQ(scenario.traffic->members.size(), 9u);
   EXPECT_EQ(scenario.traffic->seed, 9u);

@@ -56,15 +56,16 @@ class NetworkMaker {
   }
   uint32_t block_at(int column, int row) const { return static_cast<uint32_t>(row * plan_.blocks + column); }
 
-  /// The avenues' junctions have signals: one phase for streets that run north, one for those that run east.
+  /// The avenues' junctions have signals: one phase for streets that run east, one for those that run north.
+  /// At time 0 the first one begins, which is what the heads of signals in the scene show.
   void add_junctions() {
     const int middle = plan_.blocks / 2;
     for (int i = 1; i < plan_.blocks; ++i)
       for (int j = 1; j < plan_.blocks; ++j) {
         StreetJunction junction;
         if (i == middle || j == middle)
-          junction.phases = {{{0}, i == middle ? 20.0 : 16.0, 3.0, 2.0},
-                             {{1}, j == middle ? 20.0 : 16.0, 3.0, 2.0}};
+          junction.phases = {{{1}, j == middle ? 20.0 : 16.0, 3.0, 2.0},
+                             {{0}, i == middle ? 20.0 : 16.0, 3.0, 2.0}};
         network_.junctions.push_back(std::move(junction));
       }
   }
@@ -197,7 +198,8 @@ class NetworkMaker {
       handle = 0.3 * reach;  // gives the widest bend: 0.85 of the reach
       for (const dvec2& point : curve(from, from_direction, to, to_direction, handle))
         if (glm::distance(point, line.back()) > 0.05) line.push_back(point);
-      if (glm::distance(last, line.back()) > 0.05) line.push_back(last);
+      if (glm::distance(last, line.back()) < 0.05) line.pop_back();
+      line.push_back(last);
       return line;
     }
     line = curve(from, from_direction, to, to_direction, handle);

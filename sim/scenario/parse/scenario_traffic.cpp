@@ -67,7 +67,6 @@ NodeConfig node_of(const std::string& name, Kind kind, const std::string& varian
   node.name = name;
   node.trajectory = std::move(trajectory);
   node.model = ModelSource{Generated{generator_kind(kind), look, 300.0, variant}, where};
-  node.semantic_class = generator_kind(kind);
   node.where = where;
   return node;
 }
