@@ -118,9 +118,9 @@ TEST(WetSurface, APuddleMirrorsWhatStandsBehindIt) {
     // The albedo of the lobe is fitted to 0.06 (shaders/shared/brdf.h), and Schlick's term is up to 0.08
     // above Fresnel's reflectance of water.
     const auto cosine = float(-ray.z);
-    const float lobe =
-        shared::reflectance_below(vec3(0.0f), 0.0f, shared::puddle_roughness, cosine, shared::water_f0)
-            .albedo.x;
+    const shared::Reflectance water =
+        shared::reflectance_below(vec3(0.0f), 0.0f, shared::puddle_roughness, cosine, shared::water_f0);
+    const float lobe = water.albedo.x;
     EXPECT_NEAR(luminance_at(images, i) / 3000.0, lobe, 0.01) << row;
     const double schlick = shared::schlick_fresnel(vec3(shared::water_f0), 1.0f - cosine).x;
     EXPECT_NEAR(lobe, schlick, 0.06) << row;
