@@ -90,8 +90,6 @@ struct CameraEffects {
   bool clouds = false;        ///< renderer/light/clouds.h
   bool horizon = false;       ///< the land beyond the scene, renderer/light/horizon.h
   bool markings = false;      ///< far markings by their share of a pixel, renderer/surface/mark_map.h
-  bool haze = false;          ///< fog and rain
-  bool night_sky = false;     ///< stars, the moon's disc
   bool wet_surfaces = false;  ///< renderer/light/weather.h
   bool snow_cover = false;
   bool rain_streaks = false;       ///< renderer/camera/streaks.h; darkens haze by what the streaks take

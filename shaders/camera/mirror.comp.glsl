@@ -7,6 +7,7 @@
 // behind what a pixel sees, it meets that. What the picture does not show stays the sky that shading
 // mirrored.
 #include "camera/picture.glsl"
+#include "camera/mirror_weight.glsl"
 #include "camera/pixel_ray.glsl"
 #include "shared/weather.h"
 
@@ -21,9 +22,6 @@ const float growth = 1.33;
 const int refinements = 4;
 /// Rays of a rough mirror. Each leaves a facet of its own.
 const int rough_rays = 4;
-/// cd/m^2. Four rays cannot spread the image of a small source that is brighter, such as the head of a lamp,
-/// whose highlight shading has drawn already.
-const float brightest_image = 400.0;
 
 float depth_at(vec2 pixel) { return uintBitsToFloat(picture_seen[picture_element(ivec2(pixel))].x); }
 vec3 color_at(vec2 pixel) { return unpack_color(from_color[picture_element(ivec2(pixel))]).rgb; }
@@ -49,14 +47,15 @@ vec4 traced(vec3 p, vec3 direction) {
     float behind = h.z - depth_at(pixel);
     float thickness = 1.2 * abs(along.z) * (t - before) + 0.3;
     // The mirror itself is no obstacle, nor is what lies in its plane.
-    bool stands = pixel_ray(pixel).z * depth_at(pixel) > p.z + 0.03;
+    bool stands = pixel_ray(floor(pixel) + 0.5).z * depth_at(pixel) > p.z + 0.03;
     if (behind > 0.0 && behind < thickness && stands) {
       float low = before, high = t;
       for (int k = 0; k < refinements; ++k) {
         float middle = 0.5 * (low + high);
         vec3 m = from + along * middle;
         vec2 there = clamp((m.xy / m.z * 0.5 + 0.5) * size, vec2(0.0), size - 1.0);
-        bool hidden = m.z > depth_at(there);
+        float depth = depth_at(there);
+        bool hidden = m.z > depth && pixel_ray(floor(there) + 0.5).z * depth > p.z + 0.03;
         low = hidden ? low : middle;
         high = hidden ? middle : high;
       }
@@ -102,9 +101,10 @@ void main() {
     vec3 direction = reflect(v, facet);
     if (facing <= 0.0 || direction.z <= 0.0) continue;
     vec4 found = traced(p, direction);
-    if (rays > 1) found.rgb = min(found.rgb, vec3(brightest_image * camera.exposure));
-    sum += facing * mix(shows, found.rgb, found.a);
-    total += facing;
+    vec3 image = mix(shows, found.rgb, found.a);
+    float share = rays > 1 ? facing * image_weight(image) : facing;
+    sum += share * image;
+    total += share;
   }
   images[element] = pack_color(vec4(total > 0.0 ? sum / total : shows, 0.0));
 }

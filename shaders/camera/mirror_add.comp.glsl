@@ -5,6 +5,7 @@
 //
 // Adds mirror images to level films of water. The few rays of rough mirrors are smoothed over 3 x 3 pixels of
 // the same kind of surface at nearly the same depth.
+#include "camera/mirror_weight.glsl"
 #include "camera/picture.glsl"
 #include "shared/weather.h"
 
@@ -35,8 +36,9 @@ void main() {
         float apart = abs(uintBitsToFloat(picture_seen[near].x) - depth);
         bool same = its.x > 0.0 && abs(its.y - mine.y) < 0.1 && apart < 0.05 * depth;
         vec3 image = unpack_color(images[near]).rgb;
-        sum += same ? image : vec3(0.0);
-        count += same ? 1.0 : 0.0;
+        float share = !same ? 0.0 : reach > 0 ? image_weight(image) : 1.0;
+        sum += share * image;
+        count += share;
       }
     color.rgb = clamp(color.rgb + mine.x * (sum / count - shows), vec3(0.0), vec3(65504.0));
   }

@@ -35,7 +35,7 @@ Generated parse_generated(const Field& field) {
                                     kind == country ? 2000.0 : 1000.0);
     return generated;
   }
-  if (kind == mast || kind == room) {
+  if (kind == mast) {
     const FieldMap map(field, {"kind"});
     return generated;
   }
@@ -47,6 +47,13 @@ Generated parse_generated(const Field& field) {
       if (generator_kind(variant.kind) == kinds[kind]) names.emplace_back(variant.name);
     generated.variant = names.front();
     if (const auto f = map.find("variant")) generated.variant = names[f->choice(names)];
+    return generated;
+  }
+  if (kind == room) {
+    const FieldMap map(field, {"kind", "variant"});
+    generated.variant = "bare";
+    const auto f = map.find("variant");
+    if (f && f->choice({"bare", "office"}) == 1) generated.variant = "office";
     return generated;
   }
   const FieldMap map(field, {"kind", "variant"});
