@@ -25,9 +25,9 @@ struct PathOptions {
   /// The reflections after the first one that a path may have. With 0, surfaces show the light of key light,
   /// sky, lamps and glowing surfaces that reaches them directly.
   uint32_t bounces = 16;
-  /// Surfaces are at least this rough (perceptual roughness) to a path that was reflected before. 0 is unbiased.
-  /// A larger value spreads the sharp spots of light that smooth surfaces throw on others, which need many
-  /// paths, and keeps their energy (A. Kaplanyan and C. Dachsbacher, "Path Space Regularization for Holistic
+  /// Surfaces are at least this rough (perceptual roughness) to a path that was reflected before. 0 is
+  /// unbiased. A larger value spreads the sharp spots of light that smooth surfaces throw on others, which
+  /// need many paths, and keeps their energy (A. Kaplanyan and C. Dachsbacher, "Path Space Regularization for Holistic
   /// and Robust Light Transport", Computer Graphics Forum 32(2), 2013). Mirror images that the eye sees stay
   /// sharp.
   double later_roughness = 0.0;
@@ -47,8 +47,8 @@ class PathTracer {
   PathTracer(const scene::Scene& scene, std::span<const Pose> body_poses, const Lighting& lighting,
              const CameraEffects& effects, const PathOptions& options);
 
-  /// Returns the light of one path along a camera's ray. What is nearer than `near_m`, and bodies of the owner
-  /// `excluded`, are passed through by the first ray.
+  /// Returns the light of one path along a camera's ray. What is nearer than `near_m`, and bodies of the
+  /// owner `excluded`, are passed through by the first ray.
   PathLight trace(const Ray& ray, double near_m, PathDraws& draws,
                   std::optional<uint32_t> excluded = {}) const;
 
