@@ -18,11 +18,50 @@ constexpr std::array semantic_classes = {"unlabeled",   "ground", "road",    "pa
                                          "street_lamp", "mast",   "vehicle", "uav",        "water",
                                          "furniture",   "person"};
 
+/// Returns the variants of a kind of the scene generator, the default first. Room scene/generator, which this
+/// library does not link, has the same lists. A test compares them.
+std::vector<std::string_view> variants_of(const std::string& kind) {
+  if (kind == "car") return {"hatchback", "van"};
+  if (kind == "vehicle")
+    return {"saloon",
+            "hatchback",
+            "compact",
+            "estate",
+            "suv",
+            "coupe",
+            "cabriolet",
+            "mini",
+            "taxi",
+            "mpv",
+            "pickup",
+            "van",
+            "panel_van",
+            "minibus",
+            "ambulance",
+            "box_truck",
+            "lorry",
+            "tipper",
+            "articulated_lorry",
+            "fire_engine",
+            "city_bus",
+            "double_decker",
+            "coach",
+            "tram",
+            "motorcycle",
+            "scooter",
+            "bicycle",
+            "cargo_bicycle"};
+  if (kind == "person")
+    return {"man", "woman", "tall", "broad", "slim", "dress", "teenager", "elder", "child"};
+  return {"medium", "small", "large"};
+}
+
 Generated parse_generated(const Field& field) {
-  constexpr std::array kinds = {"city", "country", "canyon", "room", "mast", "car", "quadrotor"};
-  enum { city, country, canyon, room, mast, car, quadrotor };
-  const size_t kind =
-      kind_of(field, "kind", {"city", "country", "canyon", "room", "mast", "car", "quadrotor"});
+  constexpr std::array kinds = {"city", "country", "canyon", "room",     "mast",
+                                "car",  "vehicle", "person", "quadrotor"};
+  enum { city, country, canyon, room, mast, car, vehicle, person, quadrotor };
+  const size_t kind = kind_of(
+      field, "kind", {"city", "country", "canyon", "room", "mast", "car", "vehicle", "person", "quadrotor"});
   Generated generated;
   generated.kind = kinds[kind];
   if (kind == city || kind == country || kind == canyon) {  // the others look the same for every seed
@@ -39,12 +78,12 @@ Generated parse_generated(const Field& field) {
     const FieldMap map(field, {"kind"});
     return generated;
   }
-  const FieldMap map(field, {"kind", "variant"});
-  generated.variant = kind == car ? "hatchback" : "medium";
-  if (const auto f = map.find("variant")) {
-    kind == car ? f->choice({"hatchback", "van"}) : f->choice({"small", "medium", "large"});
-    generated.variant = f->text();
-  }
+  const bool seeded = kind == vehicle || kind == person;  // the seed picks paint and clothes
+  const FieldMap map(field, seeded ? Keys{"kind", "variant", "seed"} : Keys{"kind", "variant"});
+  const std::vector<std::string_view> variants = variants_of(generated.kind);
+  generated.variant = variants.front();
+  if (const auto f = map.find("variant")) generated.variant = variants[f->choice(variants)];
+  if (const auto f = map.find("seed")) generated.seed = f->integer(0);
   return generated;
 }
 
