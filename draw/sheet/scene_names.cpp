@@ -40,8 +40,8 @@ void add_sides(const JsonValue& box, std::vector<OutlineLine>& lines) {
   const std::vector<JsonValue> both = box.tuple(2);
   for (int c = 0; c < 2; ++c)
     for (int axis = 0; axis < 3; ++axis)
-      corners[c][axis] =
-          both[static_cast<size_t>(c)].tuple(3)[static_cast<size_t>(axis)].number(-farthest_outline_m, farthest_outline_m);
+      corners[c][axis] = both[static_cast<size_t>(c)].tuple(3)[static_cast<size_t>(axis)].number(
+          -farthest_outline_m, farthest_outline_m);
   const double level = 0.5 * (corners[0].z + corners[1].z);
   const dvec3 ring[] = {{corners[0].x, corners[0].y, level},
                         {corners[1].x, corners[0].y, level},
