@@ -51,9 +51,15 @@ WayPlace place_on(const Piece& piece, double way_m) {
 }
 
 double length_between(const Piece& piece, double from_m, double to_m) {
-  const bool plain = piece.left_m == 0.0 && piece.change_length_m == 0.0;
-  if (piece.curve->level() && (plain || (piece.curve->straight() && piece.change_length_m == 0.0)))
-    return to_m - from_m;
+  if (piece.curve->level() && piece.change_length_m == 0.0) {
+    if (piece.left_m == 0.0 || piece.curve->straight()) return to_m - from_m;
+    // Beside a curve: less by the offset times the turn, which is below half a turn in one piece.
+    const auto tangent = [&](double way_m) {
+      return piece.curve->at(piece.at_m + way_m - piece.begin_m).tangent;
+    };
+    const dvec2 a = tangent(from_m), b = tangent(to_m);
+    return to_m - from_m - piece.left_m * std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b));
+  }
   constexpr std::array places{0.0469100770306680, 0.2307653449471585, 0.5, 0.7692346550528415,
                               0.9530899229693320};
   constexpr std::array weights{0.1184634425280945, 0.2393143352496832, 0.2844444444444444, 0.2393143352496832,
