@@ -17,11 +17,11 @@ layout(set = 0, binding = mirror_from_binding, scalar) readonly buffer FromBlock
 layout(set = 0, binding = mirror_images_binding, scalar) writeonly buffer ImagesBlock { uvec2 images[]; };
 layout(set = 0, binding = mirror_words_binding, scalar) readonly buffer MirrorBlock { uvec3 mirrors[]; };
 
-const int steps = 26;
-const float growth = 1.33;
+const int steps = 20;
+const float growth = 1.45;
 const int refinements = 4;
 /// Rays of a rough mirror. Each leaves a facet of its own.
-const int rough_rays = 4;
+const int rough_rays = 2;
 
 float depth_at(vec2 pixel) { return uintBitsToFloat(picture_seen[picture_element(ivec2(pixel))].x); }
 vec3 color_at(vec2 pixel) { return unpack_color(from_color[picture_element(ivec2(pixel))]).rgb; }
