@@ -88,7 +88,7 @@ void main() {
   int rays = roughness < smooth_mirror ? 1 : rough_rays;
   vec3 sum = vec3(0.0);
   float total = 0.0;
-  // Nine pixels side by side have different numbers, and mirror_add.comp takes their mean.
+  // Pixels side by side have different numbers, and mirror_add.comp takes their mean.
   vec2 place = vec2(at);
   float turn = fract(52.9829189 * fract(dot(place, vec2(0.06711056, 0.00583715))));
   float shift = fract(0.618034 * float(at.x % 3 + 3 * (at.y % 3)));
