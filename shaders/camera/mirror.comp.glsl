@@ -17,11 +17,11 @@ layout(set = 0, binding = mirror_from_binding, scalar) readonly buffer FromBlock
 layout(set = 0, binding = mirror_images_binding, scalar) writeonly buffer ImagesBlock { uvec2 images[]; };
 layout(set = 0, binding = mirror_words_binding, scalar) readonly buffer MirrorBlock { uvec3 mirrors[]; };
 
-const int steps = 26;
-const float growth = 1.33;
+const int steps = 20;
+const float growth = 1.45;
 const int refinements = 4;
 /// Rays of a rough mirror. Each leaves a facet of its own.
-const int rough_rays = 4;
+const int rough_rays = 2;
 
 float depth_at(vec2 pixel) { return uintBitsToFloat(picture_seen[picture_element(ivec2(pixel))].x); }
 vec3 color_at(vec2 pixel) { return unpack_color(from_color[picture_element(ivec2(pixel))]).rgb; }
@@ -88,7 +88,7 @@ void main() {
   int rays = roughness < smooth_mirror ? 1 : rough_rays;
   vec3 sum = vec3(0.0);
   float total = 0.0;
-  // Nine pixels side by side have different numbers, and mirror_add.comp takes their mean.
+  // Pixels side by side have different numbers, and mirror_add.comp takes their mean.
   vec2 place = vec2(at);
   float turn = fract(52.9829189 * fract(dot(place, vec2(0.06711056, 0.00583715))));
   float shift = fract(0.618034 * float(at.x % 3 + 3 * (at.y % 3)));

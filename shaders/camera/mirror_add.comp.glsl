@@ -3,7 +3,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Adds mirror images to level films of water. The few rays of rough mirrors are smoothed over 3 x 3 pixels of
+// Adds mirror images to level films of water. The few rays of rough mirrors are smoothed over 5 x 5 pixels of
 // the same kind of surface at nearly the same depth.
 #include "camera/mirror_weight.glsl"
 #include "camera/picture.glsl"
@@ -26,7 +26,7 @@ void main() {
   if (mine.x > 0.0) {
     vec3 shows = vec3(unpackHalf2x16(words.y), unpackHalf2x16(words.z).x);
     float depth = uintBitsToFloat(picture_seen[element].x);
-    int reach = mine.y < smooth_mirror ? 0 : 1;
+    int reach = mine.y < smooth_mirror ? 0 : 2;
     vec3 sum = vec3(0.0);
     float count = 0.0;
     for (int j = -reach; j <= reach; ++j)

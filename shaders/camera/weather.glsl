@@ -30,7 +30,7 @@ float weather_surface(inout Surface s, uint body) {
   bool still = body == 0u;
   float noise = still && up > 0.3 ? ground_noise((s.p + camera.eye_high).xy) : 0.0;
   if (snow_on) {
-    float cover = still ? open * smoothstep(0.3, 0.6, up) *
+    float cover = still ? open * smoothstep(0.3, 0.6, 0.3 * up + 0.7 * s.n.z) *
                               smoothstep(weather.snow_level - 0.05, weather.snow_level + 0.05, noise)
                         : 0.0;
     s.base_color = mix(s.base_color, vec3(snow_albedo), cover);
