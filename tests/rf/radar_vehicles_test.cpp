@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Compares the echoes of cars and a drone at the default settings with physical optics by brute force. The
-// cars are parked ones: brute force takes all pairs of facets, and a driving car has four times as many.
+// cars are of boxes (box_cars.h): brute force takes all pairs of facets, and the generator's have too many.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include "scene/build/build.h"
 #include "scene/generator/generate.h"
 #include "scene/generator/mesh/scene_writer.h"
-#include "scene/generator/objects/vehicles.h"
 #include "scene/gltf/model.h"
+#include "tests/rf/box_cars.h"
 #include "tests/rf/radar_brute_force.h"
 #include "tests/rf/radar_echo_scenes.h"
 
@@ -23,7 +23,7 @@ using namespace rf::testing;
 std::vector<std::byte> file_of(const std::string& kind, const std::string& variant) {
   if (kind != "car") return scene::generate_glb({.kind = kind, .variant = variant});
   scene::generator::SceneWriter writer;
-  const auto mesh = scene::generator::make_parked_car(variant, "car_paint_red");
+  const auto mesh = make_box_car(variant);
   writer.add_node({.name = variant,
                    .mesh = writer.add_mesh(variant, mesh),
                    .semantic_class = scene::SemanticClass::vehicle});

@@ -68,7 +68,7 @@ class CityFurniture {
     static constexpr std::array<const char*, 4> rare{"red", "navy", "bronze", "green"};
     const uint32_t kind = random.below(13);
     const std::string variant = kinds[kind];
-    // Every body comes in two paints, so that the cars of a city share few meshes.
+    // Few paints for every body, so that the cars of a city share meshes.
     const bool common = random.below(3) > 0;
     const bool van = variant == "van" || variant == "panel_van";
     const std::string paint = van ? "white" : common ? paints[kind % 5] : rare[kind % 4];
