@@ -60,6 +60,9 @@ int SceneWriter::add_node(const NodeSpec& node) {
   out.mesh = node.mesh;
   out.parent = node.parent;
   out.pose = {snap(node.position), node.yaw != 0.0 ? turn_about_z(node.yaw) : Pose{}.orientation};
+  if (node.pitch != 0.0)
+    out.pose.orientation =
+        out.pose.orientation * dquat(std::cos(node.pitch / 2), 0.0, std::sin(node.pitch / 2), 0.0);
   if (node.scale != 1.0) out.scale = snap(node.scale);
   out.light = node.light;
   out.aim = node.shine;

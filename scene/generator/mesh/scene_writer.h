@@ -23,6 +23,7 @@ struct NodeSpec {
   int mesh = -1;        ///< from add_mesh; -1: none
   dvec3 position{0.0};  ///< m, z up, in the parent's frame
   double yaw = 0.0;     ///< rad about z
+  double pitch = 0.0;   ///< rad about y, before the yaw
   double scale = 1.0;
   SemanticClass semantic_class = SemanticClass::unlabeled;
   int parent = -1;     ///< from add_node; -1: the scene

@@ -80,10 +80,10 @@ VehicleShape two_wheeler(const char* variant, const dvec3& size, const dvec2& ax
 std::vector<VehicleShape> make_vehicle_shapes() {
   std::vector<VehicleShape> shapes;
   for (const Row& row : rows()) shapes.push_back(four_wheeler(row));
-  shapes.push_back(two_wheeler("motorcycle", {2.14, 0.82, 1.66}, {0.76, -0.72}, {0.31, 0.31}));
-  shapes.push_back(two_wheeler("scooter", {1.88, 0.72, 1.68}, {0.70, -0.64}, {0.24, 0.24}));
-  shapes.push_back(two_wheeler("bicycle", {1.78, 0.60, 1.76}, {0.545, -0.545}, {0.345, 0.345}));
-  shapes.push_back(two_wheeler("cargo_bicycle", {2.50, 0.66, 1.74}, {1.00, -0.92}, {0.25, 0.33}));
+  shapes.push_back(two_wheeler("motorcycle", {2.10, 0.74, 1.74}, {0.74, -0.74}, {0.31, 0.31}));
+  shapes.push_back(two_wheeler("scooter", {1.87, 0.72, 1.71}, {0.70, -0.64}, {0.24, 0.24}));
+  shapes.push_back(two_wheeler("bicycle", {1.78, 0.64, 1.77}, {0.545, -0.545}, {0.345, 0.345}));
+  shapes.push_back(two_wheeler("cargo_bicycle", {2.50, 0.64, 1.77}, {1.00, -0.92}, {0.25, 0.33}));
   return shapes;
 }
 
