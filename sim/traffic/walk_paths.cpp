@@ -15,7 +15,7 @@ constexpr double ring_step_m = 0.5;
 constexpr double bend_m = 0.9;        ///< of a path's turn off a walking line, along both of its legs
 constexpr double wait_kerb_m = 0.55;  ///< of the middle of one who waits, from the kerb
 constexpr double farthest_kerb_m = 8.0;
-constexpr double kerb_ramp_m = 0.2;  ///< half of the length over which a foot goes down a kerb
+constexpr double kerb_ramp_m = 0.3;  ///< half of the length over which a foot goes down a kerb
 
 double cross_of(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
 

@@ -24,7 +24,7 @@ using Kind = TrafficMember::Kind;
 
 std::string city(const std::string& traffic, const std::string& rest = "") {
   return "greatx: 1\nname: test\nseed: 3\nticks: 100\ntick_rate_hz: 10\n"
-         "scene: {generate: {kind: city, size_m: 150}}\ntraffic: " +
+         "scene: {generate: {kind: city, size_m: 300}}\ntraffic: " +
          traffic + "\n" + rest;
 }
 
@@ -262,7 +262,7 @@ TEST(TrafficWorld, WheelsRoll) {
   const scene::VehicleShape& shape = scene::vehicle_shape("saloon");
   const uint32_t vehicle = street.world.scene.body_index("vehicle_000");
   int moving = 0;
-  for (double t = 0.0; t < 20.0; t += 0.13) {
+  for (double t = 0.0; t < 80.0; t += 0.31) {
     // In the middle between both rear wheels.
     const Motion body = body_motion(street.world, street.courses, vehicle, t);
     const Motion left = body_motion(street.world, street.courses,
@@ -291,13 +291,13 @@ TEST(TrafficWorld, FeetStandOnTheGround) {
                                          street.world.scene.body_index(name + "/shank_" + side), t);
         const dvec3 down = shank.pose.rotate({0.0, 0.0, -shape.shank_m});
         const dvec3 sole = shank.velocity + glm::cross(shank.angular_velocity, down);
-        least = std::min(least, glm::length(sole));
+        least = std::min(least, glm::length(dvec2(sole)));  // kerbs are slopes
         lowest = std::min(lowest, shank.pose.position.z + down.z);
         speed = glm::length(dvec2(root.velocity));
       }
       if (speed < Gait::full_speed_mps) continue;
-      // Hips are 0.1 m from the middle of the body: in a bend the outer foot slides.
-      EXPECT_LT(least, 0.02 + 0.12 * glm::length(root.angular_velocity)) << name << " at " << t;
+      // In a bend a foot turns about the middle of the body, from which it is up to 0.45 m away.
+      EXPECT_LT(least, 0.01 + 0.45 * glm::length(root.angular_velocity)) << name << " at " << t;
       const double ground = root.pose.position.z;
       EXPECT_LT(lowest, ground + 0.2);
     }

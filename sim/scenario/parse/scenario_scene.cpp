@@ -18,11 +18,23 @@ constexpr std::array semantic_classes = {"unlabeled",   "ground", "road",    "pa
                                          "street_lamp", "mast",   "vehicle", "uav",        "water",
                                          "furniture",   "person"};
 
+/// Returns the variants of a kind of the scene generator, the default first. Room scene/generator, which this
+/// library does not link, has the same lists. A test compares them.
+std::vector<std::string_view> variants_of(const std::string& kind) {
+  if (kind == "car") return {"hatchback", "van"};
+  if (kind == "room") return {"bare", "office"};
+  std::vector<std::string_view> names;
+  for (const TrafficVariant& variant : traffic_variants())
+    if (kind == generator_kind(variant.kind)) names.emplace_back(variant.name);
+  return names.empty() ? std::vector<std::string_view>{"medium", "small", "large"} : names;
+}
+
 Generated parse_generated(const Field& field) {
-  constexpr std::array<std::string_view, 9> kinds = {"city", "country", "canyon", "room",     "mast",
-                                                     "car",  "vehicle", "person", "quadrotor"};
+  constexpr std::array kinds = {"city", "country", "canyon", "room",     "mast",
+                                "car",  "vehicle", "person", "quadrotor"};
   enum { city, country, canyon, room, mast, car, vehicle, person, quadrotor };
-  const size_t kind = kind_of(field, "kind", kinds);
+  const size_t kind = kind_of(
+      field, "kind", {"city", "country", "canyon", "room", "mast", "car", "vehicle", "person", "quadrotor"});
   Generated generated;
   generated.kind = kinds[kind];
   if (kind == city || kind == country || kind == canyon) {  // the others look the same for every seed
@@ -39,29 +51,12 @@ Generated parse_generated(const Field& field) {
     const FieldMap map(field, {"kind"});
     return generated;
   }
-  if (kind == vehicle || kind == person) {
-    const FieldMap map(field, {"kind", "variant", "seed"});
-    if (const auto f = map.find("seed")) generated.seed = f->integer(0);
-    std::vector<std::string_view> names;
-    for (const TrafficVariant& variant : traffic_variants())
-      if (generator_kind(variant.kind) == kinds[kind]) names.emplace_back(variant.name);
-    generated.variant = names.front();
-    if (const auto f = map.find("variant")) generated.variant = names[f->choice(names)];
-    return generated;
-  }
-  if (kind == room) {
-    const FieldMap map(field, {"kind", "variant"});
-    generated.variant = "bare";
-    const auto f = map.find("variant");
-    if (f && f->choice({"bare", "office"}) == 1) generated.variant = "office";
-    return generated;
-  }
-  const FieldMap map(field, {"kind", "variant"});
-  generated.variant = kind == car ? "hatchback" : "medium";
-  if (const auto f = map.find("variant")) {
-    kind == car ? f->choice({"hatchback", "van"}) : f->choice({"small", "medium", "large"});
-    generated.variant = f->text();
-  }
+  const bool seeded = kind == vehicle || kind == person;  // the seed picks paint and clothes
+  const FieldMap map(field, seeded ? Keys{"kind", "variant", "seed"} : Keys{"kind", "variant"});
+  const std::vector<std::string_view> variants = variants_of(generated.kind);
+  generated.variant = variants.front();
+  if (const auto f = map.find("variant")) generated.variant = variants[f->choice(variants)];
+  if (const auto f = map.find("seed")) generated.seed = f->integer(0);
   return generated;
 }
 
