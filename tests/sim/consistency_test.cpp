@@ -83,8 +83,8 @@ TEST(LidarAgainstDepth, NoiseAlongTheBeamAccountsForAsMuchAsItCan) {
   const auto error = [&](double off_m, double bound_m) {
     return lidar_against_depth(camera(), images, {point + off_m * beam, 1, 3, 0.0, beam, bound_m});
   };
-  // Within the bound everything is explained; beyond it, what is left is the way beyond it: with n d = k a way
-  // of s changes the depth by k s / (1 + k s), and the bound explains k e / (1 - k e).
+  // Within the bound everything is explained. Beyond it, the way beyond is left: with n d = k a way of s
+  // changes the depth by k s / (1 + k s), and the bound explains k e / (1 - k e).
   for (const double off_m : {-0.199, -0.1, 0.0, 0.1, 0.199}) {
     ASSERT_TRUE(error(off_m, 0.2));
     EXPECT_LT(*error(off_m, 0.2), 1e-6) << off_m;
