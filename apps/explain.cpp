@@ -26,6 +26,14 @@ namespace greatx::apps {
 
 namespace {
 
+std::string turn_words(const sim::PartMotion& motion) {
+  if (const auto* rate = std::get_if<sim::TurnRate>(&motion))
+    return fmt::format("{:+.6g} Hz", rate->value_hz());
+  if (const auto* roll = std::get_if<sim::RollConfig>(&motion))
+    return fmt::format("rolls, radius {:.6g} m,", roll->radius_m);
+  return "with the steps";
+}
+
 struct ExplainOptions {
   ScenarioOptions scenario;
   RunOptions run;
@@ -121,7 +129,10 @@ void print_json(const sim::Experiment& experiment, const Measured& measured) {
   if (!scenario.warnings.empty()) json["warnings"] = scenario.warnings;
   json["parts"] = nlohmann::json::array();
   for (const sim::Part& part : experiment.world->parts)
-    json["parts"].push_back({{"name", part.name}, {"rate_hz", part.rate.value_hz()}});
+    if (const auto* rate = std::get_if<sim::TurnRate>(&part.motion))
+      json["parts"].push_back({{"name", part.name}, {"rate_hz", rate->value_hz()}});
+    else
+      json["parts"].push_back({{"name", part.name}, {"turns", turn_words(part.motion)}});
   json["channels"] = nlohmann::json::object();
   for (uint32_t channel = 0; channel < scenario.channels.size(); ++channel)
     for (const auto& [name, text] : sim::channel_notes(experiment, channel))
@@ -160,8 +171,8 @@ void print_words(const sim::Experiment& experiment, const Measured& measured) {
                            world.scene.instances.size(), world.scene.bodies.size());
   print_places(scenario);
   for (const sim::Part& part : world.parts)
-    std::cout << fmt::format("  turns {:<24} {:+.6g} Hz about ({:.3f}, {:.3f}, {:.3f}) of its node\n",
-                             part.name, part.rate.value_hz(), world.scene.bodies[part.body].joint->axis.x,
+    std::cout << fmt::format("  turns {:<24} {} about ({:.3f}, {:.3f}, {:.3f}) of its node\n", part.name,
+                             turn_words(part.motion), world.scene.bodies[part.body].joint->axis.x,
                              world.scene.bodies[part.body].joint->axis.y,
                              world.scene.bodies[part.body].joint->axis.z);
   for (const sim::Effect* effect : experiment.plan.all()) {

@@ -163,13 +163,13 @@ void add_scene(CLI::App& app) {
     auto options = std::make_shared<GenerateCommand>();
     options->options.kind = kind.name;
     options->output = kind.name + ".glb";
-    if (kind.most_size_m > 0.0) {
+    if (kind.seeded)
       maker->add_option("--seed", options->options.seed, "every choice follows from it")
           ->capture_default_str();
+    if (kind.most_size_m > 0.0)
       maker->add_option("--size", options->options.size_m, "edge of the square, or length of the street, m")
           ->capture_default_str()
           ->check(number_of(kind.least_size_m, kind.most_size_m));
-    }
     if (const std::vector<std::string> variants = scene::generator_variants(kind.name); !variants.empty())
       maker->add_option("--variant", options->options.variant, "which one")
           ->default_str(variants.front())

@@ -282,6 +282,18 @@ void Cmd::clear_depth(std::span<const VkRect2D> parts, float value) {
   vkCmdClearAttachments(handle_, 1, &attachment, static_cast<uint32_t>(rects.size()), rects.data());
 }
 
+void Cmd::viewport(uint32_t x, uint32_t y, uint32_t size) {
+  const VkViewport viewport{static_cast<float>(x),
+                            static_cast<float>(y),
+                            static_cast<float>(size),
+                            static_cast<float>(size),
+                            0.0f,
+                            1.0f};
+  const VkRect2D scissor{{static_cast<int32_t>(x), static_cast<int32_t>(y)}, {size, size}};
+  vkCmdSetViewport(handle_, 0, 1, &viewport);
+  vkCmdSetScissor(handle_, 0, 1, &scissor);
+}
+
 void Cmd::end_rendering() { vkCmdEndRendering(handle_); }
 
 void Cmd::copy(const Slice& from, const Slice& to) {
@@ -293,6 +305,16 @@ void Cmd::copy(const Slice& from, const Slice& to) {
 void Cmd::copy(const Slice& from, const Image& to, uint32_t mip) {
   const VkBufferImageCopy region = whole_mip(to, from.offset, mip);
   vkCmdCopyBufferToImage(handle_, from.buffer, to.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
+void Cmd::copy_square(const Image& from, const Image& to, uint32_t x, uint32_t y, uint32_t size) {
+  VkImageCopy region{};
+  region.srcSubresource = {from.aspect(), 0, 0, 1};
+  region.dstSubresource = {to.aspect(), 0, 0, 1};
+  region.srcOffset = region.dstOffset = {static_cast<int32_t>(x), static_cast<int32_t>(y), 0};
+  region.extent = {size, size, 1};
+  vkCmdCopyImage(handle_, from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(),
+                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 
 void Cmd::fill(const Slice& slice, uint32_t word) {

@@ -77,7 +77,7 @@ struct RenderTargets {
   std::vector<ColorTarget> color;
   Image* depth = nullptr;
   float clear_depth = 0.0f;  ///< reversed depth: far is 0
-  bool keep_depth = false;   ///< the depth image keeps its content instead of being cleared
+  bool keep_depth = false;   ///< draws onto the depth that the image holds, instead of clear_depth
   uint32_t width = 0, height = 0;
 };
 
@@ -161,6 +161,8 @@ class Cmd {
   void begin_rendering(const RenderTargets& targets);
   /// Clears parts of the depth image that is being rendered to.
   void clear_depth(std::span<const VkRect2D> parts, float value);
+  /// Restricts the following draws to a square of the targets, which clip space then fills.
+  void viewport(uint32_t x, uint32_t y, uint32_t size);
   void end_rendering();
 
   /// Returns whether the GPU may leave out the draws that are being recorded (gpu/condition.h).
@@ -169,6 +171,8 @@ class Cmd {
   void copy(const Slice& from, const Slice& to);
   /// The copies between images and slices take all layers of one mip, tightly packed.
   void copy(const Slice& from, const Image& to, uint32_t mip = 0);  ///< image in transfer_target
+  /// Copies a square from an image in transfer_source to the same place of one in transfer_target.
+  void copy_square(const Image& from, const Image& to, uint32_t x, uint32_t y, uint32_t size);
   void fill(const Slice& slice, uint32_t word);
   /// Fills the mips from 1 on from mip 0. The image is in transfer_target before and in sampled after.
   void generate_mipmaps(Image& image);

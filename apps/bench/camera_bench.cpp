@@ -180,7 +180,7 @@ class CameraBench {
     desc_.bands = 0;
     desc_.chromatic = {};
     desc_.parts = false;
-    day_ = sim::lighting_of(scenario_.environment);
+    day_ = sim::lighting_of(scenario_.environment, plan_);
     effects_ = sim::camera_effects(plan_);
   }
 
@@ -256,7 +256,7 @@ class CameraBench {
     render::CameraDesc desc = desc_;
     desc.exposure_ev100 = fog_ev100;
     desc.automatic_exposure = false;
-    add("fog", world_.scene, sim::lighting_of(environment),
+    add("fog", world_.scene, sim::lighting_of(environment, {}),
         sim::camera_effects(sim::make_effect_plan(scenario, experiment_.scene())), desc);
   }
 
@@ -266,7 +266,7 @@ class CameraBench {
     scenario.environment = {};
     scenario.environment.sun_elevation = radians(night_elevation_deg);
     const sim::EffectPlan plan = sim::make_effect_plan(scenario, experiment_.scene());
-    const render::Lighting night = sim::lighting_of(scenario.environment);
+    const render::Lighting night = sim::lighting_of(scenario.environment, plan);
     render::CameraDesc desc = desc_;
     desc.exposure_ev100 = night_ev100;
     desc.automatic_exposure = false;

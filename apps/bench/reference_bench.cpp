@@ -103,7 +103,7 @@ class ReferenceBench {
         experiment_(sim::make_experiment(load_scenario(scenario))),
         device_(run.device_options()),
         place_(first_sensor<sim::CameraConfig>(experiment_.scenario, "--camera", "a camera")),
-        light_(sim::lighting_of(experiment_.scenario.environment)),
+        light_(sim::lighting_of(experiment_.scenario.environment, experiment_.plan)),
         effects_(sim::camera_effects(experiment_.plan)) {
     check_instant(0, options.tick, experiment_.scenario);
     const sim::NodeConfig& node = experiment_.scenario.nodes[place_.node];

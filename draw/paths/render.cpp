@@ -50,7 +50,7 @@ PictureRenderer::PictureRenderer(scene::GpuScene& gpu_scene, gpu::TickRing& ring
     : ring_(ring),
       gpu_scene_(gpu_scene),
       moment_(moment),
-      lighting_(gpu_scene, sim::lighting_of(environment), sim::camera_effects(plan)) {}
+      lighting_(gpu_scene, sim::lighting_of(environment, plan), sim::camera_effects(plan)) {}
 
 render::CameraImages PictureRenderer::render(render::CameraPass& pass, const PictureView& view) {
   gpu::TickSlot& slot = ring_.begin();
@@ -95,14 +95,24 @@ bool sees_own_body(const sim::SensorConfig& sensor) {
 
 }  // namespace
 
+bool can_look_through(const sim::SensorConfig& sensor) {
+  const sim::PinholeConfig* const camera = sim::pinhole_config(sensor);
+  return camera != nullptr && !camera->wide.any();
+}
+
 CameraName find_camera(const std::string& name, const sim::Scenario& scenario) {
   std::vector<std::string> cameras;
   for (uint32_t node = 0; node < scenario.nodes.size(); ++node)
     for (uint32_t sensor = 0; sensor < scenario.nodes[node].sensors.size(); ++sensor) {
       const sim::SensorConfig& config = scenario.nodes[node].sensors[sensor];
       if (sim::pinhole_config(config) == nullptr) continue;
-      cameras.push_back(scenario.nodes[node].name + "/" + config.name);
-      if (cameras.back() == name) return {node, sensor};
+      const std::string own = scenario.nodes[node].name + "/" + config.name;
+      if (can_look_through(config))
+        cameras.push_back(own);
+      else if (own == name)
+        throw_user_error(
+            "--view: expected a pinhole camera, found '{}' with a fisheye or an equirectangular lens", name);
+      if (own == name) return {node, sensor};
     }
   throw_user_error("--view: expected auto or a camera of the scenario ({}), found '{}'",
                    cameras.empty() ? "it has none" : fmt::format("{}", fmt::join(cameras, ", ")), name);
@@ -114,11 +124,6 @@ ScenarioView scenario_view(const CameraName& camera, const sim::Experiment& expe
   const sim::SensorConfig& sensor = scenario.nodes[camera.node].sensors[camera.sensor];
   const sim::PinholeConfig& config = *sim::pinhole_config(sensor);
   const std::string name = scenario.nodes[camera.node].name + "/" + sensor.name;
-  if (config.wide.any())
-    throw_user_error(
-        "{}: lens: expected a pinhole camera to look through, found a fisheye or an "
-        "equirectangular one",
-        name);
   PictureView view;
   sim::set_intrinsics(view, config);
   view.near_m = config.near_m;

@@ -49,8 +49,10 @@ class PictureRenderer {
 struct CameraName {
   uint32_t node = 0, sensor = 0;
 };
+/// Returns whether a sensor is a camera whose view is that of a pinhole camera, with or without distortion.
+bool can_look_through(const sim::SensorConfig& sensor);
 /// Returns the camera "node/sensor". Throws UserError, which names the cameras of the scenario, if there is
-/// no such camera.
+/// no such camera, or if one cannot look through it.
 CameraName find_camera(const std::string& name, const sim::Scenario& scenario);
 
 /// Holds the view of a camera of the scenario.

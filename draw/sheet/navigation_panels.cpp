@@ -115,11 +115,16 @@ void add_lines(Panels& panels, Lines lines) {
   panels.series.push_back(std::make_unique<LinesPanel>(std::move(lines)));
 }
 
+/// Returns "car/imu: `what`".
+std::string title_of(const PanelSource& source, const char* what) {
+  return fmt::format("{}: {}", source.spec().name, what);
+}
+
 /// Adds the plot of an array f64 [samples, 3] of an inertial sensor.
 void add_samples(const PanelSource& source, Panels& panels, const char* array, const char* title,
                  const char* label) {
   if (!source.has(array) || !source.has("time")) return;
-  Lines out{title, label, {}, axes_xyz()};
+  Lines out{title_of(source, title), label, {}, axes_xyz()};
   const std::vector<IndexRow> rows = source.records.records_of(source.sequence, source.sensor);
   const size_t step = rows.size() / most_instants + 1;
   for (size_t r = 0; r < rows.size(); r += step) {
@@ -139,15 +144,15 @@ void add_samples(const PanelSource& source, Panels& panels, const char* array, c
 }  // namespace
 
 void add_imu_panels(const PanelSource& source, Panels& panels) {
-  add_samples(source, panels, "specific_force", "specific force over time", "m/s2");
-  add_samples(source, panels, "angular_rate", "angular rate over time", "rad/s");
+  add_samples(source, panels, "specific_force", "specific force", "m/s2");
+  add_samples(source, panels, "angular_rate", "angular rate", "rad/s");
 }
 
 void add_gnss_panels(const PanelSource& source, Panels& panels) {
   if (!source.has("position") || !source.has("position_true")) return;
   Lines error{
-      "error of the GNSS position over time", "error m", {}, {{"east", {}}, {"north", {}}, {"up", {}}}};
-  Lines used{"satellites over time", "satellites", {}, {{"tracked", {}}, {"direct", {}}}, true};
+      title_of(source, "error of position"), "error m", {}, {{"east", {}}, {"north", {}}, {"up", {}}}};
+  Lines used{title_of(source, "satellites"), "satellites", {}, {{"tracked", {}}, {"direct", {}}}, true};
   const bool counted = source.has("satellite_state");
   for (const IndexRow& row : rows_to_show(source)) {
     const Array measured = source.load(row, "position", {DType::f64}, {3});
@@ -172,7 +177,7 @@ void add_gnss_panels(const PanelSource& source, Panels& panels) {
 
 void add_barometer_panels(const PanelSource& source, Panels& panels) {
   if (!source.has("height") || !source.has("height_true")) return;
-  Lines out{"height by the barometer over time", "height m", {}, {{"measured", {}}, {"true", {}}}};
+  Lines out{title_of(source, "height"), "height m", {}, {{"measured", {}}, {"true", {}}}};
   for (const IndexRow& row : rows_to_show(source)) {
     out.times_s.push_back(seconds_of(row));
     out.lines[0].values.push_back(source.load(row, "height", {DType::f64}, {1}).as<double>()[0]);
@@ -184,7 +189,7 @@ void add_barometer_panels(const PanelSource& source, Panels& panels) {
 void add_magnetometer_panels(const PanelSource& source, Panels& panels) {
   if (!source.has("field")) return;
   constexpr double microtesla = 1e6;
-  Lines out{"magnetic field over time", "field uT", {}, axes_xyz()};
+  Lines out{title_of(source, "magnetic field"), "field uT", {}, axes_xyz()};
   for (const IndexRow& row : rows_to_show(source)) {
     const Array field = source.load(row, "field", {DType::f64}, {3});
     out.times_s.push_back(seconds_of(row));

@@ -32,7 +32,7 @@ std::vector<std::string> texts(const JsonValue& root, const char* key) {
   return list;
 }
 
-constexpr double farthest_m = 1e9;
+constexpr double farthest_outline_m = 1e9;
 constexpr size_t most_outline_lines = 1'000'000;
 
 void add_sides(const JsonValue& box, std::vector<OutlineLine>& lines) {
@@ -40,8 +40,8 @@ void add_sides(const JsonValue& box, std::vector<OutlineLine>& lines) {
   const std::vector<JsonValue> both = box.tuple(2);
   for (int c = 0; c < 2; ++c)
     for (int axis = 0; axis < 3; ++axis)
-      corners[c][axis] =
-          both[static_cast<size_t>(c)].tuple(3)[static_cast<size_t>(axis)].number(-farthest_m, farthest_m);
+      corners[c][axis] = both[static_cast<size_t>(c)].tuple(3)[static_cast<size_t>(axis)].number(
+          -farthest_outline_m, farthest_outline_m);
   const double level = 0.5 * (corners[0].z + corners[1].z);
   const dvec3 ring[] = {{corners[0].x, corners[0].y, level},
                         {corners[1].x, corners[0].y, level},
@@ -69,11 +69,11 @@ std::vector<OutlineLine> scene_outlines(const RecordSource& records) {
   for (const JsonValue& instance : instances) {
     if (instance.has("node")) continue;
     if (instance.has("outline_m")) {
-      const double level = instance.at("outline_height_m").number(-farthest_m, farthest_m);
+      const double level = instance.at("outline_height_m").number(-farthest_outline_m, farthest_outline_m);
       for (const JsonValue& line : instance.at("outline_m").list(most_outline_lines)) {
         double ends[4];
         const std::vector<JsonValue> numbers = line.tuple(4);
-        for (size_t i = 0; i < 4; ++i) ends[i] = numbers[i].number(-farthest_m, farthest_m);
+        for (size_t i = 0; i < 4; ++i) ends[i] = numbers[i].number(-farthest_outline_m, farthest_outline_m);
         lines.push_back({{ends[0], ends[1], level}, {ends[2], ends[3], level}});
       }
     } else if (!outlined && instance.has("box_m") && instance.has("class") &&

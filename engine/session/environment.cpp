@@ -29,7 +29,10 @@ void change_environment(sim::Environment& to, const sim::Environment& from, cons
       {"water_vapour_g_m3", [](E& a, const E& b) { a.water_vapour_g_m3 = b.water_vapour_g_m3; }},
       {"rain_mm_h", [](E& a, const E& b) { a.rain_mm_h = b.rain_mm_h; }},
       {"fog_g_m3", [](E& a, const E& b) { a.fog_g_m3 = b.fog_g_m3; }},
-      {"fog_height_m", [](E& a, const E& b) { a.fog_height_m = b.fog_height_m; }}};
+      {"fog_height_m", [](E& a, const E& b) { a.fog_height_m = b.fog_height_m; }},
+      {"wetness", [](E& a, const E& b) { a.wetness = b.wetness; }},
+      {"puddles", [](E& a, const E& b) { a.puddles = b.puddles; }},
+      {"snow", [](E& a, const E& b) { a.snow = b.snow; }}};
   copies.at(key)(to, from);
 }
 

@@ -11,8 +11,11 @@
 #include "renderer/camera/develop.h"
 #include "renderer/camera/edges.h"
 #include "renderer/camera/faces.h"
+#include "renderer/camera/glare.h"
 #include "renderer/camera/lamps.h"
 #include "renderer/camera/meter.h"
+#include "renderer/camera/mirror.h"
+#include "renderer/camera/streaks.h"
 #include "shaders/shared/film.h"
 
 namespace greatx::render {
@@ -45,9 +48,11 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
   check();
   const bool shaded = desc_.outputs.color() || desc_.outputs.luminance;
   desc_.smooth_edges = desc_.smooth_edges && shaded;
-  desc_.outputs.seen = desc_.outputs.seen || desc_.smooth_edges;
   if (has_faces(desc_)) faces_ = std::make_unique<FaceTable>(scene_->device(), desc_);
   pinhole_ = std::make_unique<PinholeView>(faces_ ? faces_->largest() : pinhole_of(desc_));
+  const bool mirrors = wants_mirrors(effects_, desc_),
+             streaks = effects_.rain_streaks && desc_.outputs.color() && !has_faces(desc_);
+  desc_.outputs.seen = desc_.outputs.seen || desc_.smooth_edges || mirrors || streaks || effects_.lamp_halos;
   const uint32_t most = scene_->device().limits().maxImageDimension2D;
   if (std::max(pinhole_->width, pinhole_->height) > most)
     throw_user_error(
@@ -60,6 +65,9 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
   create_pictures();
   upload_lens();
   if (desc_.smooth_edges) edges_ = std::make_unique<EdgePass>(*lighting_, desc_);
+  if (mirrors) mirror_ = std::make_unique<MirrorPass>(*lighting_, desc_);
+  if (streaks) streaks_ = std::make_unique<StreakPass>(*lighting_, desc_);
+  if (desc_.glare > 0.0 && desc_.outputs.color()) glare_ = std::make_unique<GlarePass>(*lighting_, desc_);
   if (desc_.outputs.cells) cells_ = std::make_unique<CellPass>(*lighting_, desc_);
   if (desc_.outputs.arrays()) develop_ = std::make_unique<DevelopPass>(*lighting_, desc_);
 }
@@ -191,8 +199,8 @@ void CameraPass::build_pipelines() {
   shade.bindings.push_back({shared::visibility_binding, multisampled()
                                                             ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
                                                             : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
-  for (const uint32_t slot :
-       {shared::shade_color_binding, shared::shade_luminance_binding, shared::shade_seen_binding})
+  for (const uint32_t slot : {shared::shade_color_binding, shared::shade_luminance_binding,
+                              shared::shade_seen_binding, shared::shade_mirror_binding})
     shade.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   shade.push_constant_bytes = sizeof(shared::CameraConstants);
   shade.textures = &scene_->textures().table();
@@ -219,6 +227,11 @@ void CameraPass::build_pipelines() {
   shade.specialization[shared::spec_distortion] = desc_.distortion.any() || faces_;
   shade.specialization[shared::spec_faces] = faces_ != nullptr;
   shade.specialization[shared::spec_range] = desc_.wide.any();
+  shade.specialization[shared::spec_wet_surfaces] = effects_.wet_surfaces;
+  shade.specialization[shared::spec_snow_cover] = effects_.snow_cover;
+  shade.specialization[shared::spec_mirrors] = wants_mirrors(effects_, desc_);
+  shade.specialization[shared::spec_lamp_shadows] = effects_.lamp_shadows;
+  shade.specialization[shared::spec_lamp_halos] = effects_.lamp_halos;
   shade.specialization[shared::spec_blend] = desc_.parts;
   const auto arrays_of = [&](scene::TextureReference scene::MaterialTextures::*use) {
     return scene_->textures().arrays_of(use);
@@ -263,6 +276,9 @@ void CameraPass::create_pictures() {
   buffer(picture_.luminance, outputs.luminance, sizeof(float), "luminance");
   buffer(shaded_.color, outputs.color() && desc_.smooth_edges, sizeof(uvec2), "radiance with edges");
   buffer(shaded_.luminance, outputs.luminance && desc_.smooth_edges, sizeof(float), "luminance with edges");
+  const bool mirrors = wants_mirrors(effects_, desc_);
+  buffer(dry_, mirrors, sizeof(uvec2), "radiance without mirror images");
+  buffer(mirrors_, mirrors, sizeof(shared::uvec3), "mirrors");
   buffer(seen_, outputs.ids(), sizeof(uvec2), "seen");
   gpu::submit_setup(scene_->device(), [&](gpu::Cmd& cmd) {
     for (const gpu::Buffer* each : all) cmd.fill(each->slice(), 0);
@@ -326,7 +342,8 @@ gpu::Slice CameraPass::upload_lamps(gpu::TickSlot& slot, const CameraView& view)
   std::vector<uint32_t> words(1);
   lamps_ = {};
   if (effects_.punctual_lights)
-    words = cluster_lamps(view, scene_->scene().lights, lighting_->body_poses(), lamps_);
+    words = cluster_lamps(view, scene_->scene().lights, lighting_->body_poses(), lamps_,
+                          lighting_->lamp_shadows().tiles(), effects_.lamp_halos);
   return slot.upload.put(std::span<const uint32_t>(words));
 }
 
@@ -337,6 +354,7 @@ void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, cons
   drawn_ = culled_ = 0;
   if (faces_) {
     record_faces(slot, local_from_sensor, part);
+    if (part.last && glare_) glare_->record(slot, picture_.color);
     if (part.last && develop_) develop_->record(slot, picture_.color, seen_, frame);
     return;
   }
@@ -349,10 +367,13 @@ void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, cons
   record_visibility(*slot.cmd, view);
   record_shading(slot, view, seen_.slice());
   if (!part.last) return;
+  if (mirror_) mirror_->record(slot, view, {seen_, dry_, mirrors_, edges_ ? shaded_.color : picture_.color});
   if (cells_) cells_->see(view.constants);
   if (edges_)
     edges_->record(slot, view, gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_),
                    {shaded_, seen_, picture_}, nullptr);
+  if (streaks_) streaks_->record(slot, view, seen_, picture_.color, frame);
+  if (glare_) glare_->record(slot, picture_.color);
   if (develop_) develop_->record(slot, picture_.color, seen_, frame);
 }
 
@@ -476,7 +497,8 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view, con
   descriptors.push_back(
       multisampled() ? gpu::Descriptor::sampled(shared::visibility_binding, visibility_, texel_sampler_)
                      : gpu::Descriptor::storage(shared::visibility_binding, visibility_));
-  descriptors.push_back(gpu::Descriptor::buffer(shared::shade_color_binding, picture.color));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::shade_color_binding, mirror_ ? dry_ : picture.color));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::shade_mirror_binding, mirrors_));
   descriptors.push_back(gpu::Descriptor::buffer(shared::shade_luminance_binding, picture.luminance));
   descriptors.push_back(gpu::Descriptor::buffer(shared::shade_seen_binding, seen_));
   cmd.bind(shade_);

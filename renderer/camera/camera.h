@@ -57,10 +57,18 @@ struct SensorNoise {
   uint32_t stream = 0;  ///< identifies the sensor, unique within a run
 };
 
-/// Names one picture of a run. Noise differs from one picture to the next.
+/// Describes how a camera sees falling drops. Every draw is a function of (seed, stream, sequence, tick).
+struct RainView {
+  double shutter_s = 0.01;  ///< the time over which drops draw streaks
+  uint64_t seed = 0;
+  uint32_t stream = 0;  ///< identifies the sensor, unique within a run
+};
+
+/// Names one picture of a run. Noise and drops differ from one picture to the next.
 struct FrameNumber {
   uint32_t sequence = 0;
   int64_t tick = 0;
+  dvec3 velocity{0.0};  ///< of the camera, m/s, local axes: drops fall past it
 };
 
 struct CameraDesc {
@@ -82,6 +90,9 @@ struct CameraDesc {
   ChromaticAberration chromatic;     ///< applies to rgb and hdr
   Vignetting vignetting;             ///< applies to rgb
   std::optional<SensorNoise> noise;  ///< applies to rgb
+  double glare = 0.0;                ///< share of the light that the lens scatters; renderer/camera/glare.h
+  /// What streaks of rain depend on, beside the light (renderer/camera/streaks.h).
+  RainView rain;
   CameraOutputs outputs;
   /// The body that carries the camera, if the camera shall see neither it nor its parts.
   std::optional<uint32_t> excluded_body;
@@ -132,6 +143,9 @@ class CellPass;
 class DevelopPass;
 class EdgePass;
 class FaceTable;
+class GlarePass;
+class MirrorPass;
+class StreakPass;
 struct PinholeView;
 
 class CameraPass {
@@ -222,9 +236,14 @@ class CameraPass {
   std::unique_ptr<FaceTable> faces_;      ///< null unless the lens or the shutter needs several views
   gpu::Image lens_;        ///< position of each pixel in the pinhole picture; 1 x 1 without distortion
   PictureBuffers shaded_;  ///< the picture before edges are smoothed; empty if they are not
+  gpu::Buffer dry_;        ///< colour before mirror images are added; empty if there are none
+  gpu::Buffer mirrors_;    ///< MirrorPass: what the surfaces mirror; one element if nothing
   PictureBuffers picture_;
   gpu::Buffer seen_;
   std::unique_ptr<EdgePass> edges_;       ///< null if not wanted
+  std::unique_ptr<MirrorPass> mirror_;    ///< null without water
+  std::unique_ptr<StreakPass> streaks_;   ///< null without rain
+  std::unique_ptr<GlarePass> glare_;      ///< null if not wanted
   std::unique_ptr<CellPass> cells_;       ///< null if not wanted
   std::unique_ptr<DevelopPass> develop_;  ///< null if no array is wanted
   std::string visibility_scope_, shade_scope_;

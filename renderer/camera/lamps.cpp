@@ -108,6 +108,23 @@ class Clusters {
     }
     return any;
   }
+  /// Returns the lamps of each column of clusters, the brightest first and most_halos at most. `brightness`
+  /// is by lamp.
+  std::vector<std::vector<uint32_t>> columns(std::span<const double> brightness) const {
+    std::vector<std::vector<uint32_t>> result(size_t{grid_.columns} * grid_.rows);
+    for (size_t i = 0; i < result.size(); ++i) {
+      std::vector<uint32_t>& all = result[i];
+      for (size_t at = i; at < lists_.size(); at += result.size())
+        all.insert(all.end(), lists_[at].begin(), lists_[at].end());
+      std::ranges::sort(all);
+      all.erase(std::unique(all.begin(), all.end()), all.end());
+      std::erase_if(all, [&](uint32_t lamp) { return brightness[lamp] <= 0.0; });
+      std::ranges::stable_sort(all, [&](uint32_t a, uint32_t b) { return brightness[a] > brightness[b]; });
+      all.resize(std::min<size_t>(all.size(), shared::most_halos));
+      std::ranges::sort(all);  // a sum in one order, so that neighbours agree to the last bit
+    }
+    return result;
+  }
   void add_everywhere(uint32_t lamp) {
     for (std::vector<uint32_t>& list : lists_) list.push_back(lamp);
   }
@@ -119,7 +136,7 @@ class Clusters {
 };
 
 void put_lamp(std::vector<uint32_t>& words, const scene::PunctualLight& light, const vec3& position,
-              const vec3& direction) {
+              const vec3& direction, const LampTile& tile) {
   const bool directional = light.type == scene::PunctualLight::Type::directional;
   float scale = 0.0f, offset = 1.0f;
   if (light.type == scene::PunctualLight::Type::spot) {
@@ -132,26 +149,24 @@ void put_lamp(std::vector<uint32_t>& words, const scene::PunctualLight& light, c
   // clusters.
   const double reach = lamp_reach(light);
   const float window = directional ? -1.0f : float(1.0 / std::max(reach * reach, 1e-12));
-  for (const vec4& quad : {vec4(directional ? -direction : position, window), vec4(direction, scale),
-                           vec4(light.color * light.intensity, offset)})
+  for (const vec4& quad :
+       {vec4(directional ? -direction : position, window), vec4(direction, scale),
+        vec4(light.color * light.intensity, offset),
+        vec4(vec3(tile.across), std::bit_cast<float>(glm::packUnorm2x16(vec2(tile.center))))})
     for (int i = 0; i < 4; ++i) words.push_back(std::bit_cast<uint32_t>(quad[i]));
 }
 
 }  // namespace
 
-double lamp_reach(const scene::PunctualLight& light) {
-  if (light.type == scene::PunctualLight::Type::directional) return std::numeric_limits<double>::infinity();
-  if (light.range_m > 0.0f) return light.range_m;
-  const vec3 peak = light.color * light.intensity;
-  return std::sqrt(std::max({peak.x, peak.y, peak.z, 0.0f}) / lamp_least_lux);
-}
-
 std::vector<uint32_t> cluster_lamps(const CameraView& view, std::span<const scene::PunctualLight> lights,
-                                    std::span<const Pose> body_poses, LampCounts& counts) {
+                                    std::span<const Pose> body_poses, LampCounts& counts,
+                                    std::span<const LampTile> tiles, bool halos) {
   Clusters clusters(view);
-  std::vector<uint32_t> lamps;  // records of the seen lamps; clusters name them by number
+  std::vector<uint32_t> lamps;     // records of the seen lamps; clusters name them by number
+  std::vector<double> brightness;  // of their halos, about
   counts = {};
-  for (const scene::PunctualLight& light : lights) {
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const scene::PunctualLight& light = lights[i];
     const Pose& pose = body_poses[light.body];
     const dvec3 position = pose.apply(light.position) - view.eye;
     const dvec3 direction = glm::normalize(pose.rotate(light.direction));
@@ -165,7 +180,11 @@ std::vector<uint32_t> cluster_lamps(const CameraView& view, std::span<const scen
                      glm::dot(view.forward, ball.center)};
       if (!clusters.add(record, ball)) continue;
     }
-    put_lamp(lamps, light, vec3(position), vec3(direction));
+    put_lamp(lamps, light, vec3(position), vec3(direction), tiles.empty() ? LampTile{} : tiles[i]);
+    // Directional light scatters everywhere: it makes no halo.
+    brightness.push_back(light.type == scene::PunctualLight::Type::directional
+                             ? 0.0
+                             : light.intensity / std::max(glm::length(position), 1.0));
     ++counts.seen;
   }
   const Grid& grid = clusters.grid();
@@ -176,16 +195,28 @@ std::vector<uint32_t> cluster_lamps(const CameraView& view, std::span<const scen
   words[shared::lamps_down_word] = std::bit_cast<uint32_t>(float(grid.down));
   words[shared::lamps_last_column_word] = std::bit_cast<uint32_t>(float(grid.columns - 1));
   words[shared::lamps_last_row_word] = std::bit_cast<uint32_t>(float(grid.rows - 1));
-  size_t entries = 0;
+  const std::vector<std::vector<uint32_t>> columns =
+      halos ? clusters.columns(brightness) : std::vector<std::vector<uint32_t>>{};
+  size_t entries = 0, in_air = 2 * columns.size();
+  for (const std::vector<uint32_t>& list : columns) in_air += list.size();
   for (const std::vector<uint32_t>& list : clusters.lists()) entries += list.size();
   counts.entries = static_cast<uint32_t>(entries);
-  const size_t first_lamp = (words.size() + entries + 3) / 4;  // quadruples
+  const size_t first_lamp = (words.size() + entries + in_air + 3) / 4;  // quadruples
   words.reserve(4 * first_lamp + lamps.size());
   for (size_t i = 0; i < grid.size(); ++i) {
     const std::vector<uint32_t>& list = clusters.lists()[i];
     words[shared::lamps_header_words + 2 * i] = static_cast<uint32_t>(words.size());
     words[shared::lamps_header_words + 2 * i + 1] = static_cast<uint32_t>(list.size());
     for (const uint32_t lamp : list)
+      words.push_back(static_cast<uint32_t>(first_lamp + shared::lamp_record_quads * lamp));
+  }
+  const size_t first_column = words.size();
+  words[shared::lamps_halos_word] = static_cast<uint32_t>(first_column);
+  words.resize(first_column + 2 * columns.size());
+  for (size_t i = 0; i < columns.size(); ++i) {
+    words[first_column + 2 * i] = static_cast<uint32_t>(words.size());
+    words[first_column + 2 * i + 1] = static_cast<uint32_t>(columns[i].size());
+    for (const uint32_t lamp : columns[i])
       words.push_back(static_cast<uint32_t>(first_lamp + shared::lamp_record_quads * lamp));
   }
   words.resize(4 * first_lamp);

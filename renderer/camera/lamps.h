@@ -14,21 +14,18 @@
 #include "core/vec.h"
 #include "renderer/camera/camera.h"
 #include "renderer/camera/camera_view.h"
+#include "renderer/light/lamp_shadow.h"
 #include "scene/description/scene.h"
 
 namespace greatx::render {
 
-/// The illuminance at which a lamp without a stated range ends, lux.
-inline constexpr double lamp_least_lux = 1e-3;
-
-/// Returns the reach of a lamp in metres: its range, or sqrt(I / lamp_least_lux) if it states none; +inf for
-/// a directional one.
-double lamp_reach(const scene::PunctualLight& light);
-
 /// Returns the words that shaders/camera/lamps.glsl reads (shaders/shared/camera.h has their layout). A lamp
 /// is in every cluster that its light reaches and in few others: the bounds are those of a sphere around its
-/// cone. `body_poses` are in local coordinates; the index is the body.
+/// cone. `body_poses` are in local coordinates; the index is the body. `tiles` are those of the lamps'
+/// shadows, by light; empty: none. With `halos` every column of tiles lists the most_halos lamps that give
+/// its air the most light.
 std::vector<uint32_t> cluster_lamps(const CameraView& view, std::span<const scene::PunctualLight> lights,
-                                    std::span<const Pose> body_poses, LampCounts& counts);
+                                    std::span<const Pose> body_poses, LampCounts& counts,
+                                    std::span<const LampTile> tiles = {}, bool halos = false);
 
 }  // namespace greatx::render

@@ -14,6 +14,7 @@
 #include "renderer/light/panorama.h"
 #include "renderer/light/sky.h"
 #include "renderer/light/sky_view.h"
+#include "shaders/shared/weather.h"
 
 namespace greatx::render {
 
@@ -40,11 +41,44 @@ void check(const Lighting& lighting) {
   in_range("turbidity", lighting.turbidity, 1.1, 10.0);
   in_range("clouds", lighting.clouds, 0.0, 1.0);
   in_range("ground albedo", lighting.ground_albedo, 0.0, 1.0);
+  in_range("rain (mm/h)", lighting.rain_mm_h, 0.0, 1e3);
+  in_range("wetness", lighting.wetness, 0.0, 1.0);
+  in_range("puddles", lighting.puddles, 0.0, 1.0);
+  in_range("snow", lighting.snow, 0.0, 1.0);
   in_range("static shadow map (texels)", lighting.static_shadow_texels, 64, 16384);
   in_range("moving shadow tile (texels)", lighting.moving_shadow_texels, 16, 2048);
 }
 
+/// Returns the value that ground_noise() exceeds on the given share of level ground: a quantile over a square
+/// of 180 m.
+float noise_level(double share) {
+  if (share <= 0.0) return 2.0f;  // the noise stays below 1
+  if (share >= 1.0) return -1.0f;
+  constexpr int side = 192;
+  std::vector<float> values;
+  values.reserve(side * side);
+  for (int j = 0; j < side; ++j)
+    for (int i = 0; i < side; ++i) values.push_back(shared::ground_noise(vec2(dvec2(i, j) * 0.937)));
+  const auto at = static_cast<ptrdiff_t>((1.0 - share) * double(values.size() - 1));
+  std::ranges::nth_element(values, values.begin() + at);
+  return values[static_cast<size_t>(at)];
+}
+
 }  // namespace
+
+FallingDrops falling_drops(double rain_mm_h) {
+  FallingDrops drops;
+  if (rain_mm_h <= 0.0) return drops;
+  const double slope = 4.1 * std::pow(rain_mm_h, -0.21), least = shared::least_drop_mm;
+  drops.slope_per_mm = slope;
+  drops.per_m3 = shared::marshall_palmer_n0 / slope * std::exp(-slope * least);
+  // The mean of D^2 over an exponential law that begins at `least`.
+  const double square_mm2 = least * least + 2.0 * least / slope + 2.0 / (slope * slope);
+  drops.extinction_per_m = 0.25 * pi * 1e-6 * square_mm2 * drops.per_m3;
+  constexpr double most_m = 6.0, most_per_solid_angle = 4000.0;
+  drops.reach_m = std::min(most_m, std::cbrt(3.0 * most_per_solid_angle / drops.per_m3));
+  return drops;
+}
 
 dvec3 Lighting::direction(double azimuth, double elevation) {
   return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
@@ -70,6 +104,7 @@ SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& light
   effects_.horizon = horizon_kind_ != HorizonKind::none;
   marks_ = MarkMap(scene, effects.markings);
   effects_.markings = effects.markings && marks_.any();
+  effects_.punctual_lights = effects.punctual_lights && !scene.scene().lights.empty();
   const Sky sky(lighting, effects_.haze, effects_.clouds);
   const KeyLight key = key_light(lighting);
   effects_.sun = effects.sun && luminance(sky.key_illuminance()) > 0.0;
@@ -87,6 +122,15 @@ SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& light
   effects_.moving_shadows = effects_.moving_shadows && shadows_.moving().tile_count() > 0;
   body_poses_.resize(scene.scene().bodies.size());
   bake(lighting, sky);
+  effects_.wet_surfaces = effects.wet_surfaces && (lighting.wetness > 0.0 || lighting.puddles > 0.0);
+  effects_.snow_cover = effects.snow_cover && lighting.snow > 0.0;
+  effects_.rain_streaks = effects.rain_streaks && lighting.rain_mm_h > 0.0;
+  effects_.lamp_halos = effects.lamp_halos && effects_.punctual_lights && effects_.haze;
+  lamp_shadows_ = LampShadows(
+      scene, {.wanted = effects.lamp_shadows && effects_.punctual_lights, .alpha_mask = effects_.alpha_mask});
+  effects_.lamp_shadows = lamp_shadows_.tile_count() > 0;
+  rain_cover_ = RainCover(scene, effects_.wet_surfaces || effects_.snow_cover);
+  bake_weather(lighting, sky);
 }
 
 void SceneLighting::bake(const Lighting& lighting, const Sky& sky) {
@@ -121,8 +165,9 @@ void SceneLighting::bake(const Lighting& lighting, const Sky& sky) {
     stars = gpu_stars(draw_stars(lighting.star_seed), depth);
   }
   stars_ = gpu::upload_buffer(device, std::as_bytes(std::span(stars)), "stars");
-  const vec3 ground_light =
-      vec3((sky.key_illuminance() * (effects_.sun ? key.direction.z : 0.0) + sky.illuminance()) / pi);
+  const vec3 ground_light = vec3((sky.key_illuminance() * (effects_.sun ? key.direction.z : 0.0) +
+                                  sky.illuminance() + lamps_on_ground()) /
+                                 pi);
   block.bounce = bounce_share * ground_light;
   bake_sky_view(block);
   block.environment_scale = float(map.scale);
@@ -177,6 +222,16 @@ void SceneLighting::bake_panorama_of(const Sky& sky, double scale) {
   gpu::upload_image(scene_->device(), panorama_, std::span(&mip, 1));
 }
 
+dvec3 SceneLighting::lamps_on_ground() const {
+  const scene::Scene& scene = scene_->scene();
+  dvec3 flux(0.0);
+  if (!effects_.punctual_lights || scene.bounds.empty()) return flux;
+  for (const scene::PunctualLight& light : scene.lights)
+    if (light.body == 0) flux += lamp_flux(light);
+  const dvec3 extent = scene.bounds.size();
+  return flux / std::max(extent.x * extent.y, 1.0);
+}
+
 void SceneLighting::bake_sky_view(shared::GpuLighting& block) {
   HeightField field;
   std::vector<uint16_t> texels(4);
@@ -198,12 +253,38 @@ void SceneLighting::bake_sky_view(shared::GpuLighting& block) {
   gpu::upload_image(device, sky_view_, std::span(&mip, 1));
 }
 
+void SceneLighting::bake_weather(const Lighting& lighting, const Sky& sky) {
+  shared::GpuWeather block{};
+  if (effects_.rain_streaks) {
+    drops_ = falling_drops(lighting.rain_mm_h);
+    // The mean radiance around a drop: of the air, which is scaled with it, or of sky and ground.
+    const dvec3 around = effects_.haze ? sky.haze_ambient()
+                                       : dvec3(0.5 * (1.0 + lighting.ground_albedo) * sky.illuminance() / pi);
+    drops_.radiance = double(shared::drop_brightness) * around;
+    if (effects_.haze) {
+      block.drop_extinction = float(std::min(drops_.extinction_per_m, lighting.haze_extinction_per_m));
+      block.drop_reach = float(drops_.reach_m);
+    }
+  }
+  block.wetness = float(lighting.wetness);
+  block.puddle_level =
+      noise_level(effects_.wet_surfaces ? lighting.puddles : 0.0) - 0.5f * shared::puddle_rim;
+  block.snow_level = noise_level(effects_.snow_cover ? lighting.snow : 0.0);
+  // Drops stir puddles: 10 mm/h add 0.05 to the roughness of still water, 50 mm/h and more 0.1.
+  block.ripple = shared::puddle_roughness + float(std::min(0.1, 0.05 * std::sqrt(lighting.rain_mm_h / 10.0)));
+  rain_cover_.describe(block);
+  lamp_shadows_.describe(block);
+  weather_ = gpu::upload_buffer(scene_->device(), std::as_bytes(std::span(&block, 1)), "weather",
+                                VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+}
+
 void SceneLighting::record(gpu::TickSlot& slot, std::span<const Pose> body_poses) {
   GREATX_CHECK(body_poses.size() == body_poses_.size(), "{} poses for {} bodies", body_poses.size(),
                body_poses_.size());
   body_poses_.assign(body_poses.begin(), body_poses.end());
   body_poses_[0] = Pose{};
   if (effects_.moving_shadows) shadows_.moving().record(slot, body_poses_);
+  if (effects_.lamp_shadows) lamp_shadows_.record(slot, body_poses_);
 }
 
 void SceneLighting::draw_shadows(gpu::TickSlot& slot, const MovingShadows::Outside& outside) const {
@@ -229,6 +310,9 @@ std::vector<gpu::Binding> SceneLighting::bindings() {
            {shared::shadow_tiles_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {shared::stars_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {shared::horizon_binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
+           {shared::weather_binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
+           {shared::rain_cover_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+           {shared::lamp_shadow_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
            {shared::panorama_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
            {shared::sky_view_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
            {shared::environment_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
@@ -243,6 +327,10 @@ std::vector<gpu::Descriptor> SceneLighting::descriptors() const {
   for (const gpu::Descriptor& descriptor : marks_.descriptors()) all.push_back(descriptor);
   all.push_back(gpu::Descriptor::buffer(shared::lighting_binding, block_));
   all.back().type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+  all.push_back(gpu::Descriptor::buffer(shared::weather_binding, weather_));
+  all.back().type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+  all.push_back(rain_cover_.descriptor());
+  all.push_back(lamp_shadows_.descriptor());
   all.push_back(gpu::Descriptor::buffer(shared::stars_binding, stars_));
   all.push_back(gpu::Descriptor::buffer(shared::horizon_binding, horizon_));
   all.back().type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;

@@ -11,6 +11,8 @@
 #include "core/vec.h"
 #include "gpu/cmd.h"
 #include "gpu/tick_ring.h"
+#include "renderer/light/lamp_shadow.h"
+#include "renderer/light/rain_cover.h"
 #include "renderer/light/shadow.h"
 #include "renderer/surface/mark_map.h"
 #include "renderer/surface/surface_tables.h"
@@ -49,6 +51,10 @@ struct Lighting {
   double clouds = 0.0;                 ///< share of the sky's area under clouds, of a clear sky
   uint64_t cloud_seed = 1;
   HorizonKind horizon = HorizonKind::automatic;  ///< the land beyond the scene
+  double rain_mm_h = 0.0;  ///< of the drops that streaks show; its extinction is in the haze
+  double wetness = 0.0;    ///< of surfaces under the sky: 0 dry, 1 soaked
+  double puddles = 0.0;    ///< share of level ground under water
+  double snow = 0.0;       ///< share of what faces upwards that snow covers
   uint64_t star_seed = 1;
   uint32_t static_shadow_texels = 4096;  ///< edge of the map over everything that never moves
   uint32_t moving_shadow_texels = 128;   ///< edge of a moving body's tile, at most
@@ -79,14 +85,31 @@ struct CameraEffects {
   bool alpha_mask = true;
   bool emissive = true;
   bool punctual_lights = true;
-  bool haze = false;               ///< fog and rain
-  bool night_sky = false;          ///< stars, the moon's disc
-  bool clouds = false;             ///< renderer/light/clouds.h
-  bool horizon = false;            ///< the land beyond the scene, renderer/light/horizon.h
-  bool markings = false;           ///< far markings by their share of a pixel, renderer/surface/mark_map.h
+  bool haze = false;          ///< fog and rain
+  bool night_sky = false;     ///< stars, the moon's disc
+  bool clouds = false;        ///< renderer/light/clouds.h
+  bool horizon = false;       ///< the land beyond the scene, renderer/light/horizon.h
+  bool markings = false;      ///< far markings by their share of a pixel, renderer/surface/mark_map.h
+  bool wet_surfaces = false;  ///< renderer/light/weather.h
+  bool snow_cover = false;
+  bool rain_streaks = false;       ///< renderer/camera/streaks.h; darkens haze by what the streaks take
+  bool lamp_shadows = false;       ///< renderer/light/lamp_shadow.h
+  bool lamp_halos = false;         ///< only with haze and lamps
   bool ambient_occlusion = false;  ///< occlusion of sky light by static bodies
   bool specular = true;            ///< off: every surface is Lambertian
 };
+
+/// Describes the drops that are drawn one by one (shaders/shared/weather.h).
+struct FallingDrops {
+  double per_m3 = 0.0;            ///< drops that are no thinner than least_drop_mm
+  double slope_per_mm = 1.0;      ///< of the logarithm of their number over their diameter
+  double reach_m = 0.0;           ///< they are drawn up to this planar depth
+  double extinction_per_m = 0.0;  ///< the area of their discs in a unit of volume
+  dvec3 radiance{0.0};            ///< cd/m^2
+};
+/// Returns the drops of rain after J. S. Marshall and W. Mc K. Palmer (1948), without their radiance. A unit
+/// solid angle holds 4000 of them at most.
+FallingDrops falling_drops(double rain_mm_h);
 
 class Sky;
 
@@ -109,6 +132,8 @@ class SceneLighting {
   /// The poses of the tick that is being recorded; [0] is the identity.
   const std::vector<Pose>& body_poses() const { return body_poses_; }
   const ShadowMaps& shadows() const { return shadows_; }
+  const LampShadows& lamp_shadows() const { return lamp_shadows_; }
+  const FallingDrops& drops() const { return drops_; }
   /// The illuminance of level ground from sun and sky, less the part that an effect leaves out.
   double ground_illuminance_lux() const { return ground_illuminance_lux_; }
   const SurfaceTables& surfaces() const { return surfaces_; }
@@ -126,9 +151,17 @@ class SceneLighting {
   void bake_land(const Lighting& lighting, const Sky& sky, const dvec3& sky_lux);
   void bake_panorama_of(const Sky& sky, double scale);
 
+  /// Returns the mean illuminance of the scene's ground by the lamps that stand still, lux per channel.
+  dvec3 lamps_on_ground() const;
+  void bake_weather(const Lighting& lighting, const Sky& sky);
+
   const scene::GpuScene* scene_;
   CameraEffects effects_;       ///< the effects asked for, less those that this light cannot cast
   mutable ShadowMaps shadows_;  ///< its atlas is a cache: cameras fill in the tiles that they need
+  LampShadows lamp_shadows_;
+  RainCover rain_cover_;
+  FallingDrops drops_;
+  gpu::Buffer weather_;  ///< GpuWeather
   double ground_illuminance_lux_ = 0.0;
   gpu::Image environment_;
   gpu::Sampler environment_sampler_;

@@ -27,9 +27,9 @@ struct PathOptions {
   uint32_t bounces = 16;
   /// Surfaces are at least this rough (perceptual roughness) to a path that was reflected before. 0 is
   /// unbiased. A larger value spreads the sharp spots of light that smooth surfaces throw on others, which
-  /// need many paths, and keeps their energy (A. Kaplanyan and C. Dachsbacher, "Path Space Regularization
-  /// for Holistic and Robust Light Transport", Computer Graphics Forum 32(2), 2013). Mirror images that the
-  /// eye sees stay sharp.
+  /// need many paths, and keeps their energy (A. Kaplanyan and C. Dachsbacher, "Path Space Regularization for
+  /// Holistic and Robust Light Transport", Computer Graphics Forum 32(2), 2013). Mirror images that the eye
+  /// sees stay sharp.
   double later_roughness = 0.0;
 };
 

@@ -58,9 +58,12 @@ class Frame {
 
 /// Returns the joint of a part in its owner's frame. Throws UserError if the transforms of the part leave its
 /// axis without a direction.
-Joint joint_of(const ModelPlacement& placement, const PartPlacement& part, uint32_t owner) {
+/// `carrier` is the node of the part that carries this one; none: the body carries it.
+Joint joint_of(const ModelPlacement& placement, const PartPlacement& part, const ModelNode* carrier,
+               uint32_t owner) {
   const ModelNode& node = placement.model->nodes[part.node];
-  const dmat4 body_from_node = Frame(placement, dvec3(0.0)).place(node.model_from_node);
+  const Frame frame = carrier != nullptr ? Frame(placement, *carrier) : Frame(placement, dvec3(0.0));
+  const dmat4 body_from_node = frame.place(node.model_from_node);
   const dvec3 axis_y_up(part.axis.x, part.axis.z, -part.axis.y);
   const dvec3 axis = glm::dmat3(body_from_node) * axis_y_up;
   const double length = glm::length(axis);
@@ -68,7 +71,7 @@ Joint joint_of(const ModelPlacement& placement, const PartPlacement& part, uint3
     throw_user_error("object '{}' ({}): part '{}': its axis [{}, {}, {}] has no direction left",
                      placement.name, placement.model->file.string(), part.name, part.axis.x, part.axis.y,
                      part.axis.z);
-  return {owner, dvec3(body_from_node[3]), axis / length};
+  return {owner, dvec3(body_from_node[3]), axis / length, part.least_angle, part.most_angle};
 }
 
 void check_placement(const ModelPlacement& placement) {
@@ -83,9 +86,13 @@ void check_placement(const ModelPlacement& placement) {
   }
   GREATX_CHECK(placement.moving || placement.parts.empty(), "parts of '{}', which never moves",
                placement.name);
-  for (const PartPlacement& part : placement.parts)
+  for (size_t i = 0; i < placement.parts.size(); ++i) {
+    const PartPlacement& part = placement.parts[i];
     GREATX_CHECK(part.node < placement.model->nodes.size(), "part '{}': node {} of {}", part.name, part.node,
                  placement.model->nodes.size());
+    GREATX_CHECK(i == 0 || placement.parts[i - 1].node < part.node, "part '{}': nodes are not ascending",
+                 part.name);
+  }
   const dquat& turn = placement.pose.orientation;
   if (!finite(placement.pose.position) || !(std::abs(glm::length(turn) - 1.0) < 1e-6)) {
     throw_user_error("object '{}' ({}): its pose is not finite or its quaternion not of length 1",
@@ -161,25 +168,29 @@ class Builder {
 
   /// Adds the placement to the last body, without the nodes that belong to its parts.
   void add(const ModelPlacement& placement) {
-    add(placement, Frame(placement, scene_.origin), [&](uint32_t node) {
-      return std::ranges::none_of(placement.parts, [&](const PartPlacement& part) {
-        return node >= part.node && node < placement.model->nodes[part.node].end;
-      });
-    });
+    add(placement, Frame(placement, scene_.origin),
+        [&](uint32_t node) { return part_of(placement, node, placement.parts.size()) == no_part; });
   }
 
   /// Adds the parts of the placement whose own body is `owner`, each as a body of its own.
   void add_parts(const ModelPlacement& placement, uint32_t owner) {
-    for (const PartPlacement& part : placement.parts) {
-      const ModelNode& node = placement.model->nodes[part.node];
+    const std::vector<ModelNode>& nodes = placement.model->nodes;
+    for (size_t i = 0; i < placement.parts.size(); ++i) {
+      const PartPlacement& part = placement.parts[i];
+      const size_t carrier = part_of(placement, part.node, i);
       add_body(placement.name + "/" + part.name);
-      scene_.bodies.back().joint = joint_of(placement, part, owner);
-      add(placement, Frame(placement, node),
-          [&](uint32_t other) { return other >= part.node && other < node.end; });
-      Bounds& reach = scene_.bodies[owner].reach;
-      reach.add(scene_.bodies[owner].bounds);
-      reach.add(reach_of(scene_.bodies.back()));
+      scene_.bodies.back().joint = carrier == no_part
+                                       ? joint_of(placement, part, nullptr, owner)
+                                       : joint_of(placement, part, &nodes[placement.parts[carrier].node],
+                                                  owner + 1 + static_cast<uint32_t>(carrier));
+      add(placement, Frame(placement, nodes[part.node]),
+          [&](uint32_t node) { return part_of(placement, node, placement.parts.size()) == i; });
     }
+    if (placement.parts.empty()) return;
+    Bounds reach = scene_.bodies[owner].bounds;
+    for (uint32_t body = owner + 1; body < scene_.bodies.size(); ++body)
+      if (scene_.bodies[body].joint->owner == owner) reach.add(reach_of(body));
+    scene_.bodies[owner].reach = reach;
   }
 
   void finish() {
@@ -214,21 +225,30 @@ class Builder {
     }
   }
 
-  /// Returns the bounds, in its owner's frame, of all places that the corners of a part reach in a full turn.
-  Bounds reach_of(const Body& body) const {
-    const Joint& joint = *body.joint;
+  static constexpr size_t no_part = ~size_t{0};
+
+  /// Returns the last of the first `count` parts to which a node belongs, or no_part. A later part hangs on
+  /// an earlier one if both hold the node.
+  static size_t part_of(const ModelPlacement& placement, uint32_t node, size_t count) {
+    for (size_t i = count; i-- > 0;) {
+      const uint32_t first = placement.parts[i].node;
+      if (node >= first && node < placement.model->nodes[first].end) return i;
+    }
+    return no_part;
+  }
+
+  /// Returns the bounds, in its owner's frame, of all places that a part reaches: its corners, and those of
+  /// the boxes of its own parts.
+  Bounds reach_of(uint32_t index) const {
+    const Body& body = scene_.bodies[index];
     Bounds reach;
     for (uint32_t p = body.first_primitive; p < body.first_primitive + body.primitive_count; ++p) {
       const Primitive& primitive = scene_.primitives[p];
-      for (uint32_t i = 0; i < primitive.index_count; ++i) {
-        const dvec3 corner(scene_.positions[scene_.indices[primitive.first_index + i]]);
-        const dvec3 along = glm::dot(corner, joint.axis) * joint.axis;
-        const dvec3 extent =
-            glm::length(corner - along) * glm::sqrt(glm::max(1.0 - joint.axis * joint.axis, 0.0));
-        reach.add(joint.position + along - extent);
-        reach.add(joint.position + along + extent);
-      }
+      for (uint32_t i = 0; i < primitive.index_count; ++i)
+        body.joint->add_reach(dvec3(scene_.positions[scene_.indices[primitive.first_index + i]]), reach);
     }
+    for (uint32_t part = index + 1; part < scene_.bodies.size(); ++part)
+      if (scene_.bodies[part].joint->owner == index) reach.add(body.joint->reach(reach_of(part)));
     return reach;
   }
 

@@ -10,11 +10,13 @@
 
 namespace greatx::scene {
 
-/// A node of a moving model, with all its descendants, that turns about an axis through the node's origin.
+/// A node of a moving model that turns about an axis through the node's origin, with all its descendants but
+/// those of other parts. It hangs on the next part among its ancestors, or on the body.
 struct PartPlacement {
   std::string name;
-  uint32_t node = 0;          ///< into Model::nodes; not a descendant of another part's node
+  uint32_t node = 0;          ///< into Model::nodes; each node once, ascending
   dvec3 axis{0.0, 0.0, 1.0};  ///< in the node's own frame, but z up: glTF's (x, y, z) is (x, -z, y) here
+  double least_angle = -1e9, most_angle = 1e9;  ///< rad; the part never turns beyond them
 };
 
 /// A model placed in the world.

@@ -163,8 +163,14 @@ void find_side(const Soup& soup, FaultList& faults) {
   const size_t most = static_cast<size_t>(std::ranges::max_element(areas) - areas.begin());
   const dvec3 size = soup.bounds.size();
   const bool higher = most / 2 == 2 || size.z > size[static_cast<int>(most / 2)];
-  // A single object may have any attitude.
-  if (soup.objects.size() < 2 || most == up || areas[most] <= 2.0 * areas[up] || !higher) return;
+  // A single object may have any attitude, and a person stands upright.
+  size_t objects = 0;
+  for (uint32_t i = 0; i < soup.objects.size(); ++i) {
+    const SemanticClass c = soup.class_of(i);
+    if (c != SemanticClass::person && c != SemanticClass::vehicle && c != SemanticClass::uav) ++objects;
+  }
+  if (soup.objects.size() < 2 || objects == 0 || most == up || areas[most] <= 2.0 * areas[up] || !higher)
+    return;
   faults.add(on_its_side, {soup.bounds.center(), nothing, nothing, nothing, areas[most]});
 }
 

@@ -7,7 +7,7 @@
 //   Scene  = models placed in the world (build.h): flat arrays, ready for upload
 //     body 0          everything that never moves, already in local coordinates (world - origin)
 //     body 1, 2, ...  one per moving object, in its own frame; a pose per tick places it; behind it one for
-//                     each of its parts that turn, whose owner it is
+//                     each of its parts that turn, whose owner it or an earlier part is
 //     instance        one object with a name, a semantic class and an id on every pixel and return
 //     primitive       a range of triangles of one instance with one material; one geometry of the body's BLAS
 //     facet           coplanar, connected triangles of one body with one material, merged (rf works on these)
@@ -93,11 +93,18 @@ struct Instance {
 /// Describes the joint of a part on the body that carries it. The part's frame has the carrier's axes until
 /// it turns about `axis`.
 struct Joint {
-  uint32_t owner = 0;         ///< the carrier: an earlier body that is not a part itself
-  dvec3 position{0.0};        ///< origin of the part in its owner's frame, metres
-  dvec3 axis{0.0, 0.0, 1.0};  ///< unit, in both frames
+  uint32_t owner = 0;   ///< the carrier: an earlier body, which may be a part itself (a shank on a thigh)
+  dvec3 position{0.0};  ///< origin of the part in its owner's frame, metres
+  dvec3 axis{0.0, 0.0, 1.0};                    ///< unit, in both frames
+  double least_angle = -1e9, most_angle = 1e9;  ///< rad; the part never turns beyond them
   /// Returns owner_from_part when the part has turned by `angle`, rad, right-handed about the axis.
   Pose pose(double angle) const { return {position, glm::angleAxis(angle, axis)}; }
+  bool limited() const { return most_angle - least_angle < 6.283185307179586; }
+  /// Adds to `bounds`, in the owner's frame, all places that a point of the part reaches.
+  void add_reach(const dvec3& point, Bounds& bounds) const;
+  /// Returns the bounds of all places that the corners of a box of the part reach. A box that is empty stays
+  /// so.
+  Bounds reach(const Bounds& box) const;
 };
 
 struct Body {
@@ -105,8 +112,8 @@ struct Body {
   uint32_t first_primitive = 0, primitive_count = 0;
   Bounds bounds;               ///< in the body's frame
   std::optional<Joint> joint;  ///< set for a part
-  /// For a body with parts, the bounds of the body and of all parts in any turn. They are empty for other
-  /// bodies.
+  /// For a body with parts, the bounds of the body and of all parts, and of their parts, in any turn. They
+  /// are empty for other bodies, and for parts.
   Bounds reach;
 };
 
@@ -167,11 +174,11 @@ struct Scene {
   dvec3 to_local(const dvec3& world) const { return world - origin; }
   Pose to_local(const Pose& world) const { return {world.position - origin, world.orientation}; }
   size_t triangle_count() const { return indices.size() / 3; }
-  /// Returns the body that `body` is a part of, or `body` itself if it is not a part. A sensor that does not
-  /// see its carrier sees no body of that owner.
+  /// Returns the body that `body` is a part of, at the root of its chain of joints, or `body` itself if it is
+  /// not a part. A sensor that does not see its carrier sees no body of that owner.
   uint32_t owner_of(uint32_t body) const {
-    const std::optional<Joint>& joint = bodies[body].joint;
-    return joint ? joint->owner : body;
+    while (bodies[body].joint) body = bodies[body].joint->owner;
+    return body;
   }
   /// Returns the bounds of a body with all its parts, however they are turned, in its frame.
   const Bounds& reach_of(uint32_t body) const {

@@ -139,6 +139,8 @@ std::string hash_of(const Scene& scene) {
     feeder.text(body.name).values(body.first_primitive, body.primitive_count);
     feed(feeder, body.bounds);
     if (body.joint) feeder.text("part").values(body.joint->owner, body.joint->position, body.joint->axis);
+    if (body.joint && body.joint->limited())
+      feeder.text("limits").values(body.joint->least_angle, body.joint->most_angle);
   }
   feed_facets(feeder, scene);
   feeder.count(scene.materials.size());

@@ -13,6 +13,7 @@
 #include "core/units.h"
 #include "scene/generator/mesh/materials.h"
 #include "scene/generator/mesh/mesh_builder.h"
+#include "scene/generator/office.h"
 
 namespace greatx::scene::generator {
 
@@ -138,6 +139,7 @@ void write_room(SceneWriter& writer) {
   mesh.quad(wall, {-x, y, 0}, {x, y, 0}, {x, y, z}, {-x, y, z});
   mesh.quad(stone, {-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0});
   mesh.quad(stone, {-x, -y, z}, {-x, y, z}, {x, y, z}, {x, -y, z});
+  add_room_lights(writer);
   writer.add_node(
       {.name = "room", .mesh = writer.add_mesh("room", mesh), .semantic_class = SemanticClass::building});
 }

@@ -13,7 +13,9 @@
 #include "scene/generator/city/city.h"
 #include "scene/generator/country/country.h"
 #include "scene/generator/objects/objects.h"
+#include "scene/generator/objects/people.h"
 #include "scene/generator/objects/vehicles.h"
+#include "scene/generator/office.h"
 
 namespace greatx::scene {
 
@@ -26,16 +28,26 @@ struct Kind {
   const char* words;
   double min_size_m, max_size_m;  ///< both 0: the kind has no size
   std::vector<std::string> variants;
+  bool seeded = false;  ///< has a seed, but no size
 };
+
+template <typename Shape>
+std::vector<std::string> variants_of(const std::vector<Shape>& shapes) {
+  std::vector<std::string> names;
+  for (const Shape& shape : shapes) names.push_back(shape.variant);
+  return names;
+}
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> list{
       {"city", "a part of a city: streets, buildings, park, trees, lamps, parked cars", 100, 1000, {}},
       {"country", "hills, a winding road, fields, hedges, farms, woods", 160, 2000, {}},
       {"canyon", "a street between two rows of houses", 60, 1000, {}},
-      {"room", "a closed room of 12 x 8 x 3.2 m", 0, 0, {}},
+      {"room", "a closed room of 12 x 8 x 3.2 m, lit by its lamps", 0, 0, {"bare", "office"}},
       {"mast", "a base-station mast of 24.6 m", 0, 0, {}},
       {"car", "a car or a van", 0, 0, {"hatchback", "van"}},
+      {"vehicle", "a vehicle with wheels that turn", 0, 0, variants_of(vehicle_shapes()), true},
+      {"person", "a person with limbs that move", 0, 0, variants_of(person_shapes()), true},
       {"quadrotor", "a drone with four rotors", 0, 0, {"medium", "small", "large"}}};
   return list;
 }
@@ -82,7 +94,9 @@ std::vector<std::string> generator_kinds() {
 
 std::vector<GeneratorKind> generators() {
   std::vector<GeneratorKind> list;
-  for (const Kind& kind : kinds()) list.push_back({kind.name, kind.words, kind.min_size_m, kind.max_size_m});
+  for (const Kind& kind : kinds())
+    list.push_back(
+        {kind.name, kind.words, kind.min_size_m, kind.max_size_m, kind.seeded || kind.max_size_m > 0});
   return list;
 }
 
@@ -104,16 +118,22 @@ std::vector<std::byte> generate_glb(const GenerateOptions& options) {
     write_canyon(writer, size, options.seed);
   } else if (options.kind == "room") {
     write_room(writer);
+    if (variant == "office") add_furniture(writer);
   } else if (options.kind == "quadrotor") {
     write_quadrotor(writer, variant);
   } else if (options.kind == "car") {
     write_car(writer, variant);
+  } else if (options.kind == "vehicle") {
+    write_vehicle(writer, variant, options.seed);
+  } else if (options.kind == "person") {
+    write_person(writer, variant, options.seed);
   } else {
     writer.add_node({.name = "mast",
                      .mesh = writer.add_mesh("mast", make_mast()),
                      .semantic_class = SemanticClass::mast});
   }
-  return writer.finish(variant.empty() ? options.kind : options.kind + "_" + variant);
+  const bool plain = variant.empty() || variant == "bare";
+  return writer.finish(plain ? options.kind : options.kind + "_" + variant);
 }
 
 }  // namespace greatx::scene

@@ -13,8 +13,10 @@
 namespace greatx::scene {
 
 struct GenerateOptions {
-  std::string kind;   ///< one of generator_kinds()
-  uint64_t seed = 1;  ///< for "city", "country" and "canyon"; the other kinds ignore it
+  std::string kind;  ///< one of generator_kinds()
+  /// For "city", "country" and "canyon"; for "vehicle" and "person" it picks paint and clothes. The other
+  /// kinds ignore it.
+  uint64_t seed = 1;
   /// Edge of the square of "city" (100...1000) and "country" (160...2000), length of "canyon" (60...1000);
   /// the other kinds ignore it.
   double size_m = 300;
@@ -27,14 +29,15 @@ struct GenerateOptions {
 /// of range.
 std::vector<std::byte> generate_glb(const GenerateOptions& options);
 
-/// Returns "city", "country", "canyon", "room", "mast", "car", "quadrotor".
+/// Returns "city", "country", "canyon", "room", "mast", "car", "vehicle", "person",
+/// "quadrotor".
 std::vector<std::string> generator_kinds();
 
 /// Says what a kind is, for help, and which sizes it has.
 struct GeneratorKind {
-  std::string name, words;  ///< "car", "a car at rest"
-  /// Bounds of GenerateOptions::size_m; both 0: the kind has neither a size nor a seed.
-  double least_size_m = 0, most_size_m = 0;
+  std::string name, words;                   ///< "car", "a car at rest"
+  double least_size_m = 0, most_size_m = 0;  ///< bounds of GenerateOptions::size_m; both 0: it has no size
+  bool seeded = false;                       ///< whether GenerateOptions::seed changes it
 };
 std::vector<GeneratorKind> generators();
 

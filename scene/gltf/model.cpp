@@ -69,17 +69,19 @@ void note_ignored_extensions(const GltfFile& file, Model& model) {
 }
 
 /// Reads the extras of the scenes alone, so that a large file is not written out and parsed again.
-std::optional<Georeference> read_georeference(const GltfFile& file) {
+void read_extras(const GltfFile& file, Model& model) {
   nlohmann::json scenes;
   for (const char* member : {"scene", "scenes"})
     if (file.json.contains(member)) scenes[member] = file.json[member];
-  return georeference_of_document(scenes.dump(), {file.name, 0});
+  const std::string text = scenes.dump();
+  model.georeference = georeference_of_document(text, {file.name, 0});
+  model.streets = street_network_of_document(text, {file.name, 0});
 }
 
 Model model_of(const GltfFile& file, const LoadOptions& options) {
   Model model;
   model.file = file.name;
-  model.georeference = read_georeference(file);
+  read_extras(file, model);
   note_ignored_extensions(file, model);
   read_nodes(file, model);
   read_placed_meshes(file, model);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scene/description/scene.h"
+#include "scene/network/network.h"
 
 namespace greatx::scene {
 
@@ -55,6 +56,7 @@ struct Model {
   std::vector<PunctualLight> lights;         ///< in the model's frame
   std::vector<uint32_t> nodes_of_lights;     ///< [lights], into nodes
   std::optional<Georeference> georeference;  ///< of the model's frame (scene/georeference)
+  std::optional<StreetNetwork> streets;      ///< in the model's frame (scene/network)
   std::vector<std::string> notes;
   std::vector<std::string> unused_materials;  ///< names of those that the file has and no loaded mesh uses
   /// Pictures that `LoadOptions::keep_faults` has left out, each as the message of the error.

@@ -24,6 +24,11 @@ layout(constant_id = spec_ambient_occlusion) const bool ambient_occlusion_on = f
 layout(constant_id = spec_markings) const bool markings_on = false;
 layout(constant_id = spec_clouds) const bool clouds_on = false;
 layout(constant_id = spec_horizon) const uint horizon_kind = 0u;
+layout(constant_id = spec_wet_surfaces) const bool wet_on = false;
+layout(constant_id = spec_snow_cover) const bool snow_on = false;
+layout(constant_id = spec_mirrors) const bool mirrors_on = false;
+layout(constant_id = spec_lamp_shadows) const bool lamp_shadows_on = false;
+layout(constant_id = spec_lamp_halos) const bool lamp_halos_on = false;
 layout(constant_id = spec_distortion) const bool distortion_on = false;
 layout(constant_id = spec_faces) const bool faces_on = false;
 layout(constant_id = spec_range) const bool range_on = false;

@@ -13,9 +13,16 @@ vec3 airlight(vec3 direction) {
   return lighting.haze_ambient + lighting.haze_directed * (root * root * root);
 }
 
+/// Returns the share of light that is left after `distance` metres. Drops that are drawn as streaks take
+/// their part there.
+float haze_passes(float distance) {
+  float drawn = weather.drop_extinction * min(distance, weather.drop_reach);
+  return exp(drawn - lighting.haze_extinction * distance);
+}
+
 /// Returns the rest of `radiance` after `distance` metres along `direction` (unit, from the eye), plus the
 /// light of the air.
 vec3 through_haze(vec3 radiance, vec3 direction, float distance) {
-  return mix(airlight(direction), radiance, exp(-lighting.haze_extinction * distance));
+  return mix(airlight(direction), radiance, haze_passes(distance));
 }
 #endif

@@ -9,6 +9,7 @@
 
 layout(set = 0, binding = lights_binding, scalar) readonly buffer LampsBlock { uint lamp_words[]; };
 layout(set = 0, binding = lights_binding, scalar) readonly buffer LampQuadsBlock { vec4 lamp_quads[]; };
+layout(set = 0, binding = lamp_shadow_binding) uniform sampler2DShadow lamp_shadow;
 
 float lamp_float(uint word) { return uintBitsToFloat(lamp_words[word]); }
 
@@ -26,10 +27,26 @@ uint cluster_of(vec3 p) {
   return lamps_header_words + 2u * ((slice * rows + row) * columns + column);
 }
 
+/// Returns the share of a lamp's light that reaches a point, `from_lamp` away from it, on a surface with the
+/// given normal. What lies beside the lamp's tile is lit (renderer/light/lamp_shadow.h).
+float lamp_visibility(uint lamp, vec3 from_lamp, vec3 axis, vec3 n) {
+  vec4 tile = lamp_quads[lamp + 3u];
+  float scale2 = dot(tile.xyz, tile.xyz);
+  float depth = dot(axis, from_lamp);
+  if (scale2 == 0.0 || depth <= lamp_shadow_near) return 1.0;
+  float texel_m = depth * weather.lamp_texel_uv * inversesqrt(scale2);
+  vec3 q = from_lamp + n * (1.5 * texel_m);
+  depth = dot(axis, q);
+  vec2 offset = vec2(dot(tile.xyz, q), dot(cross(axis, tile.xyz), q)) / depth;
+  if (max(abs(offset.x), abs(offset.y)) > weather.lamp_half_uv) return 1.0;
+  vec2 uv = unpackUnorm2x16(floatBitsToUint(tile.w)) + offset;
+  return texture(lamp_shadow, vec3(uv, lamp_shadow_near / (depth - 0.25 * texel_m - 0.01)));
+}
+
 /// Returns the radiance towards the eye by the lamps (KHR_lights_punctual's attenuation). Rough dielectrics
 /// show no highlight of a lamp. They reflect diffusely the part of the light that their specular lobe would
 /// reflect.
-vec3 reflect_lamps(Reflectance r, vec3 n, vec3 v, vec3 p_eye, bool shiny) {
+vec3 reflect_lamps(Reflectance r, vec3 n, vec3 geometric, vec3 v, vec3 p_eye, bool shiny) {
   uint cluster = cluster_of(p_eye);
   uint entry = lamp_words[cluster], end = entry + lamp_words[cluster + 1u];
   vec3 diffuse = vec3(0.0), mirrored = vec3(0.0);
@@ -46,6 +63,8 @@ vec3 reflect_lamps(Reflectance r, vec3 n, vec3 v, vec3 p_eye, bool shiny) {
     float attenuation =
         directional ? 1.0 : cone * cone * clamp(1.0 - ratio * ratio, 0.0, 1.0) * nearness * nearness;
     float n_dot_l = dot(n, l);
+    if (lamp_shadows_on && attenuation > 0.0 && n_dot_l > 0.0)
+      attenuation *= lamp_visibility(lamp, -to_lamp, axis.xyz, geometric);
     vec3 illuminance = light.rgb * (attenuation * max(n_dot_l, 0.0));
     diffuse += illuminance;
     bool highlight = specular_on && shiny && attenuation > 0.0 && n_dot_l > 0.0;

@@ -9,8 +9,10 @@
 #include "camera/visibility_view.glsl"
 #include "lib/words.glsl"
 #include "shared/brdf.h"
+#include "shared/weather.h"
 
 layout(set = 0, binding = lighting_binding, scalar) uniform LightingBlock { GpuLighting lighting; };
+layout(set = 0, binding = weather_binding, scalar) uniform WeatherBlock { GpuWeather weather; };
 layout(set = 0, binding = shadow_tiles_binding, scalar) readonly buffer ShadowTilesBlock {
   ShadowTilesHeader shadow_tiles_header;
   uint shadow_cells[];

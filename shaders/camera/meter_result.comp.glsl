@@ -34,7 +34,9 @@ void main() {
   }
   // EV100 = log2(L 100 / 12.5) (ISO 2720); L_max = 1.2 2^EV100.
   float mean_ev = counted > 0.0 ? sum / (counted * meter_steps_per_ev) + meter_least_ev : -1e9;
-  float ev100 = mean_ev + log2(meter.stored_luminance * (100.0 / 12.5)) - meter.compensation_ev;
+  float luminance = exp2(clamp(mean_ev, -60.0, 60.0)) * meter.stored_luminance;
+  float ev100 = mean_ev + log2(meter.stored_luminance * (100.0 / 12.5)) - meter.compensation_ev -
+                meter_night_ev(luminance);
   ev100 = clamp(ev100, meter_least_ev100, meter_most_ev100);
   Results(meter.result).v = MeterResult(meter.stored_luminance / (1.2 * exp2(ev100)), ev100);
 }

@@ -4,6 +4,7 @@
 // Shades the triangles that the visibility pass found. Each triangle that a pixel's samples saw is shaded
 // once and weighed by the number of these samples. Depth and id are those of the triangle that the pixel's
 // centre looks at. With GREATX_MULTISAMPLED a pixel has four samples.
+#include "camera/halos.glsl"
 #include "camera/haze.glsl"
 #include "camera/lamps.glsl"
 #include "camera/lens_ray.glsl"
@@ -11,6 +12,7 @@
 #include "camera/picture.glsl"
 #include "camera/sky.glsl"
 #include "camera/surface.glsl"
+#include "camera/weather.glsl"
 
 layout(local_size_x = shade_group_width, local_size_y = shade_group_height) in;
 #ifdef GREATX_MULTISAMPLED
@@ -35,11 +37,20 @@ layout(set = 0, binding = shade_luminance_binding, scalar) buffer LuminanceBlock
   float picture_luminance[];
 };
 
-/// Returns the radiance towards the eye of the triangle around the ray.
-vec3 surface_radiance(Seen seen, vec3 ray) {
+layout(set = 0, binding = shade_mirror_binding, scalar) writeonly buffer MirrorBlock {
+  uvec3 picture_mirror[];
+};
+
+/// Returns the radiance towards the eye of the triangle around the ray. It adds `weight` times its mirror.
+vec3 surface_radiance(Seen seen, vec3 ray, float weight, inout Mirror mirror) {
   Surface s = surface_at(seen, ray);
+  float f0 = dielectric_f0, water = 0.0;
+  if (wet_on || snow_on) {
+    water = weather_surface(s, seen.body);
+    f0 = mix(dielectric_f0, water_f0, water);
+  }
   Reflectance r = lambertian_reflectance(s.base_color);
-  if (specular_on) r = reflectance_of(s.base_color, s.metallic, s.roughness, dot(s.n, s.v));
+  if (specular_on) r = reflectance_below(s.base_color, s.metallic, s.roughness, dot(s.n, s.v), f0);
   vec3 radiance = s.glow;
   bool lit = sun_on && dot(s.n, lighting.sun_direction) > 0.0;
   if (lit) {
@@ -47,8 +58,10 @@ vec3 surface_radiance(Seen seen, vec3 ray) {
     radiance += direct * sun_visibility(s.p, s.geometric);
   }
   if (sky_on) radiance += reflect_sky(r, s.n, s.v, s.roughness, s.p);
+  if (mirrors_on) add_mirror(mirror, s, r, weight * water);
   if (lights_on)
-    radiance += reflect_lamps(r, s.n, s.v, s.p, s.roughness < lamp_most_roughness || s.metallic > 0.5);
+    radiance += reflect_lamps(r, s.n, s.geometric, s.v, s.p,
+                              s.roughness < lamp_most_roughness || s.metallic > 0.5);
   if (haze_on) radiance = through_haze(radiance, -s.v, length(s.p));
   return radiance;
 }
@@ -86,6 +99,7 @@ void main() {
 
   vec3 radiance = vec3(0.0);
   Center center = Center(infinity, 0u), first = center;
+  Mirror mirror = Mirror(0.0, 0.0, vec3(0.0));
   uint ids[sample_count];
   bool looks_through = distortion_on && (ids_on || sample_count == 1u);
   if (looks_through) center = through_lens(pixel, ray);
@@ -106,12 +120,16 @@ void main() {
       Seen seen = see(id - 1u);
       if (ids_on && !distortion_on) look(center, seen, ray);
       if (ids_on && !distortion_on && sample_count > 1u && id == ids[0]) first = rim_of(seen, ray);
-      if (color_on || luminance_on) radiance += weight * surface_radiance(seen, ray);
+      if (color_on || luminance_on) radiance += weight * surface_radiance(seen, ray, weight, mirror);
     }
   }
   // If samples around the centre hit and the centre itself slips through, the first sample stands for the
   // centre.
   if (!distortion_on && center.id == 0u && sky == 0.0) center = first;
+  if (lamp_halos_on && (color_on || luminance_on)) {
+    float stretch = length(ray), far = min(center.depth, 1e6) * stretch;
+    radiance += lamp_halos(pixel, ray / stretch, far);
+  }
   radiance *= camera.weight;
   bool adds = blend_on && camera.first == 0u;  // to the result of the earlier parts of the exposure
   if (color_on) {
@@ -125,5 +143,6 @@ void main() {
     picture_luminance[element] = stored;
   }
   if (range_on) center.depth *= length(ray);
+  if (mirrors_on) picture_mirror[element] = pack_mirror(mirror);
   if (ids_on) picture_seen[element] = uvec2(floatBitsToUint(center.depth), center.id);
 }

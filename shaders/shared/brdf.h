@@ -89,19 +89,24 @@ struct Reflectance {
   float n_dot_v;
 };
 
-GREATX_FUNCTION Reflectance reflectance_of(vec3 base_color, float metallic, float roughness, float n_dot_v) {
+/// Returns the reflectance of a surface whose dielectric part has the reflectance `f0` at normal incidence.
+GREATX_FUNCTION Reflectance reflectance_below(vec3 base_color, float metallic, float roughness, float n_dot_v,
+                                              float f0) {
   Reflectance r;
   r.n_dot_v = max(n_dot_v, 1e-3f);
   r.alpha = alpha_from_roughness(roughness);
-  r.f0 = mix(vec3(dielectric_f0), base_color, metallic);
+  r.f0 = mix(vec3(f0), base_color, metallic);
   vec2 terms = specular_albedo_terms(r.n_dot_v, roughness);
   r.gain = vec3(1.0f) + r.f0 * (1.0f / (terms.x + terms.y) - 1.0f);
   r.albedo = (r.f0 * terms.x + vec3(terms.y)) * r.gain;
   // The dielectric's lobe lies over the diffuse part, whatever fraction of the surface is metal.
-  float dielectric =
-      (dielectric_f0 * terms.x + terms.y) * (1.0f + dielectric_f0 * (1.0f / (terms.x + terms.y) - 1.0f));
+  float dielectric = (f0 * terms.x + terms.y) * (1.0f + f0 * (1.0f / (terms.x + terms.y) - 1.0f));
   r.diffuse = base_color * ((1.0f - metallic) * (1.0f - dielectric));
   return r;
+}
+
+GREATX_FUNCTION Reflectance reflectance_of(vec3 base_color, float metallic, float roughness, float n_dot_v) {
+  return reflectance_below(base_color, metallic, roughness, n_dot_v, dielectric_f0);
 }
 
 /// Returns the reflectance of a Lambertian surface, without a specular lobe.

@@ -37,7 +37,13 @@ const uint horizon_binding = 28u;   // uniform: GpuHorizon (shaders/shared/horiz
 const uint panorama_binding = 29u;  // sampled: the sky's radiance with clouds, and what they let through
 const uint marks_binding = 30u;     // uniform: GpuMarks (shaders/shared/marks.h)
 const uint mark_map_binding = 31u;  // sampled: the share of the ground under markings
-const uint stars_binding = 20u;     // storage: GpuStar [star_cells, star_cells]
+const uint stars_binding = 20u;  // storage: GpuStar [star_cells, star_cells]
+// Weather and night (shaders/shared/weather.h).
+const uint weather_binding = 24u;      // uniform: GpuWeather
+const uint rain_cover_binding = 25u;   // sampled with comparison: what lies under the open sky
+const uint lamp_shadow_binding = 26u;  // sampled with comparison: the lamps' tiles
+// storage: uvec3 [pixels], halves: weight and roughness of a mirror; the stored radiance that it shows so far
+const uint shade_mirror_binding = 23u;
 
 // Specialization constants of the shading pipeline: the wanted outputs, and one constant for each effect of
 // the plan.
@@ -74,7 +80,13 @@ const uint spec_band_rows = 25u;
 const uint spec_clouds = 26u;
 const uint spec_horizon = 27u;  // a HorizonKind (renderer/light/lighting.h)
 const uint spec_markings = 28u;
-const uint shade_spec_count = 29u;
+// Weather and night (shaders/shared/weather.h).
+const uint spec_wet_surfaces = 32u;
+const uint spec_snow_cover = 33u;
+const uint spec_mirrors = 34u;  // what surfaces mirror is kept for MirrorPass
+const uint spec_lamp_shadows = 35u;
+const uint spec_lamp_halos = 36u;
+const uint shade_spec_count = 37u;
 // These constants belong to the shadow maps.
 const uint shadow_spec_base_color_arrays = 0u;
 const uint shadow_spec_masked = 1u;
@@ -99,12 +111,21 @@ const uint lamps_across_word = 2u;  // tiles across the picture, a float
 const uint lamps_down_word = 3u;
 const uint lamps_last_column_word = 4u;  // as floats
 const uint lamps_last_row_word = 5u;
-const uint lamps_header_words = 6u;
-/// A lamp is three quadruples of floats, and an entry counts the quadruples from the words' beginning. The
+const uint lamps_header_words = 7u;
+/// The word of the first of (first entry, count) of the lamps that may light the air before a tile's pixels,
+/// row by row.
+const uint lamps_halos_word = 6u;
+/// A lamp is four quadruples of floats, and an entry counts the quadruples from the words' beginning. The
 /// first holds the position from the eye (of a directional light: unit, towards it) and 1 / range^2
 /// (directional: -1). The second holds the unit direction and the scale of the cone. The third holds the
-/// intensity, cd (directional: lux), and the offset of the cone.
-const uint lamp_record_quads = 3u;
+/// intensity, cd (directional: lux), and the offset of the cone. The fourth belongs to its shadow: an axis
+/// across its direction times the scale of its tile, and the middle of the tile in unsigned 16-bit fractions;
+/// the axis is 0 if the lamp casts no shadow.
+const uint lamp_record_quads = 4u;
+/// What is nearer to a lamp than this along its axis casts no shadow: its own housing.
+const float lamp_shadow_near = 0.5f;
+/// The most lamps whose light in the air a pixel adds up.
+const uint most_halos = 24u;
 /// Dielectrics rougher than this show no highlights of lamps.
 const float lamp_most_roughness = 0.6f;
 

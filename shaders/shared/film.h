@@ -94,6 +94,15 @@ const float meter_least_ev100 = -4.0f;
 const float meter_most_ev100 = 20.0f;
 const uint meter_group_size = 64u;
 
+/// Returns by how many stops a meter keeps a scene of this mean luminance, cd/m^2, below middle grey: night
+/// shall look like night. The key value is 1.03 - 2 / (2 + log10(L + 1)) (G. Krawczyk, K. Myszkowski and
+/// H.-P. Seidel, "Perceptual Effects in Real-time Tone Mapping", SCCG 2005, eq. 11); 0.18 and more is middle
+/// grey.
+GREATX_FUNCTION float meter_night_ev(float luminance) {
+  float key = 1.03f - 2.0f / (2.0f + 0.43429448f * log(luminance + 1.0f));
+  return min(1.44269504f * log(key * (1.0f / 0.18f)), 0.0f);
+}
+
 struct MeterBin {
   uint weight;
   uint steps;  ///< sum of weight times steps above meter_least_ev

@@ -50,6 +50,9 @@ render::CameraDesc camera_desc(const Scenario& scenario, const NodeConfig& node,
   if (config.noise)
     desc.noise = {config.noise->full_well_e, config.noise->read_noise_e, config.noise->bits, scenario.seed,
                   fnv1a32(desc.name)};
+  desc.glare = config.glare;
+  desc.rain = {config.exposure.shutter_s.value_or(render::RainView{}.shutter_s), scenario.seed,
+               fnv1a32(desc.name)};
   desc.outputs.rgb = config.rgb;
   desc.outputs.hdr = config.hdr;
   desc.outputs.depth = config.depth || config.depth_png24 || config.depth_log;

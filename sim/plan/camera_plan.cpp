@@ -85,6 +85,7 @@ void add(CameraAsks& asks, const CameraConfig& camera) {
   asks.noise |= camera.rgb && camera.noise.has_value();
   asks.rolling_shutter |= camera.rolling.any();
   asks.chromatic_aberration |= camera.chromatic.any() && (camera.rgb || camera.hdr);
+  asks.glare |= camera.glare > 0.0 && (camera.rgb || camera.hdr);
   asks.motion_blur |= camera.motion_blur_samples > 0 && (camera.rgb || camera.hdr);
   asks.automatic_exposure |= camera.rgb && camera.exposure.automatic;
   add(asks, static_cast<const PinholeConfig&>(camera));
@@ -209,6 +210,7 @@ void plan_lens(EffectPlan& plan, const Planner& planner, const CameraAsks& asks)
                  "draws the scene once for each band of rows");
   asked(plan.chromatic_aberration, asks.chromatic_aberration);
   asked(plan.vignetting, asks.vignetting);
+  asked(plan.glare, asks.glare);
   asked(plan.motion_blur, asks.motion_blur, "costs a picture for each of its samples");
   asked(plan.auto_exposure, asks.automatic_exposure);
   asked(plan.sensor_noise, asks.noise);
@@ -244,6 +246,12 @@ void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shad
           ? ""
           : fmt::format("at most {} lux beside the ground's {}, tolerance {:.0f} %",
                         digits(offers.lamp_illuminance_lux), digits(ground_lux), 100.0 * tolerance));
+  shading.decide(plan.lamp_shadows, plan.punctual_lights.on && offers.static_triangles,
+                 "lamps shine on static meshes",
+                 plan.punctual_lights.on ? "nothing static to cast them" : "lamps are off",
+                 "drawn once, at the first tick; those of moving meshes every tick");
+  shading.decide(plan.lamp_halos, plan.punctual_lights.on && plan.haze.on, "lamps shine into fog or rain",
+                 plan.punctual_lights.on ? "neither fog nor rain" : "lamps are off");
 }
 
 const char* name_of(render::HorizonKind kind) {
@@ -292,6 +300,15 @@ void plan_light(EffectPlan& plan, const Shading& shading, const Scenario& scenar
                  !plan.sky.on                                    ? "the sky is off"
                  : scenario.environment.horizon == Horizon::none ? "the scenario wants none"
                                                                  : "the scene is an object or a room");
+  const Environment& weather = scenario.environment;
+  shading.decide(plan.wet_surfaces, light.water,
+                 fmt::format("wetness {:.2g}, {:.0f} % of level ground under water", wetness_of(weather),
+                             100.0 * puddles_of(weather)),
+                 "it is dry");
+  shading.decide(plan.snow_cover, light.snow, fmt::format("{:.0f} % are covered", 100.0 * weather.snow),
+                 "there is no snow");
+  shading.decide(plan.rain_streaks, light.rain, fmt::format("{:.3g} mm/h of rain", weather.rain_mm_h),
+                 "it does not rain");
 }
 
 }  // namespace
@@ -299,7 +316,7 @@ void plan_light(EffectPlan& plan, const Shading& shading, const Scenario& scenar
 void plan_camera(EffectPlan& plan, const Planner& planner, const Scenario& scenario, const Offers& offers,
                  const CameraAsks& asks) {
   check_lenses(scenario);
-  const ResolvedLight light = resolve(scenario.environment);
+  const ResolvedLight light = resolve(scenario.environment, plan.indoors);
   const Shading shading(planner, asks.color());
   plan_outputs(plan, planner, asks);
   plan_light(plan, shading, scenario, light, offers);

@@ -32,9 +32,9 @@ struct CameraAsks {
   size_t shared_pixels = 0;  ///< event cameras that share the pixels of a camera
   bool rgb = false, depth = false, ids = false, hdr = false;
   bool depth_ray = false, normals = false, flow = false, boxes = false;
-  bool smooth_edges = false, distortion = false, vignetting = false, noise = false, motion_blur = false,
-       automatic_exposure = false, adaptive_events = false;
   bool wide_lens = false, rolling_shutter = false, chromatic_aberration = false;
+  bool smooth_edges = false, distortion = false, vignetting = false, noise = false, glare = false,
+       motion_blur = false, automatic_exposure = false, adaptive_events = false;
   bool color() const { return rgb || hdr || event_cameras > 0; }
   /// Whether the shots of some LiDAR are spread over time.
   bool sweep = false;

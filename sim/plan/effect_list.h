@@ -44,12 +44,18 @@
   X(clouds, true, camera, "clouds in the sky, in its light and in its mirror images") \
   X(horizon, true, camera, "the land beyond the scene, as a background of pictures") \
   X(markings, true, camera, "far markings of roads keep their share of each pixel") \
+  X(wet_surfaces, true, camera, "water on surfaces: dark, smooth ground, puddles, mirror images") \
+  X(snow_cover, true, camera, "snow on what faces upwards") \
+  X(rain_streaks, true, camera, "falling drops as streaks") \
+  X(lamp_shadows, true, camera, "shadows in the light of lamps that do not move") \
+  X(lamp_halos, true, camera, "light of lamps that fog and rain scatter towards the camera") \
   X(smooth_edges, false, none, "antialiasing along the edges of meshes") \
   X(lens_distortion, false, none, "distortion by the lens") \
   X(wide_lens, false, none, "fisheye and equirectangular lenses") \
   X(rolling_shutter, false, none, "rows of a picture exposed one after the other") \
   X(chromatic_aberration, false, none, "red and blue pictures that differ in size from the green one") \
   X(vignetting, false, none, "loss of light towards the corners of a picture") \
+  X(glare, false, none, "light that the lens scatters over the picture") \
   X(motion_blur, false, none, "motion during the exposure") \
   X(auto_exposure, false, none, "exposure that follows the light of the scene") \
   X(sensor_noise, false, none, "noise of photons and of the sensor")

@@ -67,6 +67,7 @@ EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene,
   const CameraAsks asks = camera_asks_of(scenario);
   Planner planner(scenario);
   EffectPlan plan;
+  if (asks.color()) plan.indoors = indoors_of(scenario, scene);
   plan_camera(plan, planner, scenario, offers, asks);
   plan_lidar(plan, planner, scenario, scene, offers);
   plan_radar(plan, planner, scenario, scene);

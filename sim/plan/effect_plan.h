@@ -11,6 +11,7 @@
 
 #include "scene/description/scene.h"
 #include "sim/plan/effect_list.h"
+#include "sim/plan/indoors.h"
 #include "sim/scenario/scenario.h"
 
 namespace greatx::sim {
@@ -31,6 +32,9 @@ struct EffectPlan {
 #define GREATX_MEMBER(name, switchable, passed, documentation) Effect name{#name, switchable, false, {}, {}};
   GREATX_EFFECTS(GREATX_MEMBER)
 #undef GREATX_MEMBER
+
+  /// Set if all cameras stand in a closed room: neither sun nor sky, fog or rain reach them.
+  std::optional<Indoors> indoors;
 
   /// Returns every effect in the order of the rows.
   std::vector<const Effect*> all() const;

@@ -83,7 +83,28 @@ double haze_extinction(const Environment& environment) {
   return render::fog_extinction(environment.fog_g_m3) + render::rain_extinction(environment.rain_mm_h);
 }
 
-ResolvedLight resolve(const Environment& environment) {
+double wetness_of(const Environment& environment) {
+  return environment.wetness.value_or(1.0 - std::exp(-environment.rain_mm_h));
+}
+
+double puddles_of(const Environment& environment) {
+  constexpr double share_of_soaked_ground = 0.2;
+  const double wetness = wetness_of(environment);
+  return environment.puddles.value_or(share_of_soaked_ground * wetness * wetness);
+}
+
+ResolvedLight light_of_room(const Indoors& indoors) {
+  ResolvedLight light;
+  light.lighting.sun_illuminance_lux = light.lighting.moon_illuminance_lux = 0.0;
+  light.lighting.sky_model = render::SkyModel::uniform;
+  light.lighting.sky_illuminance_lux = light.below.sky_lux = indoors.indirect_lux;
+  light.below.direct_lux = 0.0;
+  light.sun_elevation = light.moon_elevation = -0.5 * pi;
+  return light;
+}
+
+ResolvedLight resolve(const Environment& environment, const std::optional<Indoors>& indoors) {
+  if (indoors) return light_of_room(*indoors);
   Bodies bodies = bodies_of(environment);
   Lamp &sun = bodies.sun, &moon = bodies.moon;
   const bool overcast = environment.sky == SkyKind::overcast ||
@@ -119,7 +140,15 @@ ResolvedLight resolve(const Environment& environment) {
   to.haze_extinction_per_m = haze_extinction(environment);
   to.haze_depth = to.haze_extinction_per_m * environment.fog_height_m;
 
+  to.rain_mm_h = environment.rain_mm_h;
+  to.wetness = wetness_of(environment);
+  to.puddles = puddles_of(environment);
+  to.snow = environment.snow;
+
   light.haze = to.haze_extinction_per_m > 0.0;
+  light.rain = to.rain_mm_h > 0.0;
+  light.water = to.wetness > 0.0 || to.puddles > 0.0;
+  light.snow = to.snow > 0.0;
   light.key = render::key_light(to);
   light.below = render::through_layer(light.key.lux, light.key.direction.z, to.sky_illuminance_lux,
                                       to.haze_depth, to.ground_albedo);

@@ -45,6 +45,8 @@ render::CameraEffects camera_effects(const EffectPlan& plan) { return passed_by(
 
 rf::RadioEffects radio_switches(const EffectPlan& plan) { return passed_by(plan).radio; }
 
-render::Lighting lighting_of(const Environment& environment) { return resolve(environment).lighting; }
+render::Lighting lighting_of(const Environment& environment, const EffectPlan& plan) {
+  return resolve(environment, plan.indoors).lighting;
+}
 
 }  // namespace greatx::sim

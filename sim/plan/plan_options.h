@@ -16,6 +16,6 @@ render::CameraEffects camera_effects(const EffectPlan& plan);
 /// Returns the switches alone. radio_effects() in sim/channel/channel_paths.h adds the values that belong to
 /// them.
 rf::RadioEffects radio_switches(const EffectPlan& plan);
-render::Lighting lighting_of(const Environment& environment);
+render::Lighting lighting_of(const Environment& environment, const EffectPlan& plan);
 
 }  // namespace greatx::sim

@@ -67,6 +67,20 @@ void add_trajectory(const Scenario& scenario, const Trajectory& trajectory, scen
     add_curve(*bezier, overrun(scenario), bounds);
   if (const auto* corridor = std::get_if<CorridorTrajectory>(&trajectory))
     add_corridor(*corridor, overrun(scenario), bounds);
+  // Streets lie within the scene's bounds, which every caller adds. While a track is absent, no path meets
+  // it.
+  if (const auto* track = std::get_if<TrackTrajectory>(&trajectory))
+    for (const WayPointTrajectory& stretch : *track->stretches) add_way(stretch, bounds);
+  if (const auto* follow = std::get_if<FollowTrajectory>(&trajectory))
+    for (const NodeConfig& node : scenario.nodes)
+      if (node.name == follow->node) {
+        scene::Bounds carrier;
+        add_trajectory(scenario, node.trajectory, carrier);
+        const dvec3 room(glm::length(follow->position_m));
+        constexpr double streets_m = 1e4;  // from the origin; where they lead is not known here
+        if (carrier.empty()) carrier.add(dvec3(-streets_m)), carrier.add(dvec3(streets_m));
+        bounds.add(carrier.min - room), bounds.add(carrier.max + room);
+      }
 }
 
 }  // namespace greatx::sim

@@ -57,8 +57,11 @@ struct Environment {
   double pressure_hpa = 1013.25;  ///< dry-air pressure (ITU-R P.676)
   double water_vapour_g_m3 = 7.5;
   double rain_mm_h = 0.0;
-  double fog_g_m3 = 0.0;        ///< liquid water
-  double fog_height_m = 100.0;  ///< height of fog and rain above the scene, for light from above
+  double fog_g_m3 = 0.0;          ///< liquid water
+  double fog_height_m = 100.0;    ///< height of fog and rain above the scene, for light from above
+  std::optional<double> wetness;  ///< of surfaces under the sky: 0 dry, 1 soaked; none: from the rain
+  std::optional<double> puddles;  ///< share of level ground under water; none: from the wetness
+  double snow = 0.0;              ///< share of what faces upwards under the sky that snow covers
 };
 
 /// These types describe a lens (docs/film.md).
@@ -100,6 +103,7 @@ struct CameraConfig : PinholeConfig {
   std::optional<SensorNoise> noise;
   RollingShutter rolling;
   ChromaticAberration chromatic;
+  double glare = 0.0;  ///< share of the light that the lens scatters over the picture
   // The members below select the arrays to deliver.
   bool rgb = true, depth = true, ids = true;
   bool listed = false;    ///< whether the scenario lists the outputs; otherwise they are the default ones

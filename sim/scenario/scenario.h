@@ -27,6 +27,7 @@
 #include "rf/config/sensing_config.h"
 #include "sim/scenario/accuracy.h"
 #include "sim/scenario/antenna.h"
+#include "sim/scenario/gait.h"
 #include "sim/scenario/limits.h"
 #include "sim/scenario/navigation.h"
 #include "sim/scenario/optics.h"
@@ -34,6 +35,7 @@
 #include "sim/scenario/rational.h"
 #include "sim/scenario/rotation.h"
 #include "sim/scenario/targets.h"
+#include "sim/scenario/traffic.h"
 
 namespace greatx::sim {
 
@@ -41,10 +43,10 @@ namespace greatx::sim {
 
 /// Describes a scene or model that the generator (scene/generator) makes, instead of one read from a file.
 struct Generated {
-  std::string kind;  ///< city, country, canyon, room, mast, car, quadrotor
+  std::string kind;  ///< city, country, canyon, room, mast, car, vehicle, person, quadrotor
   uint64_t seed = 1;
   double size_m = 300.0;  ///< city, country: edge of the square; canyon: length
-  std::string variant;    ///< quadrotor: small, medium, large; car: hatchback, van
+  std::string variant;    ///< of scene::generator_variants(kind)
   friend bool operator==(const Generated&, const Generated&) = default;
 };
 
@@ -118,7 +120,8 @@ struct CorridorTrajectory {
   double clearance_m = 0.0;
 };
 
-using Trajectory = std::variant<StaticTrajectory, WayPointTrajectory, BezierTrajectory, CorridorTrajectory>;
+using Trajectory = std::variant<StaticTrajectory, WayPointTrajectory, BezierTrajectory, CorridorTrajectory,
+                                TrafficTrajectory, TrackTrajectory, FollowTrajectory>;
 
 // --------------------------------------------------------------------------------------------------- sensors
 
@@ -157,12 +160,31 @@ struct SensorConfig {
   SourceLocation where;
 };
 
-/// Describes parts of a node's model that turn on it at a constant rate: rotors, wheels.
+/// A wheel: it turns about the part's axis by the distance that its node has travelled, divided by the
+/// radius.
+struct RollConfig {
+  double radius_m = 0.3;
+  friend bool operator==(const RollConfig&, const RollConfig&) = default;
+};
+
+/// A limb of a person, which swings as the node walks. The axis points to the left.
+struct LimbConfig {
+  Limb limb = Limb::thigh;
+  bool left = true;
+  Walker walker;
+  friend bool operator==(const LimbConfig&, const LimbConfig&) = default;
+};
+
+using PartMotion = std::variant<TurnRate, RollConfig, LimbConfig>;
+
+/// Describes parts of a node's model that turn on it: rotors, wheels, limbs.
 struct PartConfig {
   std::vector<std::string> nodes;  ///< the model's glTF nodes by name, '*', '?' and [] as in file names
-  dvec3 axis{0.0, 0.0, 1.0};    ///< through the glTF node's origin, in its own frame, z up; any length but 0
-  TurnRate rate;                ///< right-handed about the axis
-  std::optional<double> phase;  ///< rad, at tick 0; none: drawn for each glTF node and sequence
+  dvec3 axis{0.0, 0.0, 1.0};  ///< through the glTF node's origin, in its own frame, z up; any length but 0
+  PartMotion motion;          ///< right-handed about the axis
+  /// rad, at tick 0, or of a limb's cycle at distance 0; none: drawn for each glTF node and sequence, and for
+  /// limbs for each node.
+  std::optional<double> phase;
   SourceLocation where;
 };
 
@@ -247,7 +269,8 @@ struct Scenario {
   int64_t curve_ticks() const { return trajectory_ticks.value_or(ticks); }
   SceneConfig scene;
   Environment environment;
-  std::vector<NodeConfig> nodes;
+  std::vector<NodeConfig> nodes;  ///< those that the scenario lists, then those of its traffic
+  std::optional<TrafficConfig> traffic;
   std::vector<ChannelConfig> channels;
   std::map<std::string, Switch> effects;  ///< by the names in sim/plan/effect_list.h
   double tolerance_db = 0.01;             ///< an effect that cannot change more stays off

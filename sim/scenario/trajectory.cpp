@@ -21,8 +21,12 @@ bool is_drawn(const NodeConfig& node) {
 /// Makes courses in the order in which they depend on each other.
 class PathMaker {
  public:
-  PathMaker(const Scenario& scenario, uint32_t sequence, const FreeSpace* space)
+  PathMaker(const Scenario& scenario, uint32_t sequence, const FreeSpace* space, const TrafficSource* traffic)
       : scenario_(scenario), sequence_(sequence), space_(space), begun_(scenario.nodes.size()) {
+    if (scenario.traffic && !scenario.traffic->members.empty()) {
+      GREATX_CHECK(traffic != nullptr, "the traffic of scenario '{}' without a world", scenario.name);
+      members_ = traffic->courses(sequence);
+    }
     GREATX_CHECK(scenario.curve_ticks() > 0, "{} ticks", scenario.curve_ticks());
     const Clock clock(scenario.tick_rate_hz);
     duration_s_ = clock.seconds(scenario.curve_ticks() - 1);
@@ -56,6 +60,12 @@ class PathMaker {
       course = draw(index, [&] { return make_course(*corridor, duration_s_, random); });
     } else if (const auto* points = std::get_if<WayPointTrajectory>(&node.trajectory)) {
       course = make_course(*points);
+    } else if (const auto* member = std::get_if<TrafficTrajectory>(&node.trajectory)) {
+      course = std::move(members_[member->member]);
+    } else if (const auto* track = std::get_if<TrackTrajectory>(&node.trajectory)) {
+      course = make_course(*track);
+    } else if (const auto* follow = std::get_if<FollowTrajectory>(&node.trajectory)) {
+      course = make_course(*follow, *make(index_of(follow->node)));
     } else {
       course = make_course(std::get<StaticTrajectory>(node.trajectory));
     }
@@ -122,6 +132,7 @@ class PathMaker {
   const Scenario& scenario_;
   uint32_t sequence_;
   const FreeSpace* space_;
+  std::vector<std::unique_ptr<Course>> members_;  ///< of the traffic, until a node takes them
   double duration_s_ = 0.0, end_s_ = 0.0;
   NodeCourses made_;
   std::vector<bool> begun_;
@@ -135,8 +146,9 @@ double clearance_of(const NodeConfig& node) {
   return 0.0;
 }
 
-NodeCourses make_node_courses(const Scenario& scenario, uint32_t sequence, const FreeSpace* space) {
-  return PathMaker(scenario, sequence, space).make_all();
+NodeCourses make_node_courses(const Scenario& scenario, uint32_t sequence, const FreeSpace* space,
+                              const TrafficSource* traffic) {
+  return PathMaker(scenario, sequence, space, traffic).make_all();
 }
 
 }  // namespace greatx::sim

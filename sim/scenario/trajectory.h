@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "sim/scenario/gait.h"
 #include "sim/scenario/scenario.h"
 
 namespace greatx::sim {
@@ -21,6 +22,17 @@ class Course {
   virtual bool is_static() const { return false; }
   /// Returns a bound of the speed at any time, m/s; it is reached unless the edges of a curve differ.
   virtual double most_speed() const = 0;
+  /// Returns the length of the way from time 0, negative before it, and its derivatives. Something absent
+  /// travels nowhere.
+  virtual Travel travel(double time_s) const = 0;
+};
+
+/// Makes the courses of members of the traffic. A world does it (sim/world/traffic.h).
+class TrafficSource {
+ public:
+  virtual ~TrafficSource() = default;
+  /// Starts the traffic of a sequence. Returns [TrafficConfig::members] courses, which may outlive this.
+  virtual std::vector<std::unique_ptr<Course>> courses(uint32_t sequence) const = 0;
 };
 
 /// Judges drawn trajectories. A world does it (sim/world/free_space.h).
@@ -68,8 +80,9 @@ std::vector<dvec3> way_point_velocities(const std::vector<WayPoint>& points);
 ///
 /// Throws UserError naming the node if the limits cannot be met (e.g. if no point of the box is within
 /// d_min..d_max, or most_clear_draws courses keep no clearance). `space` may be null if no node asks for a
-/// clearance.
-NodeCourses make_node_courses(const Scenario& scenario, uint32_t sequence, const FreeSpace* space = nullptr);
+/// clearance, and `traffic` if the scenario has none.
+NodeCourses make_node_courses(const Scenario& scenario, uint32_t sequence, const FreeSpace* space = nullptr,
+                              const TrafficSource* traffic = nullptr);
 
 /// Returns the clearance that a node asks for, m; 0: none.
 double clearance_of(const NodeConfig& node);

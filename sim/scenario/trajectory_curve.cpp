@@ -110,6 +110,54 @@ double CurveCourse::most_speed() const {
   return most;
 }
 
+double CurveCourse::length(size_t segment, double u) const {
+  // Abramowitz and Stegun, table 25.4, n = 8.
+  constexpr std::array abscissas{0.183434642495650, 0.525532409916329, 0.796666477413627, 0.960289856497536};
+  constexpr std::array weights{0.362683783378362, 0.313706645877887, 0.222381034453374, 0.101228536290376};
+  constexpr int parts = 4;
+  const double half = 0.5 * u / parts;
+  double sum = 0.0;
+  for (int part = 0; part < parts; ++part)
+    for (size_t i = 0; i < abscissas.size(); ++i)
+      for (const double side : {-1.0, 1.0})
+        sum += weights[i] *
+               glm::length(segments_[segment].first(half * (2.0 * part + 1.0 + side * abscissas[i])));
+  return half * sum;
+}
+
+double CurveCourse::length_before(double time_s) const {
+  std::call_once(measured_, [&] {
+    double sum = 0.0;
+    for (size_t i = 0; i < segments_.size(); ++i) {
+      begins_m_.push_back(sum);
+      sum += length(i, 1.0);
+    }
+  });
+  const auto after = std::upper_bound(segments_.begin() + 1, segments_.end(), time_s,
+                                      [](double t, const CurveSegment& s) { return t < s.begin_s; });
+  const size_t segment = static_cast<size_t>(after - segments_.begin()) - 1;
+  const CurveSegment& curve = segments_[segment];
+  const double h = curve.duration_s;
+  return begins_m_[segment] + (h > 0.0 ? length(segment, (time_s - curve.begin_s) / h) : 0.0);
+}
+
+Travel CurveCourse::travel(double time_s) const {
+  const Motion motion = at(time_s);
+  Travel travel;
+  travel.speed_mps = glm::length(motion.velocity);
+  if (travel.speed_mps > 0.0)
+    travel.acceleration_mps2 = glm::dot(motion.acceleration, motion.velocity) / travel.speed_mps;
+  const double begin_s = segments_.front().begin_s,
+               end_s = segments_.back().begin_s + segments_.back().duration_s;
+  const auto way = [&](double t) {
+    const double inside_s = std::clamp(t, begin_s, end_s);
+    const double beyond_s = beyond_ == Beyond::straight ? t - inside_s : 0.0;
+    return length_before(inside_s) + (beyond_s != 0.0 ? beyond_s * glm::length(at(inside_s).velocity) : 0.0);
+  };
+  travel.distance_m = way(time_s) - way(0.0);
+  return travel;
+}
+
 CurveCourse::Heading CurveCourse::heading(size_t segment, double u) const {
   const CurveSegment& curve = segments_[segment];
   const double size = size_of(curve);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -55,6 +56,8 @@ class CurveCourse : public Course {
   Motion at(double time_s) const override;
   bool is_static() const override { return static_; }
   double most_speed() const override;
+  /// Lengths of segments are integrated by Gauss-Legendre quadrature of eight points on quarters.
+  Travel travel(double time_s) const override;
 
  private:
   struct Heading {
@@ -65,12 +68,16 @@ class CurveCourse : public Course {
   Motion inside(size_t segment, double time_s) const;
   void orient(size_t segment, double u, Motion& motion) const;
   void find_held_headings();
+  double length(size_t segment, double u) const;  ///< from the segment's begin, m
+  double length_before(double time_s) const;      ///< from the curve's begin, m
 
   std::vector<CurveSegment> segments_;
   std::vector<dquat> attitudes_;
   std::vector<Heading> held_;  ///< per segment: the heading where the segment itself gives no direction
   Beyond beyond_;
   bool static_ = false;
+  mutable std::once_flag measured_;
+  mutable std::vector<double> begins_m_;  ///< [segments] length of the curve before each
 };
 
 }  // namespace greatx::sim

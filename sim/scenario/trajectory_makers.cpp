@@ -38,6 +38,7 @@ class StaticCourse : public Course {
   Motion at(double) const override { return motion_; }
   bool is_static() const override { return true; }
   double most_speed() const override { return 0.0; }
+  Travel travel(double) const override { return {}; }
 
  private:
   Motion motion_;

@@ -21,6 +21,9 @@ struct EndLimits {
 
 std::unique_ptr<Course> make_course(const StaticTrajectory& trajectory);
 std::unique_ptr<Course> make_course(const WayPointTrajectory& trajectory);
+std::unique_ptr<Course> make_course(const TrackTrajectory& track);
+/// `carrier` outlives the course.
+std::unique_ptr<Course> make_course(const FollowTrajectory& follow, const Course& carrier);
 /// Draws a Bezier curve of `duration_s`, unless its control points are given. Throws UserError if no end
 /// within the limits is found.
 std::unique_ptr<Course> make_course(const EndLimits& limits, double duration_s, RandomStream& random);

@@ -239,8 +239,10 @@ std::vector<YamlChange> scaled_pictures(const Table& table, double factor) {
     const auto number = [&](const char* field, double value) {
       changes.push_back(set(below(table.places()[i], {field}), fmt::format("{}", value)));
     };
-    number("width", std::round(factor * camera.width));
-    number("height", std::round(factor * camera.height));
+    const bool panorama = camera.wide.model == LensModel::equirectangular;  // exactly twice as wide as high
+    const double height = std::round(factor * camera.height);
+    number("width", panorama ? 2.0 * height : std::round(factor * camera.width));
+    number("height", height);
     // Given in pixels they scale with the picture; a field of view stays as it is.
     if (table.has(i, "fx")) number("fx", factor * camera.fx), number("fy", factor * camera.fy);
     if (table.has(i, "cx")) number("cx", factor * camera.cx);
@@ -286,6 +288,24 @@ void add_antialiasing(Table& table) {
   knob.standard = camera.msaa > 1 ? 2 : camera.smooth_edges ? 1 : 0;
 }
 
+/// Adds the bands of rolling shutters, if every camera has one.
+void add_rolling_shutter(Table& table, Knob& blur) {
+  size_t rolling = 0;
+  uint32_t most = 2048;
+  for (size_t i = 0; i < table.places().size(); ++i) {
+    const auto& camera = table.config<CameraConfig>(i);
+    rolling += camera.rolling.any() ? 1 : 0;
+    most = std::min(most, (camera.height + 7) / 8);
+  }
+  if (rolling > 0) blur.skipped = "a rolling shutter draws its own instants";
+  if (rolling == 0 || rolling < table.places().size()) return;
+  std::vector<double> values;
+  for (uint32_t bands = 2; bands < most; bands *= 2) values.push_back(bands);
+  values.push_back(most);
+  table.add_numbers("rolling_shutter.bands", {"rolling_shutter", "bands"}, values,
+                    table.first<CameraConfig>().rolling.bands, "bands of rows, each at its own instant");
+}
+
 void add_camera(Table& table) {
   const auto& camera = table.first<CameraConfig>();
   add_resolution(table);
@@ -301,6 +321,7 @@ void add_camera(Table& table) {
                         camera.motion_blur_samples, "pictures that a blurred one is the mean of");
   const std::vector<YamlChange> shutter = with_shutter(table);
   if (!shutter.empty()) Table::within(blur, "with a shutter of 20 ms", shutter);
+  add_rolling_shutter(table, blur);
 }
 
 void add_events(Table& table) {

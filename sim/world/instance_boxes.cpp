@@ -31,8 +31,11 @@ std::vector<InstanceBox> instance_boxes(const World& world) {
       result.box.max += scene.origin;
       continue;
     }
-    if (const auto& joint = scene.bodies[instance.body].joint)
-      result.box = swept(result.box, joint->position);
+    // From joint to joint up to the body that carries them all.
+    for (uint32_t body = instance.body; scene.bodies[body].joint; body = scene.bodies[body].joint->owner) {
+      const scene::Joint& joint = *scene.bodies[body].joint;
+      result.box = joint.limited() ? joint.reach(result.box) : swept(result.box, joint.position);
+    }
     result.node = world.node_of_body[scene.owner_of(instance.body)];
   }
   return boxes;

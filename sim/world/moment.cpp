@@ -10,6 +10,7 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "sim/world/free_space.h"
+#include "sim/world/traffic.h"
 
 namespace greatx::sim {
 
@@ -18,48 +19,120 @@ Courses make_courses(const Scenario& scenario, const World& world, uint32_t sequ
   std::optional<WorldFreeSpace> space;
   if (std::ranges::any_of(scenario.nodes, [](const NodeConfig& node) { return clearance_of(node) > 0.0; }))
     space.emplace(scenario, world);
-  NodeCourses made = make_node_courses(scenario, sequence, space ? &*space : nullptr);
+  std::optional<WorldTraffic> traffic;
+  if (scenario.traffic && world.streets) traffic.emplace(scenario, world);
+  NodeCourses made =
+      make_node_courses(scenario, sequence, space ? &*space : nullptr, traffic ? &*traffic : nullptr);
   courses.nodes = std::move(made.courses);
   courses.draws = std::move(made.draws);
+  std::vector<bool> walks(courses.nodes.size());
   for (const Part& part : world.parts) {
-    const double start_turns = part.phase
-                                   ? *part.phase / (2.0 * pi)
-                                   : RandomStream(scenario.seed, fnv1a32(part.name), sequence).uniform();
-    courses.rotations.emplace_back(scenario.tick_rate_hz, part.rate, start_turns);
+    const uint32_t node = world.node_of_body[part.body];
+    const auto* limb = std::get_if<LimbConfig>(&part.motion);
+    const uint32_t stream = fnv1a32(limb != nullptr ? scenario.nodes[node].name + "/steps" : part.name);
+    const double start =
+        part.phase ? *part.phase / (2.0 * pi) : RandomStream(scenario.seed, stream, sequence).uniform();
+    courses.turns.push_back(make_part_turn(part.motion, scenario.tick_rate_hz, start));
+    if (limb == nullptr || limb->limb != Limb::thigh || walks[node]) continue;
+    walks[node] = true;
+    courses.nodes[node] = walking(std::move(courses.nodes[node]), Gait(limb->walker, start));
   }
   return courses;
 }
 
-Motion body_motion(const World& world, const Courses& courses, uint32_t body, double time_s) {
-  if (body == 0) return {};
-  GREATX_CHECK(body < world.node_of_body.size(), "body {} of {}", body, world.node_of_body.size());
-  Motion motion = courses.nodes[world.node_of_body[body]]->at(time_s);
-  motion.pose = world.scene.to_local(motion.pose);
-  if (!world.scene.bodies[body].joint) return motion;
-  const scene::Joint& joint = *world.scene.bodies[body].joint;
-  const Rotation& rotation = courses.rotations[world.part_of_body[body]];
+namespace {
+
+/// Returns the motion of a part from that of its carrier.
+Motion turned(Motion motion, const scene::Joint& joint, const Turned& turn) {
   const dvec3 arm = motion.pose.rotate(joint.position), spin = motion.pose.rotate(joint.axis);
   const dvec3 turning = motion.angular_velocity;
-  motion.pose = motion.pose * joint.pose(2.0 * pi * rotation.turns(time_s));
+  motion.pose = motion.pose * joint.pose(turn.value);
   motion.velocity += glm::cross(turning, arm);
   motion.acceleration += glm::cross(turning, glm::cross(turning, arm));
-  motion.angular_velocity += 2.0 * pi * rotation.rate_hz() * spin;
+  motion.angular_velocity += turn.rate * spin;
   return motion;
 }
 
-std::vector<Pose> body_poses(const World& world, const Courses& courses, double time_s) {
+/// How far nodes have travelled, found when it is first asked for.
+class Travels {
+ public:
+  Travels(const Courses& courses, double time_s) : courses_(courses), time_s_(time_s) {}
+  Turned turn(const PartTurn& turn, uint32_t node) {
+    if (turn.travels() && node != node_) {
+      node_ = node;
+      travel_ = courses_.nodes[node]->travel(time_s_);
+    }
+    return turn.at(travel_, time_s_);
+  }
+
+ private:
+  const Courses& courses_;
+  double time_s_;
+  uint32_t node_ = ~0u;
+  Travel travel_;
+};
+
+/// Returns the motions of all bodies from those of the nodes, world frame.
+std::vector<Motion> body_motions(const World& world, const Courses& courses, std::span<const Motion> nodes,
+                                 double time_s) {
+  std::vector<Motion> motions(world.scene.bodies.size());
+  Travels travels(courses, time_s);
+  for (uint32_t body = 1; body < motions.size(); ++body) {
+    const uint32_t node = world.node_of_body[body];
+    if (const auto& joint = world.scene.bodies[body].joint) {
+      const Turned turn = travels.turn(courses.turns[world.part_of_body[body]], node);
+      motions[body] = turned(motions[joint->owner], *joint, turn);
+    } else {
+      motions[body] = nodes[node];
+      motions[body].pose = world.scene.to_local(motions[body].pose);
+    }
+  }
+  return motions;
+}
+
+/// Returns the motion of a body by going up the chain of joints that carry it.
+Motion chain_motion(const World& world, const Courses& courses, uint32_t body, double time_s,
+                    Travels& travels) {
+  const uint32_t node = world.node_of_body[body];
+  if (const auto& joint = world.scene.bodies[body].joint)
+    return turned(chain_motion(world, courses, joint->owner, time_s, travels), *joint,
+                  travels.turn(courses.turns[world.part_of_body[body]], node));
+  Motion motion = courses.nodes[node]->at(time_s);
+  motion.pose = world.scene.to_local(motion.pose);
+  return motion;
+}
+
+std::vector<Pose> poses_of(std::span<const Motion> motions) {
   std::vector<Pose> poses;
-  for (uint32_t body = 0; body < world.scene.bodies.size(); ++body)
-    poses.push_back(body_motion(world, courses, body, time_s).pose);
+  for (const Motion& motion : motions) poses.push_back(motion.pose);
   return poses;
+}
+
+std::vector<Motion> node_motions(const Courses& courses, double time_s) {
+  std::vector<Motion> motions;
+  for (const auto& node : courses.nodes) motions.push_back(node->at(time_s));
+  return motions;
+}
+
+}  // namespace
+
+Motion body_motion(const World& world, const Courses& courses, uint32_t body, double time_s) {
+  if (body == 0) return {};
+  GREATX_CHECK(body < world.node_of_body.size(), "body {} of {}", body, world.node_of_body.size());
+  Travels travels(courses, time_s);
+  return chain_motion(world, courses, body, time_s, travels);
+}
+
+std::vector<Pose> body_poses(const World& world, const Courses& courses, double time_s) {
+  return poses_of(body_motions(world, courses, node_motions(courses, time_s), time_s));
 }
 
 Moment moment_at(const World& world, const Courses& courses, const Clock& clock, int64_t tick,
                  int64_t previous) {
   Moment moment;
   const double time_s = clock.seconds(tick);
-  for (const auto& node : courses.nodes) moment.motions.push_back(node->at(time_s));
-  moment.bodies = body_poses(world, courses, time_s);
+  moment.motions = node_motions(courses, time_s);
+  moment.bodies = poses_of(body_motions(world, courses, moment.motions, time_s));
   moment.context.tick = tick;
   moment.context.time_s = time_s;
   moment.context.previous_time_s =
@@ -70,6 +143,7 @@ Moment moment_at(const World& world, const Courses& courses, const Clock& clock,
   moment.context.body_motion_at = [&world, &courses](uint32_t body, double time) {
     return body_motion(world, courses, body, time);
   };
+  moment.context.body_poses_of = [&world, &courses](double time) { return body_poses(world, courses, time); };
   return moment;
 }
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "sim/scenario/clock.h"
-#include "sim/scenario/rotation.h"
 #include "sim/scenario/trajectory.h"
+#include "sim/world/part_turns.h"
 #include "sim/world/tick_context.h"
 #include "sim/world/world.h"
 
@@ -16,17 +16,17 @@ namespace greatx::sim {
 /// Describes the motion of everything in one sequence.
 struct Courses {
   std::vector<std::unique_ptr<Course>> nodes;
-  std::vector<uint32_t> draws;      ///< [nodes] as in NodeCourses
-  std::vector<Rotation> rotations;  ///< [World::parts]
+  std::vector<uint32_t> draws;  ///< [nodes] as in NodeCourses
+  std::vector<PartTurn> turns;  ///< [World::parts]
 };
 
 /// Makes the courses. Starts of parts that the scenario does not give are drawn from (seed, the part's name,
-/// sequence). Throws like make_node_courses.
+/// sequence), and those of limbs from (seed, the node's name, sequence). Throws like make_node_courses.
 Courses make_courses(const Scenario& scenario, const World& world, uint32_t sequence);
 
 /// Returns the motion of `body`: its pose is in local coordinates, and body 0 stands still. For a part it
-/// follows from its node's motion and its turn: the angular velocity is W + R a w, and the velocity of its
-/// origin is V + W x (R p). The acceleration leaves out that of the node's turning.
+/// follows from its carrier's motion and its turn: the angular velocity is W + R a w, and the velocity of its
+/// origin is V + W x (R p). The acceleration leaves out that of the carrier's turning.
 Motion body_motion(const World& world, const Courses& courses, uint32_t body, double time_s);
 
 /// Returns the poses of all bodies: local coordinates, index = body, [0] the identity.

@@ -12,12 +12,18 @@
 namespace greatx::sim {
 
 struct FoundPart {
-  scene::PartPlacement placement;      ///< with a name that is unique among the node's parts
-  const PartConfig* config = nullptr;  ///< the configuration in `node`, which outlives this
+  scene::PartPlacement placement;  ///< with a name that is unique among the node's parts
+  const PartConfig* config = nullptr;
 };
 
-/// Returns the parts in the model's order. Throws UserError if the model has no node of a given name (the
-/// message lists its nodes), if a node is named twice, or if one hangs on another.
-std::vector<FoundPart> find_parts(const NodeConfig& node, const scene::Model& model);
+/// Returns the parts that move by themselves: wheels and limbs of a generated vehicle or person in the
+/// scenario's traffic, and those that the node lists.
+std::vector<PartConfig> parts_of(const Scenario& scenario, const NodeConfig& node);
+
+/// Returns the parts in the model's order. `configs` outlive the result. Throws UserError if the model has
+/// no node of a given name (the message lists its nodes), or if a node is named twice. A part may hang on
+/// another.
+std::vector<FoundPart> find_parts(const NodeConfig& node, const std::vector<PartConfig>& configs,
+                                  const scene::Model& model);
 
 }  // namespace greatx::sim

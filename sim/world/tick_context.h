@@ -29,10 +29,14 @@ struct TickContext {
   /// the body's origin (same axes). Body 0 stands still at the identity. At time_s the poses are those of
   /// body_poses, to the bit.
   std::function<Motion(uint32_t body, double time_s)> body_motion_at;
+  /// Returns the poses of all bodies at any other time, as body_motion_at() does one by one; empty: not
+  /// given.
+  std::function<std::vector<Pose>(double time_s)> body_poses_of;
   Pose body_pose_at(uint32_t body, double at_s) const { return body_motion_at(body, at_s).pose; }
   /// Returns the poses of all bodies.
   std::vector<Pose> body_poses_at(double at_s) const {
     if (at_s == time_s) return {body_poses.begin(), body_poses.end()};
+    if (body_poses_of) return body_poses_of(at_s);
     std::vector<Pose> poses;
     for (uint32_t body = 0; body < body_poses.size(); ++body) poses.push_back(body_pose_at(body, at_s));
     return poses;

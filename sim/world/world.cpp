@@ -13,6 +13,7 @@
 #include "scene/generator/generate.h"
 #include "sim/world/parts.h"
 #include "sim/world/solids.h"
+#include "sim/world/traffic.h"
 
 namespace greatx::sim {
 
@@ -30,6 +31,23 @@ scene::Model load(const ModelSource& source, const SceneConfig& config) {
     throw_user_error_at(source.where, "{}", error.what());
   }
 }
+
+/// Loads the models of nodes. A generated one that several nodes have alike is made once.
+class GeneratedModels {
+ public:
+  scene::Model& load(const ModelSource& source, const SceneConfig& config, std::deque<scene::Model>& models) {
+    const auto* made = std::get_if<Generated>(&source.source);
+    if (made != nullptr)
+      for (const auto& [known, model] : known_)
+        if (known == *made) return *model;
+    models.push_back(sim::load(source, config));
+    if (made != nullptr) known_.emplace_back(*made, &models.back());
+    return models.back();
+  }
+
+ private:
+  std::vector<std::pair<Generated, scene::Model*>> known_;
+};
 
 std::optional<scene::SemanticClass> semantic_class(const std::optional<std::string>& name,
                                                    const SourceLocation& where) {
@@ -119,7 +137,7 @@ bool same_object(const StaticObject& a, const StaticObject& b) {
 }
 
 bool same_part(const PartConfig& a, const PartConfig& b) {
-  return std::tie(a.nodes, a.axis, a.rate, a.phase) == std::tie(b.nodes, b.axis, b.rate, b.phase);
+  return std::tie(a.nodes, a.axis, a.motion, a.phase) == std::tie(b.nodes, b.axis, b.motion, b.phase);
 }
 
 /// Whether the node puts the same model into the world, at the same place if it never moves.
@@ -173,7 +191,7 @@ bool same_world(const Scenario& a, const Scenario& b) {
          a.scene.georeference == b.scene.georeference && a.scene.radio_materials == b.scene.radio_materials &&
          a.scene.optical_only == b.scene.optical_only &&
          std::ranges::equal(a.scene.objects, b.scene.objects, same_object) &&
-         std::ranges::equal(a.nodes, b.nodes, same_body) && same_bodies(a, b);
+         std::ranges::equal(a.nodes, b.nodes, same_body) && same_bodies(a, b) && a.traffic == b.traffic;
 }
 
 void check_world(const Scenario& scenario, const World& world) {
@@ -189,6 +207,7 @@ World load_world(const Scenario& scenario) {
   for (const StaticObject& object : scenario.scene.objects) {
     models.push_back(load(object.model, scenario.scene));
     check_georeference(models.back(), object, scenario.scene);
+    if (scenario.traffic && !world.streets) world.streets = streets_of(scenario, models.back(), object);
     placements.push_back({object.name,
                           &models.back(),
                           {object.position_m, orientation_of(object.rotation)},
@@ -197,29 +216,31 @@ World load_world(const Scenario& scenario) {
                           semantic_class(object.semantic_class, object.model.where),
                           {}});
   }
+  GeneratedModels generated;
   for (size_t index = 0; index < scenario.nodes.size(); ++index) {
     const NodeConfig& node = scenario.nodes[index];
     const bool fixed_in_world = never_moves(scenario, index);
     if (!node.model) continue;
-    models.push_back(load(*node.model, scenario.scene));
-    if (models.back().georeference)
-      models.back().notes.push_back(fmt::format("{}: its georeference is not used, since node '{}' places it",
-                                                models.back().file.string(), node.name));
+    scene::Model& model = generated.load(*node.model, scenario.scene, models);
+    if (model.georeference)
+      model.notes.push_back(fmt::format("{}: its georeference is not used, since node '{}' places it",
+                                        model.file.string(), node.name));
     Pose pose{node.model_mount.position_m, orientation_of(node.model_mount.rotation)};
     if (fixed_in_world) {
       const auto& fixed = std::get<StaticTrajectory>(node.trajectory);
       pose = Pose{fixed.position_m, orientation_of(fixed.rotation)} * pose;
     }
     placements.push_back({node.name,
-                          &models.back(),
+                          &model,
                           pose,
                           node.model_scale,
                           !fixed_in_world,
                           semantic_class(node.semantic_class, node.where),
                           {}});
-    for (FoundPart& part : find_parts(node, models.back())) {
+    const std::vector<PartConfig> configs = parts_of(scenario, node);
+    for (FoundPart& part : find_parts(node, configs, model)) {
       world.parts.push_back(
-          {node.name + "/" + part.placement.name, 0, part.config->rate, part.config->phase});
+          {node.name + "/" + part.placement.name, 0, part.config->motion, part.config->phase});
       placements.back().parts.push_back(std::move(part.placement));
     }
   }
@@ -233,6 +254,7 @@ World load_world(const Scenario& scenario) {
   }
   find_bodies(world);
   check_radio(scenario, world.scene);
+  check_traffic(scenario, world);
   return world;
 }
 

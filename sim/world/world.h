@@ -15,13 +15,15 @@
 
 namespace greatx::sim {
 
-/// Describes a body that turns on its node's body: a rotor, a wheel.
+/// Describes a body that turns on its node's body, or on another part: a rotor, a wheel, a limb.
 struct Part {
   std::string name;  ///< the name of its body, NODE/PART, by which its start is drawn
   uint32_t body = 0;
-  TurnRate rate;
-  std::optional<double> phase;  ///< rad at tick 0; none: drawn
+  PartMotion motion;
+  std::optional<double> phase;  ///< rad at tick 0, or of a limb's cycle at the start; none: drawn
 };
+
+class Streets;
 
 class Solids;
 
@@ -55,6 +57,8 @@ struct World {
   /// since most runs ask nothing. Thread-safe.
   const Solids& solids() const { return made_solids.of(scene); }
   MadeSolids made_solids = {};
+  /// The streets on which the scenario's traffic moves; none: it has no traffic.
+  std::shared_ptr<const Streets> streets = {};
 };
 
 /// Loads and generates every model of the scenario. Throws UserError naming file, mesh or material. Parts

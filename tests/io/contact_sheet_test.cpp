@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "draw/sheet/contact_sheet.h"
 
+#include <algorithm>
+#include <limits>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -115,6 +117,71 @@ void write_cameras(const std::filesystem::path& folder, size_t count) {
   }
   writer.end_sequence();
   writer.finish();
+}
+
+/// Writes a data set of all sensors that navigate: the GNSS receiver has a fix at every second record only.
+void write_navigation(const std::filesystem::path& folder, const std::vector<int64_t>& position_shape = {3}) {
+  DatasetInfo info;
+  info.tick_rate = "10";
+  info.ticks_per_sequence = 6;
+  const auto sensor = [&](const char* kind, std::vector<ArraySpec> arrays) {
+    SensorSpec spec{fmt::format("car/{}", kind), kind, "10",
+                    std::move(arrays),           {},   R"({"non_finite": ["position"]})"};
+    for (const ArraySpec& array : spec.arrays)
+      spec.outputs.push_back(
+          {array.name, array.shape[0] < 0 ? FileFormat::npy_ragged : FileFormat::npy_stack, {array.name}});
+    info.sensors.push_back(std::move(spec));
+  };
+  sensor("imu", {{"time", DType::i64, {-1}, "ns", ""},
+                 {"specific_force", DType::f64, {-1, 3}, "m/s^2", ""},
+                 {"angular_rate", DType::f64, {-1, 3}, "rad/s", ""}});
+  sensor("gnss", {{"position", DType::f64, position_shape, "m", ""},
+                  {"position_true", DType::f64, {3}, "m", ""},
+                  {"satellite_state", DType::u8, {24}, "1", ""}});
+  sensor("barometer", {{"height", DType::f64, {1}, "m", ""}, {"height_true", DType::f64, {1}, "m", ""}});
+  sensor("magnetometer", {{"field", DType::f64, {3}, "T", ""}});
+  DatasetWriter writer(folder, info);
+  writer.begin_sequence(0);
+  for (int64_t tick = 0; tick < 6; ++tick) {
+    const int64_t samples = tick == 0 ? 1 : 5;
+    Array times(DType::i64, {samples}), force(DType::f64, {samples, 3}), rate(DType::f64, {samples, 3});
+    for (int64_t i = 0; i < samples; ++i) {
+      times.as<int64_t>()[static_cast<size_t>(i)] = 20'000'000 * (5 * tick - samples + 1 + i);
+      force.as<double>()[static_cast<size_t>(3 * i + 2)] = 9.8 + 0.1 * static_cast<double>(i);
+    }
+    Array measured(DType::f64, position_shape), truth(DType::f64, {3}), states(DType::u8, {24});
+    for (double& value : measured.as<double>())
+      value = tick % 2 == 0 ? std::numeric_limits<double>::quiet_NaN() : 3.0 + static_cast<double>(tick);
+    for (size_t i = 0; i < 24; ++i) states.as<uint8_t>()[i] = static_cast<uint8_t>(i % 4);
+    Array height(DType::f64, {1}), field(DType::f64, {3});
+    field.as<double>()[1] = 2e-5;
+    Packet packet{tick, tick * 100'000'000, {}};
+    packet.records.push_back({0, tick, packet.time_ns, tick, {times, force, rate}});
+    packet.records.push_back({1, tick, packet.time_ns, tick, {measured, truth, states}});
+    packet.records.push_back({2, tick, packet.time_ns, tick, {height, height}});
+    packet.records.push_back({3, tick, packet.time_ns, tick, {field}});
+    writer.write(std::move(packet));
+  }
+  writer.end_sequence();
+  writer.finish();
+}
+
+TEST(ContactSheet, ShowsSensorsThatNavigate) {
+  const test::TemporaryFolder folder;
+  write_navigation(folder.path() / "set");
+  const Canvas sheet = drawn_contact_sheet(DatasetReader(folder.path() / "set"));
+  std::set<std::string> texts;
+  for (const DrawnText& text : sheet.texts()) {
+    EXPECT_TRUE(text.whole) << text.text;
+    texts.insert(text.text);
+  }
+  for (const char* title :
+       {"car/imu: specific force", "car/imu: angular rate", "car/gnss: satellites",
+        "car/gnss: error of position", "car/barometer: height", "car/magnetometer: magnetic field"})
+    EXPECT_TRUE(texts.contains(title)) << title;
+  // A data set may give any array this name.
+  write_navigation(folder.path() / "wrong", {4});
+  EXPECT_THROW(contact_sheet(DatasetReader(folder.path() / "wrong"), 0), UserError);
 }
 
 /// Whatever the number of sensors, the length of names and the shape of pictures: no text covers another one

@@ -224,8 +224,7 @@ TEST(Reference, MirrorShowsWhatStandsBeforeIt) {
 }
 
 TEST(Reference, LaterRoughnessLeavesTheFirstMirrorSharp) {
-  // Mirror, mirror, glowing half space: only the second reflection is spread, and beyond the half space's
-  // rim.
+  // Mirror, mirror, glowing half space: only the second reflection is spread, beyond the half space's rim.
   scene::Material mirror = matt(1.0);
   mirror.pbr.metallic = 1.0f;
   mirror.pbr.roughness = 0.0f;

@@ -83,13 +83,15 @@ TEST(LidarAgainstDepth, NoiseAlongTheBeamAccountsForAsMuchAsItCan) {
   const auto error = [&](double off_m, double bound_m) {
     return lidar_against_depth(camera(), images, {point + off_m * beam, 1, 3, 0.0, beam, bound_m});
   };
-  // Within the bound everything is explained; beyond it, what is left is the way beyond it.
+  // Within the bound everything is explained; beyond it, what is left is the way beyond it: with n d = k a way
+  // of s changes the depth by k s / (1 + k s), and the bound explains k e / (1 - k e).
   for (const double off_m : {-0.199, -0.1, 0.0, 0.1, 0.199}) {
     ASSERT_TRUE(error(off_m, 0.2));
     EXPECT_LT(*error(off_m, 0.2), 1e-6) << off_m;
   }
   ASSERT_TRUE(error(0.3, 0.2));
-  EXPECT_NEAR(*error(0.3, 0.2), 0.1 * beam.x / point.x, 0.1 * 0.1 * beam.x / point.x);
+  const double k = glm::dot(normal, beam) / 9.0;
+  EXPECT_NEAR(*error(0.3, 0.2), 0.3 * k / (1.0 + 0.3 * k) - 0.2 * k / (1.0 - 0.2 * k), 1e-6);
   // A beam from the side moves the point over the picture: not compared.
   EXPECT_FALSE(lidar_against_depth(camera(), images, {point, 1, 3, 0.0, {0, 1, 0}, 1.0}));
   EXPECT_NEAR(RangeNoise({0.01, 0.3, 1e-9}).bound_m(1e-8), 6.0 * std::hypot(0.01, 0.03), 1e-12);

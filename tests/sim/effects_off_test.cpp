@@ -131,7 +131,7 @@ std::string switches_with(const std::set<std::string>& on) {
 std::string yard_scenario(Sensor sensor, const std::string& effects, uint32_t depth = 2, bool night = false) {
   std::string yaml =
       "greatx: 1\nname: yard\nseed: 5\nticks: 2\ntick_rate_hz: 10\n"
-      "environment: {rain_mm_h: 30, fog_g_m3: 0.1, " +
+      "environment: {rain_mm_h: 30, fog_g_m3: 0.1, snow: 0.5, " +
       std::string(night ? "sky: clear, sun: {azimuth_deg: 200, elevation_deg: -30}, moon: {azimuth_deg: 0, "
                           "elevation_deg: 12}"
                         : "sun: {azimuth_deg: 200, elevation_deg: 40, illuminance_lux: 5e4}") +
@@ -269,6 +269,11 @@ const std::map<std::string, Tried> tried{
     {"clouds", {camera_sensor, {"sky"}}},
     {"horizon", {camera_sensor, {"sky"}}},
     {"markings", {camera_sensor, {"sky"}}},
+    {"wet_surfaces", {camera_sensor, {"sky"}}},
+    {"snow_cover", {camera_sensor, {"sky"}}},
+    {"rain_streaks", {camera_sensor, {"sky"}}},
+    {"lamp_shadows", {camera_sensor, {"punctual_lights"}}},
+    {"lamp_halos", {camera_sensor, {"punctual_lights", "haze"}}},
     {"consistency", {camera_sensor, {}}},
     {"lidar_alpha_mask", {lidar_sensor, {}}},
     {"lidar_textures", {lidar_sensor, {}}},

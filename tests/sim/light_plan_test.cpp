@@ -130,5 +130,25 @@ TEST(LightPlan, RainBringsCloudsAndFogTakesTheShadows) {
   EXPECT_LT(thick.ground_lux(), resolve({}).ground_lux());
 }
 
+TEST(LightPlan, RainWetsTheGround) {
+  Environment e;
+  EXPECT_EQ(wetness_of(e), 0.0);
+  EXPECT_EQ(puddles_of(e), 0.0);
+  EXPECT_FALSE(resolve(e).water || resolve(e).rain || resolve(e).snow);
+  e.rain_mm_h = 1.0;
+  EXPECT_NEAR(wetness_of(e), 1.0 - std::exp(-1.0), 1e-12);
+  EXPECT_NEAR(puddles_of(e), 0.2 * std::pow(1.0 - std::exp(-1.0), 2.0), 1e-12);
+  EXPECT_TRUE(resolve(e).water && resolve(e).rain);
+  EXPECT_EQ(resolve(e).lighting.rain_mm_h, 1.0);
+  e.wetness = 0.0;
+  EXPECT_EQ(puddles_of(e), 0.0);
+  EXPECT_FALSE(resolve(e).water);
+  e.puddles = 0.3;
+  EXPECT_TRUE(resolve(e).water);
+  EXPECT_EQ(resolve(e).lighting.puddles, 0.3);
+  e.snow = 0.4;
+  EXPECT_TRUE(resolve(e).snow);
+}
+
 }  // namespace
 }  // namespace greatx::sim

@@ -115,11 +115,12 @@ TEST(Scenario, EverythingMoves) {
   const PartConfig &first = s.nodes[5].parts[0], &second = s.nodes[5].parts[1];
   EXPECT_EQ(first.nodes, (std::vector<std::string>{"rotor_0", "rotor_2"}));
   EXPECT_EQ(first.axis, dvec3(0, 0, 1));
-  EXPECT_EQ(first.rate.hz, (Rational{90, 1}));
-  EXPECT_FALSE(first.rate.negative || first.phase);
+  const auto &first_rate = std::get<TurnRate>(first.motion), &second_rate = std::get<TurnRate>(second.motion);
+  EXPECT_EQ(first_rate.hz, (Rational{90, 1}));
+  EXPECT_FALSE(first_rate.negative || first.phase);
   EXPECT_EQ(second.nodes, std::vector<std::string>{"rotor_[13]"});
-  EXPECT_EQ(second.rate.hz, (Rational{1000, 7}));
-  EXPECT_TRUE(second.rate.negative);
+  EXPECT_EQ(second_rate.hz, (Rational{1000, 7}));
+  EXPECT_TRUE(second_rate.negative);
   EXPECT_EQ(second.phase, radians(45.0));
 }
 

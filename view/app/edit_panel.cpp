@@ -43,7 +43,7 @@ const std::vector<std::string> knobs_of_channels{"candidates",
 const std::vector<std::string> knobs_of_sensors{
     "width",  "height",        "antialiasing", "motion_blur_samples", "steps",     "max_events_per_pixel",
     "beam",   "azimuth_steps", "channels",     "max_range_m",         "detection", "returns",
-    "echoes", "processing",    "device",       "samples_per_record",  "errors"};
+    "echoes", "processing",    "device",       "samples_per_record",  "errors",    "rolling_shutter"};
 
 std::string name_of(const FieldValue& item) {
   const auto member = std::ranges::find(item.members, "name", &FieldValue::Member::key);

@@ -76,7 +76,7 @@ void MainView::keep_names(const sim::Experiment& before, const sim::Experiment& 
   const std::string name = node.name + "/" + node.sensors.at(camera_->sensor).name;
   const std::optional<sim::SensorPlace> place = sim::find_sensor(nodes, name);
   camera_.reset();
-  if (place && sim::pinhole_config(nodes[place->node].sensors[place->sensor]) != nullptr)
+  if (place && apps::can_look_through(nodes[place->node].sensors[place->sensor]))
     camera_ = apps::CameraName{place->node, place->sensor};
 }
 

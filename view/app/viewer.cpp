@@ -583,7 +583,7 @@ class Viewer {
       const sim::NodeConfig& node = experiment.scenario.nodes[n];
       for (const sim::SensorConfig& sensor : node.sensors) {
         const std::string name = node.name + "/" + sensor.name;
-        if (sim::pinhole_config(sensor) != nullptr)
+        if (apps::can_look_through(sensor))
           commands_.add({"camera " + name,
                          "View",
                          "Through " + name,

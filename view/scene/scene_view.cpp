@@ -67,7 +67,7 @@ class Renderer {
         device_(options),
         gpu_scene_(device_, experiment->scene(), sim::gpu_scene_options(plan_)),
         ring_(device_, 2, upload_bytes, readback_bytes),
-        lighting_(gpu_scene_, sim::lighting_of(experiment->scenario.environment),
+        lighting_(gpu_scene_, sim::lighting_of(experiment->scenario.environment, experiment->plan),
                   sim::camera_effects(plan_)) {}
 
   std::shared_ptr<const ScenePicture> draw(const SceneRequest& request) {

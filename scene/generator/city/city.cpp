@@ -14,6 +14,7 @@
 #include "core/units.h"
 #include "scene/generator/city/city_buildings.h"
 #include "scene/generator/city/city_ground.h"
+#include "scene/generator/city/city_network.h"
 #include "scene/generator/mesh/materials.h"
 #include "scene/generator/objects/objects.h"
 #include "scene/generator/objects/street_furniture.h"
@@ -60,14 +61,20 @@ class CityFurniture {
                       .shine = {0.0, 0.0, -1.0}});
   }
   void car(const dvec2& where, double yaw, RandomStream& random) {
-    static constexpr std::array<const char*, 10> paints{"white", "silver", "red",    "blue", "black",
-                                                        "grey",  "green",  "silver", "sand", "grey"};
-    const size_t pick = random.below(13);
-    const std::string variant = pick < 10 ? "hatchback" : "van";
-    const std::string paint = pick < 10 ? paints[pick] : pick == 10 ? "yellow" : "white";
+    static constexpr std::array<const char*, 13> kinds{
+        "hatchback", "compact", "saloon",    "estate", "suv",       "mini", "mpv",
+        "coupe",     "compact", "hatchback", "van",    "panel_van", "suv"};
+    static constexpr std::array<const char*, 5> paints{"white", "silver", "grey", "black", "blue"};
+    static constexpr std::array<const char*, 4> rare{"red", "navy", "bronze", "green"};
+    const uint32_t kind = random.below(13);
+    const std::string variant = kinds[kind];
+    // Every body comes in two paints, so that the cars of a city share few meshes.
+    const bool common = random.below(3) > 0;
+    const bool van = variant == "van" || variant == "panel_van";
+    const std::string paint = van ? "white" : common ? paints[kind % 5] : rare[kind % 4];
     place(
         "car", fmt::format("parked_{}_{}", variant, paint),
-        [&] { return make_car(variant, "car_paint_" + paint, false); }, dvec3(where, 0.0), yaw,
+        [&] { return make_parked_car(variant, "car_paint_" + paint); }, dvec3(where, 0.0), yaw,
         SemanticClass::vehicle);
   }
   void bench(const dvec2& where, double z, double yaw) {
@@ -242,7 +249,9 @@ void write_city(SceneWriter& writer, double size_m, uint64_t seed) {
     writer.add_node({.name = name, .mesh = writer.add_mesh(name, mesh), .semantic_class = semantic_class});
   };
   MeshBuilder base, road, markings;
-  add_streets(plan, seed, road, markings);
+  add_streets(plan, road, markings);
+  writer.set_scene_extras(
+      fmt::format(R"({{"{}": {}}})", street_network_key, street_network_json(city_network(plan))));
   add_base(plan, base);
   add("road", road, SemanticClass::road);
   add("lane_markings", markings, SemanticClass::lane_marking);

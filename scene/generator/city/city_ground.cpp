@@ -54,10 +54,9 @@ Row zebra_row(double width) {
 }
 
 /// Makes the rows between the two ends of the frame, which are `length` apart.
-std::vector<Row> make_rows(const Street& street, double length, double width, RandomStream& random) {
+std::vector<Row> make_rows(const Street& street, double length, double width) {
   const Row plain = make_row(1.5, width, {});
-  const auto crossing = [&](bool junction) { return junction && (street.avenue || random.uniform() >= 0.5); };
-  const bool head = crossing(street.junction[0]), tail = crossing(street.junction[1]);
+  const bool head = street.crossing[0], tail = street.crossing[1];
   // Traffic keeps to the right. It stops before the crossing at the far end on the right half, and before the
   // one at the near end on the left half.
   const double rim = 0.35 / width, middle = 0.2 / width;
@@ -113,12 +112,12 @@ void zip(MeshBuilder& mesh, int material, const Lane& lane, const Chain& low, co
   }
 }
 
-void add_street(const Street& street, RandomStream& random, MeshBuilder& road, MeshBuilder& markings) {
+void add_street(const Street& street, MeshBuilder& road, MeshBuilder& markings) {
   const double length =
       0.5 * (glm::length(street.left[1] - street.left[0]) + glm::length(street.right[1] - street.right[0]));
   const double width =
       0.5 * (glm::length(street.left[0] - street.right[0]) + glm::length(street.left[1] - street.right[1]));
-  const std::vector<Row> rows = make_rows(street, length - 2.0 * frame_end_m, width, random);
+  const std::vector<Row> rows = make_rows(street, length - 2.0 * frame_end_m, width);
   const int asphalt = material("asphalt"), paint = material("road_marking");
 
   const dvec2 start_middle = 0.5 * (street.left[0] + street.right[0]);
@@ -166,11 +165,10 @@ void add_street(const Street& street, RandomStream& random, MeshBuilder& road, M
 
 }  // namespace
 
-void add_streets(const CityPlan& plan, uint64_t seed, MeshBuilder& road, MeshBuilder& markings) {
-  RandomStream random(seed, 2);
+void add_streets(const CityPlan& plan, MeshBuilder& road, MeshBuilder& markings) {
   for (const std::vector<dvec2>& outline : plan.junctions)
     road.flat_polygon(material("asphalt"), outline, 0.0, true);
-  for (const Street& street : plan.streets) add_street(street, random, road, markings);
+  for (const Street& street : plan.streets) add_street(street, road, markings);
 }
 
 void add_block_ground(const Block& block, int surface, MeshBuilder& pavement, MeshBuilder& courtyard) {

@@ -12,7 +12,7 @@ inline constexpr double pavement_height_m = 0.15;
 
 /// Adds streets and junctions at z = 0. Lane markings and zebra crossings are cut into the same plane instead
 /// of lying over it, so that radio sees one flat road.
-void add_streets(const CityPlan& plan, uint64_t seed, MeshBuilder& road, MeshBuilder& markings);
+void add_streets(const CityPlan& plan, MeshBuilder& road, MeshBuilder& markings);
 
 /// Adds the pavement of one block with its kerb, and the land inside the pavement with the material
 /// `surface`.

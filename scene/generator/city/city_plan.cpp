@@ -123,7 +123,8 @@ CityPlan plan_city(double size_m, uint64_t seed) {
       plan.streets.push_back({{west.edge_start(1), west.edge_end(1)},
                               {east.edge_end(3), east.edge_start(3)},
                               across[static_cast<size_t>(i)].avenue,
-                              {row > 0, row + 1 < n}});
+                              {row > 0, row + 1 < n},
+                              {}});
     }
   for (int j = 1; j < n; ++j)
     for (int column = 0; column < n; ++column) {  // eastwards
@@ -131,8 +132,13 @@ CityPlan plan_city(double size_m, uint64_t seed) {
       plan.streets.push_back({{north.edge_start(0), north.edge_end(0)},
                               {south.edge_end(2), south.edge_start(2)},
                               along[static_cast<size_t>(j)].avenue,
-                              {column > 0, column + 1 < n}});
+                              {column > 0, column + 1 < n},
+                              {}});
     }
+  RandomStream crossings(seed, 2);
+  for (Street& street : plan.streets)
+    for (const int end : {0, 1})
+      street.crossing[end] = street.junction[end] && (street.avenue || crossings.uniform() >= 0.5);
   for (int i = 1; i < n; ++i)
     for (int j = 1; j < n; ++j) plan.junctions.push_back(junction_outline(plan, i, j));
   return plan;

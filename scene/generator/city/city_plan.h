@@ -35,6 +35,7 @@ struct Street {
   dvec2 left[2], right[2];
   bool avenue = false;
   bool junction[2] = {false, false};  ///< whether the street ends at a junction
+  bool crossing[2] = {false, false};  ///< whether a zebra crosses the street there
 };
 
 struct CityPlan {

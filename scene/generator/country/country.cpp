@@ -320,7 +320,7 @@ void Country::add_farms() {
     const dvec2 at = farm.center + scale * (-1.5 * along - 7.0 * across);
     const bool van = f == 1;
     const int mesh = shared(van ? "parked_van" : "parked_car", [&] {
-      return van ? make_car("van", "car_paint_white", false) : make_car("hatchback", "car_paint_blue", false);
+      return van ? make_parked_car("van", "car_paint_white") : make_parked_car("estate", "car_paint_blue");
     });
     writer_.add_node({.name = fmt::format("car_{:03}", f),
                       .mesh = mesh,

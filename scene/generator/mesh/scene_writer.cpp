@@ -60,6 +60,9 @@ int SceneWriter::add_node(const NodeSpec& node) {
   out.mesh = node.mesh;
   out.parent = node.parent;
   out.pose = {snap(node.position), node.yaw != 0.0 ? turn_about_z(node.yaw) : Pose{}.orientation};
+  if (node.pitch != 0.0)
+    out.pose.orientation =
+        out.pose.orientation * dquat(std::cos(node.pitch / 2), 0.0, std::sin(node.pitch / 2), 0.0);
   if (node.scale != 1.0) out.scale = snap(node.scale);
   out.light = node.light;
   out.aim = node.shine;
@@ -129,7 +132,7 @@ void SceneWriter::add_material(int library_index) {
 
 std::vector<std::byte> SceneWriter::finish(const std::string& scene_name,
                                            const std::string& scene_extras_json) {
-  return file_.finish(scene_name, scene_extras_json);
+  return file_.finish(scene_name, scene_extras_json.empty() ? scene_extras_ : scene_extras_json);
 }
 
 }  // namespace greatx::scene::generator

@@ -23,6 +23,7 @@ struct NodeSpec {
   int mesh = -1;        ///< from add_mesh; -1: none
   dvec3 position{0.0};  ///< m, z up, in the parent's frame
   double yaw = 0.0;     ///< rad about z
+  double pitch = 0.0;   ///< rad about y, before the yaw
   double scale = 1.0;
   SemanticClass semantic_class = SemanticClass::unlabeled;
   int parent = -1;     ///< from add_node; -1: the scene
@@ -55,6 +56,8 @@ class SceneWriter {
   int add_mesh(const std::string& name, std::span<const PrimitiveData> primitives);
   int add_node(const NodeSpec& node);
   int add_light(const LightSpec& light);
+  /// Sets the extras of the scene for a finish() that gives none: JSON, or empty.
+  void set_scene_extras(std::string json) { scene_extras_ = std::move(json); }
   /// Returns the bytes of the whole file.
   std::vector<std::byte> finish(const std::string& scene_name, const std::string& scene_extras_json = "");
 
@@ -76,6 +79,7 @@ class SceneWriter {
   std::map<int, int> materials_;  ///< library index -> glTF material
   std::map<std::string, TextureMaps> maps_;
   std::map<std::string, Textures> textures_;
+  std::string scene_extras_;
 };
 
 }  // namespace greatx::scene::generator

@@ -4,164 +4,104 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
-#include "core/units.h"
+#include "core/random.h"
 #include "scene/generator/mesh/materials.h"
+#include "scene/generator/objects/box_body.h"
+#include "scene/generator/objects/car_body.h"
+#include "scene/generator/objects/two_wheelers.h"
 
 namespace greatx::scene::generator {
 
 namespace {
 
-/// Adds a pair of wheels as one octagonal prism from side to side. The body hides the part within it.
-void add_axle(MeshBuilder& mesh, double x, double radius, double half_track, bool rims) {
-  const auto disc = [&](double r) {
-    std::vector<dvec2> profile = regular_polygon(8, r, dvec2(x, radius), pi / 8);
-    return profile;
-  };
-  mesh.prism_along_y(material("tyre"), disc(radius), -half_track, half_track);
-  if (rims)
-    mesh.prism_along_y(material("wheel_rim"), disc(0.6 * radius), -half_track - 0.015, half_track + 0.015);
+constexpr uint32_t paint_stream = 80;
+
+/// Returns the paints of a variant. A paint that occurs twice is twice as frequent. The shares of cars are
+/// about those of new cars in Europe: half of them white, grey or black.
+std::vector<const char*> paints_of(const std::string& variant) {
+  if (variant == "taxi") return {"ivory"};
+  if (variant == "fire_engine") return {"red"};
+  if (variant == "ambulance") return {"white", "yellow"};
+  if (variant == "panel_van" || variant == "box_truck" || variant == "minibus" || variant == "van")
+    return {"white", "white", "white", "silver", "grey", "navy", "red", "yellow"};
+  if (variant == "city_bus" || variant == "tram") return {"red", "yellow", "white", "green", "blue"};
+  if (variant == "double_decker") return {"red"};
+  if (variant == "coach") return {"white", "silver", "bronze", "blue"};
+  if (variant == "lorry" || variant == "articulated_lorry" || variant == "tipper")
+    return {"white", "red", "blue", "orange", "silver"};
+  return {"white", "silver", "grey", "black", "grey",   "silver", "white", "black",
+          "blue",  "red",    "navy", "grey",  "bronze", "green",  "sand",  "orange"};
 }
 
-/// Adds a frustum with glass all around and a roof. Edges of opposite faces are parallel, so that every face
-/// is planar.
-void add_cabin(MeshBuilder& mesh, int roof, double z0, double z1, const dvec2& x0, const dvec2& x1, double y0,
-               double y1) {
-  const int glass = material("car_glass");
-  const std::array<dvec3, 4> low{dvec3(x0.x, -y0, z0), dvec3(x0.y, -y0, z0), dvec3(x0.y, y0, z0),
-                                 dvec3(x0.x, y0, z0)};
-  const std::array<dvec3, 4> high{dvec3(x1.x, -y1, z1), dvec3(x1.y, -y1, z1), dvec3(x1.y, y1, z1),
-                                  dvec3(x1.x, y1, z1)};
-  for (size_t i = 0; i < 4; ++i) mesh.quad(glass, low[i], low[(i + 1) % 4], high[(i + 1) % 4], high[i]);
-  mesh.quad(roof, high[0], high[1], high[2], high[3]);
-  mesh.quad(roof, low[3], low[2], low[1], low[0]);
+int paint_of(const std::string& variant, uint64_t seed) {
+  const std::vector<const char*> paints = paints_of(variant);
+  const VehicleShape& shape = vehicle_shape(variant);
+  // Variants of one seed do not all get the same paint.
+  RandomStream random(seed, paint_stream, static_cast<uint32_t>(&shape - vehicle_shapes().data()));
+  return material(std::string("car_paint_") + paints[random.below(static_cast<uint32_t>(paints.size()))]);
 }
 
-/// Adds head lights at height z.x and tail lights at z.y, slightly proud of the body. They are dark unless
-/// `on`.
-void add_lights(MeshBuilder& mesh, double front, double rear, double half_width, const dvec2& z, bool on) {
-  const int head = material(on ? "headlight" : "headlight_off"),
-            tail = material(on ? "tail_light" : "tail_light_off");
-  for (const double side : {-1.0, 1.0}) {
-    const double y0 = side > 0 ? half_width - 0.42 : -half_width + 0.04;
-    mesh.box(head, {front - 0.2, y0, z.x}, {front + 0.015, y0 + 0.38, z.x + 0.11});
-    mesh.box(tail, {rear - 0.015, y0, z.y}, {rear + 0.15, y0 + 0.38, z.y + 0.14});
-  }
+double tyre_width(const VehicleShape& shape) {
+  const double radius = shape.wheels.front().radius_m;
+  if (shape.variant == "tram") return 0.12;
+  return radius > 0.45 ? 0.30 : radius > 0.4 ? 0.24 : 0.205;
 }
 
-/// Adds a closed box that leans: its floor [low, high] is at height low.z, and its top is moved by `shift`.
-void add_leaning_box(MeshBuilder& mesh, int material, const dvec3& low, const dvec2& high,
-                     const dvec3& shift) {
-  const std::array<dvec3, 4> floor{low, dvec3(high.x, low.y, low.z), dvec3(high, low.z),
-                                   dvec3(low.x, high.y, low.z)};
-  for (size_t i = 0; i < 4; ++i) {
-    const dvec3 a = floor[i], b = floor[(i + 1) % 4];
-    mesh.quad(material, a, b, b + shift, a + shift);
-  }
-  mesh.quad(material, floor[3], floor[2], floor[1], floor[0]);
-  mesh.quad(material, floor[0] + shift, floor[1] + shift, floor[2] + shift, floor[3] + shift);
+/// Returns the material of the outer face of a vehicle's wheels.
+int wheel_face(const VehicleShape& shape) {
+  const bool steel = !is_car(shape.variant) && shape.variant != "pickup";
+  return material(steel ? "wheel_steel" : "wheel_alloy");
 }
 
-/// Adds the pillars of the hatchback's cabin, on its glass, and the mirrors.
-void add_pillars(MeshBuilder& mesh, int paint) {
-  struct Pillar {
-    double x0, x1, lean;
-  };
-  for (const Pillar& p : {Pillar{1.02, 1.11, -0.79}, Pillar{-0.33, -0.25, 0.0}, Pillar{-1.88, -1.7, 0.347}})
-    for (const double side : {-1.0, 1.0}) {
-      const double y0 = side > 0 ? 0.76 : -0.835;
-      add_leaning_box(mesh, paint, {p.x0, y0, 0.91}, {p.x1, y0 + 0.075}, {p.lean, -0.193 * side, 0.53});
-    }
-  for (const double y : {-1.0, 0.84}) mesh.box(paint, {0.72, y, 0.93}, {0.84, y + 0.16, 1.06});
-}
-
-MeshBuilder make_hatchback(int paint, bool detailed) {
-  MeshBuilder mesh;
-  const std::vector<dvec2> profile{{-1.93, 0.24}, {1.9, 0.24},   {1.98, 0.36},  {1.98, 0.62}, {1.86, 0.76},
-                                   {0.98, 0.93},  {-1.82, 0.97}, {-1.98, 0.86}, {-1.98, 0.4}};
-  mesh.prism_along_y(paint, profile, -0.86, 0.86);
-  add_cabin(mesh, paint, 0.90, 1.45, {-1.86, 1.1}, {-1.5, 0.28}, 0.82, 0.62);
-  add_axle(mesh, 1.22, 0.31, 0.875, detailed);
-  add_axle(mesh, -1.26, 0.31, 0.875, detailed);
-  add_lights(mesh, 1.98, -1.98, 0.86, {0.485, 0.67}, detailed);
-  if (!detailed) return mesh;
-  mesh.box(material("bumper"), {1.8, -0.7, 0.30}, {2.01, 0.7, 0.44});
-  mesh.box(material("bumper"), {-2.01, -0.7, 0.30}, {-1.8, 0.7, 0.44});
-  mesh.box(material("number_plate"), {-1.99, -0.26, 0.52}, {-1.9, 0.26, 0.63});
-  add_pillars(mesh, paint);
-  mesh.box(paint, {-1.52, -0.635, 1.41}, {0.31, 0.635, 1.47});
-  return mesh;
-}
-
-MeshBuilder make_van(int paint, bool detailed) {
-  MeshBuilder mesh;
-  const std::vector<dvec2> profile{{-2.55, 0.28}, {2.5, 0.28},  {2.62, 0.42}, {2.62, 0.78}, {2.5, 0.98},
-                                   {1.72, 1.16},  {1.38, 1.16}, {1.1, 2.18},  {-2.6, 2.2},  {-2.62, 0.45}};
-  mesh.prism_along_y(paint, profile, -0.96, 0.96);
-  add_cabin(mesh, paint, 1.12, 2.05, {0.2, 1.74}, {0.2, 1.18}, 0.975, 0.965);
-  add_axle(mesh, 1.68, 0.34, 0.975, detailed);
-  add_axle(mesh, -1.62, 0.34, 0.975, detailed);
-  add_lights(mesh, 2.62, -2.62, 0.96, {0.62, 0.9}, detailed);
-  if (!detailed) return mesh;
-  for (const double side : {-1.0, 1.0}) {  // sills and mirrors
-    const double y0 = side > 0 ? 0.9 : -0.972;
-    mesh.box(material("bumper"), {-1.2, y0, 0.3}, {1.25, y0 + 0.072, 0.4});
-    mesh.box(material("bumper"), {1.3, side > 0 ? 0.9 : -1.14, 1.2}, {1.4, side > 0 ? 1.14 : -0.9, 1.45});
-  }
-  mesh.box(material("bumper"), {2.4, -0.85, 0.32}, {2.66, 0.85, 0.5});
-  mesh.box(material("bumper"), {-2.66, -0.85, 0.32}, {-2.4, 0.85, 0.5});
-  mesh.box(material("number_plate"), {-2.635, -0.26, 0.6}, {-2.5, 0.26, 0.71});
-  mesh.box(material("car_glass"), {-2.63, -0.75, 1.3}, {-2.5, 0.75, 1.9});
-  return mesh;
+VehicleBody make_body(const VehicleShape& shape, int paint) {
+  return is_car(shape.variant) ? make_car_body(shape, paint, true) : make_box_body(shape, paint);
 }
 
 }  // namespace
 
-MeshBuilder make_car(const std::string& variant, const std::string& paint, bool detailed) {
-  return variant == "van" ? make_van(material(paint), detailed) : make_hatchback(material(paint), detailed);
+MeshBuilder make_parked_car(const std::string& variant, const std::string& paint) {
+  const VehicleShape& shape = vehicle_shape(variant);
+  VehicleBody body = make_car_body(shape, material(paint), false);
+  for (size_t i = 0; i < shape.wheels.size(); i += 2)
+    add_axle(body.mesh, shape.wheels[i].hub_m, shape.wheels[i].radius_m, tyre_width(shape),
+             wheel_face(shape));
+  return std::move(body.mesh);
 }
 
-namespace {
-
-/// Returns the low beam: 12 000 cd within 3 degrees of an axis 1.5 degrees below the horizon. The intensity
-/// falls to zero at 25 degrees from the axis, which is 23.5 degrees above the horizon.
-LightSpec low_beam() {
-  return {.color = head_lamp_color,
-          .intensity_cd = 12000.0,
-          .range_m = 60.0,
-          .inner_cone = 3.0 * pi / 180.0,
-          .outer_cone = 25.0 * pi / 180.0};
+void write_vehicle(SceneWriter& writer, const std::string& variant, uint64_t seed) {
+  const VehicleShape& shape = vehicle_shape(variant);
+  if (shape.two_wheeler) return write_two_wheeler(writer, shape, seed);
+  const VehicleBody body = make_body(shape, paint_of(variant, seed));
+  const int root = writer.add_node({.name = variant,
+                                    .mesh = writer.add_mesh(variant, body.mesh),
+                                    .semantic_class = SemanticClass::vehicle});
+  std::array<int, 2> meshes{-1, -1};  // left, right
+  for (size_t i = 0; i < shape.wheels.size(); ++i) {
+    const VehicleShape::Wheel& wheel = shape.wheels[i];
+    int& mesh = meshes[i % 2];
+    if (mesh < 0)
+      mesh = writer.add_mesh(i % 2 == 0 ? "wheel_left" : "wheel_right",
+                             make_wheel(wheel.radius_m, tyre_width(shape), wheel_face(shape), i % 2 == 0));
+    writer.add_node({.name = wheel.node,
+                     .mesh = mesh,
+                     .position = wheel.hub_m,
+                     .semantic_class = SemanticClass::vehicle,
+                     .parent = root});
+  }
+  add_vehicle_lights(writer, body, root);
 }
-
-/// Returns the light of both tail lights together, behind the car. Position lights give some 5 cd each.
-LightSpec tail_glow() {
-  // signal red, luminance 1
-  return {.color = vec3(4.6f, 0.025f, 0.055f), .intensity_cd = 5.0, .range_m = 4.0};
-}
-
-}  // namespace
 
 void write_car(SceneWriter& writer, const std::string& variant) {
-  const bool van = variant == "van";
-  const int car = writer.add_node(
-      {.name = "car",
-       .mesh = writer.add_mesh(variant, make_car(variant, van ? "car_paint_white" : "car_paint_red", true)),
-       .semantic_class = SemanticClass::vehicle});
-  const double front = van ? 2.62 : 1.98, half_width = van ? 0.96 : 0.86, head_z = van ? 0.675 : 0.54,
-               tail_z = van ? 0.97 : 0.74;
-  const int beam = writer.add_light(low_beam()), glow = writer.add_light(tail_glow());
-  const double tilt = 1.5 * pi / 180.0;
-  for (const double side : {1.0, -1.0}) {
-    const std::string suffix = side > 0.0 ? "_left" : "_right";
-    const double y = side * (half_width - 0.23);
-    writer.add_node({.name = "head_lamp" + suffix,
-                     .position = {front + 0.03, y, head_z},
-                     .parent = car,
-                     .light = beam,
-                     .shine = {std::cos(tilt), 0.0, -std::sin(tilt)}});
-    writer.add_node(
-        {.name = "tail_lamp" + suffix, .position = {-front - 0.05, y, tail_z}, .parent = car, .light = glow});
-  }
+  const VehicleShape& shape = vehicle_shape(variant);
+  VehicleBody body = make_body(shape, material(variant == "van" ? "car_paint_white" : "car_paint_red"));
+  for (size_t i = 0; i < shape.wheels.size(); ++i)
+    body.mesh.append(make_wheel(shape.wheels[i].radius_m, tyre_width(shape), wheel_face(shape), i % 2 == 0),
+                     shape.wheels[i].hub_m);
+  const int root = writer.add_node(
+      {.name = "car", .mesh = writer.add_mesh(variant, body.mesh), .semantic_class = SemanticClass::vehicle});
+  add_vehicle_lights(writer, body, root);
 }
 
 }  // namespace greatx::scene::generator

@@ -189,6 +189,10 @@ TextureMaps make_texture(const std::string& name) {
       {"facade_balcony", facade_balcony},
       {"dormer", dormer},
       {"poster", poster},
+      {"car_side", car_side},
+      {"face", face},
+      {"wheel_alloy", wheel_alloy},
+      {"wheel_steel", wheel_steel},
   };
   const auto found = painters.find(name);
   GREATX_CHECK(found != painters.end(), "no texture called \"{}\"", name);

@@ -62,4 +62,13 @@ TextureMaps poster();
 /// Paints the front of a dormer, 1.5 m x 1.6 m.
 TextureMaps dormer();
 
+/// Paints the side of a car in shades of white: joints, handles and dirt of four doors in the upper half, of
+/// two doors in the lower half. The corners are blank.
+TextureMaps car_side();
+// These functions paint wheels as seen from their side: the circle of the tyre touches the picture's edges.
+TextureMaps wheel_alloy();
+TextureMaps wheel_steel();
+/// Paints a face from the chin to the brow, in shades of a white skin.
+TextureMaps face();
+
 }  // namespace greatx::scene::generator

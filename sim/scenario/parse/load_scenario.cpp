@@ -110,7 +110,7 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   if (!root.is_map())
     root.fail("a scenario: a map with 'greatx: 1', 'name', 'ticks' and others (docs/scenario.md)");
   const FieldMap map(root, {"greatx", "name", "seed", "sequences", "duration_s", "ticks", "trajectory_ticks",
-                            "tick_rate_hz", "scene", "environment", "nodes", "channels", "effects",
+                            "tick_rate_hz", "scene", "environment", "traffic", "nodes", "channels", "effects",
                             "tolerance_db", "accuracy", "time_budget_ms_per_tick", "storage"});
   map.require("greatx", "1 (the format's version)").choice({"1"});
 
@@ -123,8 +123,10 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   if (const auto f = map.find("scene")) scenario.scene = parse_scene(*f);
   if (const auto f = map.find("environment"))
     scenario.environment = parse_environment(*f, scenario.scene.georeference, scenario.warnings);
+  if (const auto f = map.find("traffic"))
+    scenario.nodes = parse_traffic(*f, scenario.seed, scenario.traffic.emplace());
   if (const auto f = map.find("nodes"))
-    scenario.nodes = parse_nodes(*f, scenario.tick_rate_hz, EarthPositions(scenario.scene));
+    scenario.nodes = parse_nodes(*f, scenario.tick_rate_hz, EarthPositions(scenario.scene), scenario.nodes);
   if (const auto f = map.find("channels")) {
     scenario.channels = parse_channels(*f, scenario.tick_rate_hz, scenario.nodes);
     if (scenario.scene.optical_only && !scenario.channels.empty())

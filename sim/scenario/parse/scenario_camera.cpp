@@ -178,6 +178,7 @@ CameraConfig parse_camera(const FieldMap& map) {
   }
   if (const auto f = map.find("vignetting")) camera.vignetting = parse_vignetting(*f);
   if (const auto f = map.find("noise")) camera.noise = parse_noise(*f);
+  if (const auto f = map.find("glare")) camera.glare = f->between(0.0, 0.5);
   if (const auto f = map.find("outputs")) parse_outputs(*f, camera);
   if (const auto f = map.find("box_classes")) {
     if (!camera.boxes) f->fail("'boxes' among the outputs");

@@ -95,9 +95,10 @@ void parse_moon(const Field& field, Environment& environment) {
 
 Environment parse_environment(const Field& field, const std::optional<Georeference>& scene,
                               std::vector<std::string>& warnings) {
-  const FieldMap map(field, {"place", "time", "sun", "moon", "sky", "sky_illuminance_lux", "sky_glow_cd_m2",
-                             "turbidity", "clouds", "horizon", "temperature_k", "pressure_hpa",
-                             "water_vapour_g_m3", "rain_mm_h", "fog_g_m3", "fog_height_m"});
+  const FieldMap map(
+      field, {"place", "time", "sun", "moon", "sky", "sky_illuminance_lux", "sky_glow_cd_m2", "turbidity",
+              "clouds", "horizon", "temperature_k", "pressure_hpa", "water_vapour_g_m3", "rain_mm_h",
+              "fog_g_m3", "fog_height_m", "wetness", "puddles", "snow"});
   Environment environment;
   const auto time = map.find("time");
   if (const auto f = map.find("place")) {
@@ -129,6 +130,9 @@ Environment parse_environment(const Field& field, const std::optional<Georeferen
   if (const auto f = map.find("rain_mm_h")) environment.rain_mm_h = f->between(0.0, 1000.0);
   if (const auto f = map.find("fog_g_m3")) environment.fog_g_m3 = f->between(0.0, 10.0);
   if (const auto f = map.find("fog_height_m")) environment.fog_height_m = f->between(0.0, 10000.0);
+  if (const auto f = map.find("wetness")) environment.wetness = f->between(0.0, 1.0);
+  if (const auto f = map.find("puddles")) environment.puddles = f->between(0.0, 1.0);
+  if (const auto f = map.find("snow")) environment.snow = f->between(0.0, 1.0);
   return environment;
 }
 

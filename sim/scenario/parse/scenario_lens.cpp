@@ -68,9 +68,8 @@ RollingShutter parse_rolling_shutter(const Field& field, uint32_t height) {
   RollingShutter rolling;
   rolling.readout_s =
       map.require("readout_s", "the time from the first row to the last").positive(1e-9, 10.0);
-  const uint32_t most = std::max(1u, (height + 7) / 8);
-  if (const auto f = map.find("bands")) rolling.bands = f->integer32(1, most);
-  rolling.bands = std::min(rolling.bands, most);
+  if (const auto f = map.find("bands")) rolling.bands = f->integer32(1, 2048);
+  rolling.bands = std::min(rolling.bands, (height + 7) / 8);
   return rolling;
 }
 

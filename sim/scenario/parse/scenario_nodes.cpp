@@ -28,8 +28,46 @@ TurnRate parse_turn_rate(const FieldMap& map, const Rational& tick_rate_hz) {
   return {*hz, rate.negative};
 }
 
+constexpr double least_radius_m = 0.01, most_radius_m = 1000.0;
+
+/// Parses `roll`: the turn of a wheel.
+RollConfig parse_roll(const Field& field) {
+  const FieldMap map(field, {"radius_m"});
+  RollConfig roll;
+  roll.radius_m = map.require("radius_m", "the radius of the wheel").between(least_radius_m, most_radius_m);
+  return roll;
+}
+
+/// Parses `gait`: the swing of a limb.
+LimbConfig parse_limb(const Field& field) {
+  const FieldMap map(field, {"limb", "side", "thigh_m", "shank_m", "speed_mps"});
+  LimbConfig limb;
+  limb.limb =
+      static_cast<Limb>(map.require("limb", "a limb").choice({"thigh", "shank", "upper_arm", "forearm"}));
+  limb.left = map.require("side", "left or right").choice({"left", "right"}) == 0;
+  if (const auto f = map.find("thigh_m")) limb.walker.thigh_m = f->between(0.05, 5.0);
+  if (const auto f = map.find("shank_m")) limb.walker.shank_m = f->between(0.05, 5.0);
+  const double ratio = limb.walker.shank_m / limb.walker.thigh_m;
+  if (ratio < 0.5 || ratio > 2.0)
+    field.fail("a thigh and a shank of which neither is more than twice as long as the other",
+               fmt::format("{} m and {} m", limb.walker.thigh_m, limb.walker.shank_m));
+  if (const auto f = map.find("speed_mps")) limb.walker.speed_mps = f->between(0.1, 5.0);
+  return limb;
+}
+
+PartMotion parse_part_motion(const FieldMap& map, const Rational& tick_rate_hz) {
+  for (const char* key : {"rate_hz", "rpm"}) {
+    map.exclude("roll", key);
+    map.exclude("gait", key);
+  }
+  map.exclude("roll", "gait");
+  if (const auto f = map.find("roll")) return parse_roll(*f);
+  if (const auto f = map.find("gait")) return parse_limb(*f);
+  return parse_turn_rate(map, tick_rate_hz);
+}
+
 PartConfig parse_part(const Field& field, const Rational& tick_rate_hz) {
-  const FieldMap map(field, {"nodes", "axis", "rate_hz", "rpm", "phase_deg"});
+  const FieldMap map(field, {"nodes", "axis", "rate_hz", "rpm", "roll", "gait", "phase_deg"});
   PartConfig part;
   part.where = field.where();
   const Field nodes = map.require("nodes", "the name of a node of the model, or a list of such");
@@ -43,7 +81,9 @@ PartConfig parse_part(const Field& field, const Rational& tick_rate_hz) {
     if (part.axis == dvec3(0.0)) f->fail("an axis other than [0, 0, 0]");
     if (glm::length(part.axis) < least) f->fail(fmt::format("an axis of a length of {:g} or more", least));
   }
-  part.rate = parse_turn_rate(map, tick_rate_hz);
+  part.motion = parse_part_motion(map, tick_rate_hz);
+  // Wheels and limbs turn about an axis to the left if none is given.
+  if (!std::holds_alternative<TurnRate>(part.motion) && !map.has("axis")) part.axis = {0.0, 1.0, 0.0};
   if (const auto f = map.find("phase_deg")) part.phase = radians(f->number(most_angle_deg));
   return part;
 }
@@ -316,7 +356,7 @@ Rational rate_of(const Field& field, const Rational& tick_rate_hz) {
 }
 
 std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz,
-                                    const EarthPositions& earth) {
+                                    const EarthPositions& earth, const std::vector<NodeConfig>& traffic) {
   std::vector<NodeConfig> nodes;
   std::vector<NodeReference> references;
   PatternFiles patterns;
@@ -325,7 +365,10 @@ std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rat
     nodes.push_back(parse_node(item, nodes.size(), tick_rate_hz, earth, references, patterns));
     if (!names.insert(nodes.back().name).second)
       item.fail("every node's name once", fmt::format("a second '{}'", nodes.back().name));
+    if (std::ranges::any_of(traffic, [&](const NodeConfig& node) { return node.name == nodes.back().name; }))
+      item.fail("a name that nothing of the traffic has", fmt::format("'{}'", nodes.back().name));
   }
+  nodes.insert(nodes.end(), traffic.begin(), traffic.end());
   check_references(references, nodes);
   resolve_illuminators(nodes);
   resolve_interferers(nodes);

@@ -84,8 +84,11 @@ void resolve_illuminators(std::vector<NodeConfig>& nodes);
 void resolve_interferers(std::vector<NodeConfig>& nodes);
 /// Gives event cameras that share a camera's pixels its optics and mount.
 void resolve_event_cameras(std::vector<NodeConfig>& nodes);
+/// Parses the nodes. Those of the traffic follow them.
 std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz,
-                                    const EarthPositions& earth);
+                                    const EarthPositions& earth, const std::vector<NodeConfig>& traffic);
+/// Parses `traffic`. Returns its nodes. `seed` is the scenario's.
+std::vector<NodeConfig> parse_traffic(const Field& field, uint64_t seed, TrafficConfig& traffic);
 /// Parse parts of a receiver and of its processing, which radars and sensing channels share.
 rf::RadarWindow parse_window(const Field& field);
 void parse_cfar(const Field& field, rf::RadarCfar& cfar);

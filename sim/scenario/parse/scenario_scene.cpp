@@ -19,10 +19,10 @@ constexpr std::array semantic_classes = {"unlabeled",   "ground", "road",    "pa
                                          "furniture",   "person"};
 
 Generated parse_generated(const Field& field) {
-  constexpr std::array kinds = {"city", "country", "canyon", "room", "mast", "car", "quadrotor"};
-  enum { city, country, canyon, room, mast, car, quadrotor };
-  const size_t kind =
-      kind_of(field, "kind", {"city", "country", "canyon", "room", "mast", "car", "quadrotor"});
+  constexpr std::array<std::string_view, 9> kinds = {"city", "country", "canyon", "room",     "mast",
+                                                     "car",  "vehicle", "person", "quadrotor"};
+  enum { city, country, canyon, room, mast, car, vehicle, person, quadrotor };
+  const size_t kind = kind_of(field, "kind", kinds);
   Generated generated;
   generated.kind = kinds[kind];
   if (kind == city || kind == country || kind == canyon) {  // the others look the same for every seed
@@ -35,8 +35,25 @@ Generated parse_generated(const Field& field) {
                                     kind == country ? 2000.0 : 1000.0);
     return generated;
   }
-  if (kind == mast || kind == room) {
+  if (kind == mast) {
     const FieldMap map(field, {"kind"});
+    return generated;
+  }
+  if (kind == vehicle || kind == person) {
+    const FieldMap map(field, {"kind", "variant", "seed"});
+    if (const auto f = map.find("seed")) generated.seed = f->integer(0);
+    std::vector<std::string_view> names;
+    for (const TrafficVariant& variant : traffic_variants())
+      if (generator_kind(variant.kind) == kinds[kind]) names.emplace_back(variant.name);
+    generated.variant = names.front();
+    if (const auto f = map.find("variant")) generated.variant = names[f->choice(names)];
+    return generated;
+  }
+  if (kind == room) {
+    const FieldMap map(field, {"kind", "variant"});
+    generated.variant = "bare";
+    const auto f = map.find("variant");
+    if (f && f->choice({"bare", "office"}) == 1) generated.variant = "office";
     return generated;
   }
   const FieldMap map(field, {"kind", "variant"});

@@ -14,13 +14,15 @@
 namespace greatx::sim {
 namespace {
 
-/// Returns the class of a node's model as far as the scenario says it: its own, or that of a generated car or
-/// quadrotor.
+/// Returns the class of a node's model as far as the scenario says it: its own, or that of a generated
+/// vehicle, person or quadrotor.
 std::string class_of(const NodeConfig& node) {
   if (node.semantic_class) return *node.semantic_class;
   const auto* generated = node.model ? std::get_if<Generated>(&node.model->source) : nullptr;
   if (generated == nullptr) return "";
-  return generated->kind == "car" ? "vehicle" : generated->kind == "quadrotor" ? "uav" : "";
+  if (generated->kind == "car" || generated->kind == "vehicle") return "vehicle";
+  if (generated->kind == "person") return "person";
+  return generated->kind == "quadrotor" ? "uav" : "";
 }
 
 /// Adds the nodes with a model whose names match, in the order of the scenario.

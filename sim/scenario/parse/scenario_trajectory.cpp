@@ -167,17 +167,30 @@ CorridorTrajectory parse_corridor(const Field& field, const EarthPositions& scen
   return trajectory;
 }
 
+FollowTrajectory parse_follow(const Field& field, size_t node, std::vector<NodeReference>& references) {
+  const FieldMap map(field, {"type", "node", "position_m", "rotation_deg"});
+  FollowTrajectory trajectory;
+  const Field reference = map.require("node", "the name of the node to follow");
+  trajectory.node = reference.text();
+  references.push_back({node, reference});
+  if (const auto f = map.find("position_m")) trajectory.position_m = position_of(*f);
+  if (const auto f = map.find("rotation_deg")) trajectory.rotation = angles_of(*f);
+  return trajectory;
+}
+
 }  // namespace
 
 Trajectory parse_trajectory(const Field& field, size_t node, const EarthPositions& earth,
                             std::vector<NodeReference>& references) {
-  switch (kind_of(field, "type", {"static", "waypoints", "bezier", "corridor"})) {
+  switch (kind_of(field, "type", {"static", "waypoints", "bezier", "corridor", "follow"})) {
     case 0:
       return parse_static(field, earth);
     case 1:
       return parse_way_point_trajectory(field, earth);
     case 2:
       return parse_bezier(field, node, earth, references);
+    case 4:
+      return parse_follow(field, node, references);
     default:
       return parse_corridor(field, earth);
   }

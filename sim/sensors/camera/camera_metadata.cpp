@@ -60,6 +60,7 @@ nlohmann::json camera_metadata(const CameraConfig& config, const Pose& body_from
   if (config.motion_blur_samples > 0) metadata["motion_blur_samples"] = config.motion_blur_samples;
   if (config.vignetting.any())
     metadata["vignetting"] = {{"natural", config.vignetting.natural}, {"radial", config.vignetting.radial}};
+  if (config.glare > 0.0) metadata["glare"] = config.glare;
   if (config.noise)
     metadata["noise"] = {{"full_well_e", config.noise->full_well_e},
                          {"read_noise_e", config.noise->read_noise_e},

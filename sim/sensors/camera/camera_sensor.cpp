@@ -132,7 +132,7 @@ TruthMoment CameraSensor::next_sample(const TickContext& context) const {
 /// Records the instants of an exposure, evenly around the tick. The tick itself comes last, since depth and
 /// ids of the picture are those of the tick.
 void CameraSensor::expose(gpu::TickSlot& slot, const TickContext& context, const Pose& local_from_sensor) {
-  const render::FrameNumber frame{context.sequence, context.tick};
+  const render::FrameNumber frame{context.sequence, context.tick, context.nodes[node_].velocity};
   if (config_.rolling.any()) return expose_rows(slot, context);
   const uint32_t instants = config_.motion_blur_samples;
   if (!pass_.desc().parts) return pass_.record(slot, local_from_sensor, frame);

@@ -12,7 +12,7 @@ SharedPasses::SharedPasses(scene::GpuScene& gpu_scene, const Experiment& experim
   const EffectPlan& plan = experiment.plan;
   if (plan.camera.on)
     lighting = std::make_unique<render::SceneLighting>(
-        gpu_scene, lighting_of(experiment.scenario.environment), camera_effects(plan));
+        gpu_scene, lighting_of(experiment.scenario.environment, plan), camera_effects(plan));
   if (lighting) posed = std::make_unique<PosedScene>(gpu_scene, *lighting, *experiment.world);
   if (plan.consistency.on) probe = std::make_unique<render::ProbePass>(gpu_scene);
   if (plan.channel.on)

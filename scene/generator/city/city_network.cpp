@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/generator/city/city_network.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/generator/city/city_ground.h"
+#include "scene/generator/mesh/mesh_builder.h"
+
+namespace greatx::scene::generator {
+namespace {
+
+constexpr double avenue_speed_mps = 50.0 / 3.6, street_speed_mps = 30.0 / 3.6;
+/// The zebras and stop lines that city_ground.cpp paints, from the end of a street.
+constexpr double zebra_middle_m = 2.2, stop_line_m = 5.9, no_zebra_stop_m = 1.5;
+/// Parked cars stand within this of the right kerb.
+constexpr double parked_m = 2.3;
+
+double cross(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+/// Lanes of one direction of a street, [0] the outermost one, as indices of the network.
+using Side = std::vector<uint32_t>;
+
+struct StreetLanes {
+  Side sides[2];                ///< [0] towards increasing x or y, [1] against it
+  int junctions[2] = {-1, -1};  ///< at the start and at the end
+  bool northwards = false;
+};
+
+class NetworkMaker {
+ public:
+  explicit NetworkMaker(const CityPlan& plan) : plan_(plan) {}
+
+  StreetNetwork make() {
+    add_junctions();
+    add_walks();
+    const int n = plan_.blocks;
+    size_t street = 0;
+    for (int i = 1; i < n; ++i)
+      for (int row = 0; row < n; ++row, ++street)
+        add_street(plan_.streets[street], true, junction_at(i, row), junction_at(i, row + 1),
+                   {block_at(i - 1, row), block_at(i, row)});
+    for (int j = 1; j < n; ++j)
+      for (int column = 0; column < n; ++column, ++street)
+        add_street(plan_.streets[street], false, junction_at(column, j), junction_at(column + 1, j),
+                   {block_at(column, j), block_at(column, j - 1)});
+    for (int junction = 0; junction < (n - 1) * (n - 1); ++junction) add_turns(junction);
+    return std::move(network_);
+  }
+
+ private:
+  int junction_at(int i, int j) const {
+    const int n = plan_.blocks;
+    return i > 0 && i < n && j > 0 && j < n ? (i - 1) * (n - 1) + j - 1 : -1;
+  }
+  uint32_t block_at(int column, int row) const { return static_cast<uint32_t>(row * plan_.blocks + column); }
+
+  /// The avenues' junctions have signals: one phase for streets that run east, one for those that run north.
+  /// At time 0 the first one begins, which is what the heads of signals in the scene show.
+  void add_junctions() {
+    const int middle = plan_.blocks / 2;
+    for (int i = 1; i < plan_.blocks; ++i)
+      for (int j = 1; j < plan_.blocks; ++j) {
+        StreetJunction junction;
+        if (i == middle || j == middle)
+          junction.phases = {{{1}, j == middle ? 20.0 : 16.0, 3.0, 2.0},
+                             {{0}, i == middle ? 20.0 : 16.0, 3.0, 2.0}};
+        network_.junctions.push_back(std::move(junction));
+      }
+  }
+
+  void add_walks() {
+    for (const Block& block : plan_.block) {
+      Block walking = block;
+      for (double& depth : walking.pavement_m) depth = depth >= 4.0 ? 3.1 : depth >= 3.0 ? 2.0 : 1.0;
+      StreetWalk walk;
+      for (const dvec2& point : inset(block.outline(), walking.outline_insets()))
+        walk.line.emplace_back(point, pavement_height_m);
+      network_.walks.push_back(std::move(walk));
+    }
+  }
+
+  void add_street(const Street& street, bool northwards, int start, int end,
+                  const std::array<uint32_t, 2>& blocks) {
+    StreetLanes lanes;
+    lanes.northwards = northwards;
+    lanes.junctions[0] = start;
+    lanes.junctions[1] = end;
+    const double width = glm::distance(street.left[0], street.right[0]);
+    const auto lane = [&](bool forward, double kerb_m, double lane_m) {
+      StreetLane made;
+      const double share = kerb_m / width;
+      const auto point = [&](size_t k) {
+        const dvec2 &kerb = forward ? street.right[k] : street.left[k],
+                    &other = forward ? street.left[k] : street.right[k];
+        return dvec3(glm::mix(kerb, other, share), 0.0);
+      };
+      made.line = forward ? std::vector{point(0), point(1)} : std::vector{point(1), point(0)};
+      made.width_m = lane_m;
+      made.speed_mps = street.avenue ? avenue_speed_mps : street_speed_mps;
+      made.stop_m = street.crossing[forward ? 1 : 0] ? stop_line_m : no_zebra_stop_m;
+      lanes.sides[forward ? 0 : 1].push_back(static_cast<uint32_t>(network_.lanes.size()));
+      network_.lanes.push_back(std::move(made));
+    };
+    const double room = width - parked_m;
+    for (const bool forward : {true, false}) {
+      if (street.avenue) {  // the dashed lines stand at 0.27 of the width
+        lane(forward, 0.135 * width, 0.27 * width);
+        lane(forward, 0.385 * width, 0.23 * width);
+        const uint32_t outer = lanes.sides[forward ? 0 : 1][0];
+        network_.lanes[outer].left = outer + 1;
+        network_.lanes[outer + 1].right = outer;
+      } else if (forward) {
+        lane(forward, parked_m + 0.23 * room, 0.45 * room);
+      } else {
+        lane(forward, 0.27 * room, 0.5 * room);
+      }
+    }
+    for (size_t k = 0; k < 2; ++k)
+      if (street.crossing[k]) add_crossing(street, k, lanes, blocks);
+    streets_.push_back(std::move(lanes));
+  }
+
+  void add_crossing(const Street& street, size_t end, const StreetLanes& lanes,
+                    const std::array<uint32_t, 2>& blocks) {
+    const double length = 0.5 * (glm::distance(street.left[0], street.left[1]) +
+                                 glm::distance(street.right[0], street.right[1]));
+    const double share = end == 0 ? zebra_middle_m / length : 1.0 - zebra_middle_m / length;
+    StreetCrossing crossing;
+    crossing.from = dvec3(glm::mix(street.left[0], street.left[1], share), 0.0);
+    crossing.to = dvec3(glm::mix(street.right[0], street.right[1], share), 0.0);
+    crossing.walks[0] = blocks[0];
+    crossing.walks[1] = blocks[1];
+    const auto junction = static_cast<uint32_t>(lanes.junctions[end]);
+    if (!network_.junctions[junction].phases.empty()) {
+      crossing.junction = junction;
+      crossing.group = lanes.northwards ? 0 : 1;
+    }
+    network_.crossings.push_back(crossing);
+  }
+
+  void add_turns(int junction) {
+    for (const StreetLanes& from : streets_)
+      for (const int in : {0, 1})  // lanes of side 0 arrive at the end, those of side 1 at the start
+        if (from.junctions[1 - in] == junction)
+          for (const StreetLanes& to : streets_)
+            for (const int out : {0, 1})
+              if (to.junctions[out] == junction && (&to != &from || in == out))
+                add_turns(junction, from, from.sides[in], to.sides[out]);
+  }
+
+  dvec2 start(uint32_t lane) const { return dvec2(network_.lanes[lane].line.front()); }
+  dvec2 end(uint32_t lane) const { return dvec2(network_.lanes[lane].line.back()); }
+  dvec2 direction(uint32_t lane) const { return glm::normalize(end(lane) - start(lane)); }
+
+  /// The outer lane leads straight on and to the right, the inner one straight on and to the left.
+  void add_turns(int junction, const StreetLanes& street, const Side& from, const Side& to) {
+    const double turn = cross(direction(from[0]), direction(to[0]));
+    if (std::abs(turn) < 0.5) {
+      if (glm::dot(direction(from[0]), direction(to[0])) < 0.0) return;
+      for (size_t k = 0; k < std::min(from.size(), to.size()); ++k)
+        add_turn(junction, street, from[k], to[k]);
+    } else if (turn < 0.0) {
+      add_turn(junction, street, from.front(), to.front());
+    } else {
+      add_turn(junction, street, from.back(), to.back());
+    }
+  }
+
+  void add_turn(int junction, const StreetLanes& street, uint32_t from, uint32_t to) {
+    StreetLane turn;
+    turn.junction = static_cast<uint32_t>(junction);
+    turn.group = street.northwards ? 0 : 1;
+    turn.width_m = std::min(network_.lanes[from].width_m, network_.lanes[to].width_m);
+    turn.speed_mps = std::min(network_.lanes[from].speed_mps, network_.lanes[to].speed_mps);
+    turn.next = {to};
+    for (const dvec2& point : turn_line(end(from), direction(from), start(to), direction(to)))
+      turn.line.emplace_back(point, 0.0);
+    network_.lanes[from].next.push_back(static_cast<uint32_t>(network_.lanes.size()));
+    network_.lanes.push_back(std::move(turn));
+  }
+
+  /// A Bezier curve of degree five whose three control points at each end lie on a line: its curvature there
+  /// is 0. Straight pieces lead to it where the corner is further from one end than from the other.
+  static std::vector<dvec2> turn_line(dvec2 from, const dvec2& from_direction, dvec2 to,
+                                      const dvec2& to_direction) {
+    std::vector<dvec2> line{from};
+    double handle = 0.2 * glm::distance(from, to);
+    const double sine = cross(from_direction, to_direction);
+    if (std::abs(sine) > 0.5) {
+      const double before = cross(to - from, to_direction) / sine;   // from the start to the corner
+      const double after = cross(from_direction, to - from) / sine;  // from the corner to the end
+      const double reach = std::min(before, after);
+      const dvec2 last = to;
+      from += (before - reach) * from_direction;
+      to -= (after - reach) * to_direction;
+      handle = 0.3 * reach;  // gives the widest bend: 0.85 of the reach
+      for (const dvec2& point : curve(from, from_direction, to, to_direction, handle))
+        if (glm::distance(point, line.back()) > 0.05) line.push_back(point);
+      if (glm::distance(last, line.back()) < 0.05) line.pop_back();
+      line.push_back(last);
+      return line;
+    }
+    line = curve(from, from_direction, to, to_direction, handle);
+    return line;
+  }
+
+  static std::vector<dvec2> curve(const dvec2& from, const dvec2& from_direction, const dvec2& to,
+                                  const dvec2& to_direction, double handle) {
+    const dvec2 a = from + handle * from_direction, b = a + handle * from_direction;
+    const dvec2 d = to - handle * to_direction, c = d - handle * to_direction;
+    std::vector<dvec2> points;
+    constexpr int steps = 24;
+    for (int i = 0; i <= steps; ++i) {
+      const double u = static_cast<double>(i) / steps, v = 1.0 - u;
+      points.push_back(v * v * v * v * v * from + 5.0 * u * v * v * v * v * a + 10.0 * u * u * v * v * v * b +
+                       10.0 * u * u * u * v * v * c + 5.0 * u * u * u * u * v * d + u * u * u * u * u * to);
+    }
+    return points;
+  }
+
+  const CityPlan& plan_;
+  StreetNetwork network_;
+  std::vector<StreetLanes> streets_;
+};
+
+}  // namespace
+
+StreetNetwork city_network(const CityPlan& plan) { return NetworkMaker(plan).make(); }
+
+}  // namespace greatx::scene::generator

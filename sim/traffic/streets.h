@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The streets of a scene, prepared for a simulation: smooth ways, the places where one waits, which turns
+// exclude each other, the paths of pedestrians. docs/traffic.md describes the rules.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/network/network.h"
+#include "sim/traffic/curve.h"
+
+namespace greatx::sim {
+
+/// The size of one who moves, along its way: from the point that follows the way (the middle of the rear axle
+/// of a vehicle, the middle of a person).
+struct Extent {
+  double front_m = 2.0, rear_m = 0.8, width_m = 1.8;
+};
+
+/// A rectangle on the ground.
+struct GroundBox {
+  dvec2 middle{0.0}, forward{1.0, 0.0};
+  double half_length = 0.0, half_width = 0.0;
+};
+/// Whether two rectangles overlap (separating axes).
+bool overlap(const GroundBox& a, const GroundBox& b);
+/// Returns the rectangle of one whose point is at `s` of a curve.
+GroundBox box_at(const Curve& curve, double s, const Extent& extent);
+
+/// A crossing on a lane of the carriageway.
+struct CrossingOnWay {
+  uint32_t crossing = 0;
+  double from_m = 0.0, to_m = 0.0;
+};
+
+/// A place where vehicles wait until they may go on.
+struct Gate {
+  double stop_m = 0.0;                   ///< of the fronts
+  std::vector<CrossingOnWay> crossings;  ///< behind it, on the same lane
+  bool turn = false;                     ///< the last gate of a lane: a turn or the next lane follows
+};
+
+/// A lane or a turn.
+struct DriveWay {
+  Curve curve;
+  double speed_mps = 0.0;  ///< allowed; in bends the lateral acceleration is at most most_lateral_mps2
+  std::vector<uint32_t> next;
+  std::optional<uint32_t> left, right;
+  std::optional<uint32_t> junction;  ///< of a turn
+  uint32_t group = 0;
+  uint32_t from = 0;                ///< of a turn: the lane that leads to it
+  std::vector<Gate> gates;          ///< of a lane
+  std::vector<CrossingOnWay> exit;  ///< crossings at its beginning, which belong to the turn before it
+  double clear_m = 0.5;             ///< rears beyond it are clear of the junction before it
+  bool endless = false;             ///< whether one can go on from it for ever
+  bool turn() const { return junction.has_value(); }
+};
+
+/// The path of pedestrians over a crossing, from the right side of one walking line to that of the other.
+struct CrossingPath {
+  Curve curve;
+  uint32_t crossing = 0, from_walk = 0, to_walk = 0;
+  double leave_m = 0.0, join_m = 0.0;  ///< where it leaves and joins the right sides of the walking lines
+  double wait_m = 0.0;                 ///< on the path: where people wait for the crossing
+  double across_m = 0.0;               ///< on the path: from here on they are off the carriageway
+  double merge_m = 0.0;                ///< on the path: where people wait for a gap before they join
+};
+
+/// The two sides of a walking line; one keeps to the right.
+struct WalkRing {
+  Curve right, left;  ///< right: with the carriageway on its right; left: the other direction
+  std::vector<uint32_t> leaving, joining;  ///< crossing paths
+};
+
+inline constexpr double most_lateral_mps2 = 2.0;
+/// Of people from their walking line, and from the middle of a zebra.
+inline constexpr double walk_side_m = 0.33, zebra_side_m = 0.75;
+
+/// What one sees of a signal.
+enum class Light : uint8_t { green, amber, red };
+
+class Streets {
+ public:
+  /// `largest` is the size of the largest vehicle, with which the turns that exclude each other are found. It
+  /// needs no vehicle if there are none. Throws UserError, beginning with `name`, if lanes or crossings do
+  /// not fit.
+  Streets(const scene::StreetNetwork& network, const Extent& largest, const std::string& name);
+
+  const std::vector<DriveWay>& ways() const { return ways_; }
+  const std::vector<CrossingPath>& paths() const { return paths_; }
+  const std::vector<WalkRing>& rings() const { return rings_; }
+  size_t crossing_count() const { return crossings_.size(); }
+  const std::string& name() const { return name_; }
+
+  /// Returns up to which place on turn `turn` a vehicle excludes others from `other`; nothing: never.
+  std::optional<double> excludes(uint32_t turn, uint32_t other) const;
+  /// Returns the signal of a turn.
+  Light light(const DriveWay& turn, double time_s) const;
+  /// Returns the time that people who step onto a crossing now have to cross it, s; 0: they may not. Without
+  /// signals it is long.
+  double walk_time(uint32_t crossing, double time_s) const;
+  double longest_walk_time(uint32_t crossing) const;
+  bool has_signals(uint32_t crossing) const;
+
+ private:
+  struct Phase {
+    size_t index = 0;
+    double since_s = 0.0;
+  };
+  Phase phase_of(uint32_t junction, double time_s) const;
+  void make_ways(const scene::StreetNetwork& network);
+  void find_crossings(const scene::StreetNetwork& network);
+  void make_gates(const scene::StreetNetwork& network);
+  void find_endless();
+  void find_exclusions(const Extent& largest);
+  void keep_stops_clear(const Extent& largest);
+  void make_rings(const scene::StreetNetwork& network);
+  void make_paths(const scene::StreetNetwork& network);
+  void make_path(const scene::StreetCrossing& crossing, uint32_t index, bool back);
+
+  std::string name_;
+  std::vector<DriveWay> ways_;
+  std::vector<std::vector<CrossingOnWay>> crossings_of_;  ///< [ways]
+  std::vector<WalkRing> rings_;
+  std::vector<CrossingPath> paths_;
+  std::vector<scene::StreetJunction> junctions_;
+  std::vector<scene::StreetCrossing> crossings_;
+  std::vector<std::vector<std::pair<uint32_t, double>>> excludes_;  ///< [ways] other turn, up to
+};
+
+}  // namespace greatx::sim

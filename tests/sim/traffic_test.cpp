@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The traffic of the generated city: nobody runs into anybody, signals hold, the same seed gives the same
+// traffic.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+#include "scene/generator/city/city_network.h"
+#include "scene/generator/objects/shapes.h"
+#include "sim/traffic/course.h"
+#include "sim/traffic/pieces.h"
+#include "sim/traffic/simulation.h"
+
+namespace greatx::sim {
+namespace {
+
+using testing::HasSubstr;
+using Kind = TrafficMember::Kind;
+
+const Extent largest{4.5, 1.7, 2.25};
+
+std::shared_ptr<const Streets> city_streets(double size_m = 300.0, uint64_t seed = 7) {
+  const auto plan = scene::generator::plan_city(size_m, seed);
+  return std::make_shared<const Streets>(scene::generator::city_network(plan), largest, "city.glb");
+}
+
+TrafficBody body_of(Kind kind, const std::string& variant) {
+  if (kind == Kind::pedestrian) return {kind, {0.45, 0.45, 0.55}, 0.0};
+  const scene::VehicleShape& shape = scene::vehicle_shape(variant);
+  const double half = 0.5 * shape.length_m;
+  return {kind,
+          {half - shape.rear_axle_x_m, half + shape.rear_axle_x_m,
+           shape.width_m + (shape.two_wheeler ? 0.0 : 0.2)},
+          -shape.rear_axle_x_m};
+}
+
+std::vector<TrafficBody> bodies(int vehicles, int cyclists, int pedestrians) {
+  const std::vector<std::string> kinds{"saloon", "mini", "panel_van", "suv", "motorcycle", "pickup", "taxi"};
+  std::vector<TrafficBody> list;
+  for (int i = 0; i < vehicles; ++i) list.push_back(body_of(Kind::vehicle, kinds[size_t(i) % kinds.size()]));
+  for (int i = 0; i < cyclists; ++i)
+    list.push_back(body_of(Kind::cyclist, i % 3 == 0 ? "cargo_bicycle" : "bicycle"));
+  for (int i = 0; i < pedestrians; ++i) list.push_back(body_of(Kind::pedestrian, ""));
+  return list;
+}
+
+TrafficConfig config_of(uint64_t seed) {
+  TrafficConfig config;
+  config.seed = seed;
+  config.where = {"test.yaml", 7};
+  return config;
+}
+
+GroundBox box_of(Simulation& simulation, uint32_t member, double time_s) {
+  const WayState state = simulation.at(member, time_s);
+  const WayPlace place = place_on(state.piece, state.way_m);
+  const Extent& extent = simulation.body(member).extent;
+  const dvec2 forward(std::cos(place.heading), std::sin(place.heading));
+  return {dvec2(place.position) + 0.5 * (extent.front_m - extent.rear_m) * forward, forward,
+          0.5 * (extent.front_m + extent.rear_m), 0.5 * extent.width_m};
+}
+
+/// Returns the number of overlaps of two members' boxes in the first `end_s` seconds, ten looks a second.
+int collisions(Simulation& simulation, double end_s) {
+  int found = 0;
+  std::vector<GroundBox> boxes(simulation.member_count());
+  for (int step = 0; step < static_cast<int>(end_s * 10.0); ++step) {
+    for (uint32_t i = 0; i < boxes.size(); ++i) boxes[i] = box_of(simulation, i, 0.1 * step);
+    for (size_t i = 0; i < boxes.size(); ++i)
+      for (size_t j = i + 1; j < boxes.size(); ++j) found += overlap(boxes[i], boxes[j]) ? 1 : 0;
+  }
+  return found;
+}
+
+TEST(Traffic, HasNoCollisions) {
+  const auto streets = city_streets();
+  for (const uint64_t seed : {1, 2, 3}) {
+    Simulation simulation(streets, bodies(20, 6, 30), config_of(seed), 0);
+    EXPECT_EQ(collisions(simulation, 1000.0), 0) << "seed " << seed;
+    const Simulation::Counts counts = simulation.counts();
+    EXPECT_EQ(counts.on_red, 0u);
+    EXPECT_GT(counts.turns, 500u);
+    EXPECT_GT(counts.crossings, 30u);
+    EXPECT_GT(counts.lane_changes, 5u);
+  }
+}
+
+TEST(Traffic, HasNoCollisionsWhenDense) {
+  Simulation simulation(city_streets(), bodies(50, 10, 150), config_of(5), 0);
+  EXPECT_EQ(collisions(simulation, 300.0), 0);
+  EXPECT_EQ(simulation.counts().on_red, 0u);
+  EXPECT_GT(simulation.counts().turns, 200u);  // it does not jam for good
+}
+
+TEST(Traffic, HasNoCollisionsInOtherCities) {
+  for (const uint64_t seed : {1, 2, 12}) {
+    Simulation simulation(city_streets(450.0, seed), bodies(40, 10, 60), config_of(seed), 0);
+    EXPECT_EQ(collisions(simulation, 200.0), 0) << seed;
+    EXPECT_EQ(simulation.counts().on_red, 0u);
+  }
+}
+
+/// Nobody stands for minutes: every wait ends.
+TEST(Traffic, GoesOn) {
+  Simulation simulation(city_streets(), bodies(20, 6, 30), config_of(4), 0);
+  std::vector<double> before(simulation.member_count(), 0.0);
+  for (double time_s = 0.0; time_s <= 1000.0; time_s += 200.0)
+    for (uint32_t i = 0; i < simulation.member_count(); ++i) {
+      const double way_m = simulation.at(i, time_s).way_m;
+      if (time_s > 0.0) {
+        EXPECT_GT(way_m, before[i] + 20.0) << i << " at " << time_s;
+      }
+      before[i] = way_m;
+    }
+}
+
+/// The same seed and sequence give the same places, in whatever order times are asked.
+TEST(Traffic, IsDrawnFromItsSeed) {
+  const auto streets = city_streets();
+  Simulation first(streets, bodies(10, 3, 10), config_of(1), 0),
+      again(streets, bodies(10, 3, 10), config_of(1), 0);
+  again.at(0, 333.3);
+  again.at(3, 5.0);
+  Simulation sequence(streets, bodies(10, 3, 10), config_of(1), 1),
+      seed(streets, bodies(10, 3, 10), config_of(2), 0);
+  int differ = 0;
+  for (uint32_t i = 0; i < 23; ++i)
+    for (const double time_s : {-100.0, -3.0, 0.0, 17.23, 120.0}) {
+      const GroundBox a = box_of(first, i, time_s), b = box_of(again, i, time_s);
+      EXPECT_EQ(a.middle, b.middle);
+      EXPECT_EQ(a.forward, b.forward);
+      differ += a.middle != box_of(sequence, i, time_s).middle ? 1 : 0;
+      differ += a.middle != box_of(seed, i, time_s).middle ? 1 : 0;
+    }
+  EXPECT_EQ(differ, 2 * 23 * 5);
+}
+
+/// Positions, headings and distances have the derivatives that they say, also across steps and pieces.
+TEST(Traffic, CoursesHaveExactDerivatives) {
+  const auto simulation = std::make_shared<Simulation>(city_streets(), bodies(12, 6, 12), config_of(3), 0);
+  const double h = 1e-4;
+  double fastest = 0.0, sideways = 0.0;
+  for (uint32_t i = 0; i < simulation->member_count(); ++i) {
+    const auto course = make_traffic_course(simulation, i);
+    const double axle_m = simulation->body(i).origin_m;
+    for (double t = 0.0503; t < 150.0; t += 0.7) {  // within a step, whose acceleration is constant
+      const Motion now = course->at(t), before = course->at(t - h), after = course->at(t + h);
+      const auto near = [&](const dvec3& a, const dvec3& b, double most) {
+        EXPECT_LT(glm::length(a - b), most) << "member " << i << " at " << t;
+      };
+      near(now.velocity, (after.pose.position - before.pose.position) / (2 * h), 2e-5);
+      near(now.acceleration, (after.velocity - before.velocity) / (2 * h), 0.03);
+      const dquat turn = after.pose.orientation * glm::conjugate(before.pose.orientation);
+      near(now.angular_velocity, dvec3(turn.x, turn.y, turn.z) / h, 2e-4);
+      const Travel travel = course->travel(t);
+      EXPECT_NEAR(travel.speed_mps,
+                  (course->travel(t + h).distance_m - course->travel(t - h).distance_m) / (2 * h), 1e-5);
+      EXPECT_LE(glm::length(now.velocity), course->most_speed());
+      fastest = std::max(fastest, travel.speed_mps);
+      // The rear axle moves forward only.
+      const dvec3 axle = now.velocity - glm::cross(now.angular_velocity, now.pose.rotate({axle_m, 0, 0}));
+      sideways = std::max(sideways, std::abs(glm::dot(axle, now.pose.rotate({0, 1, 0}))));
+      EXPECT_GE(glm::dot(axle, now.pose.rotate({1, 0, 0})), -1e-9);
+    }
+  }
+  EXPECT_GT(fastest, 8.0);
+  EXPECT_LT(sideways, 1e-9);
+}
+
+TEST(Traffic, StartsAtTimeZeroOfItsDistance) {
+  const auto simulation = std::make_shared<Simulation>(city_streets(), bodies(5, 1, 5), config_of(3), 0);
+  for (uint32_t i = 0; i < 11; ++i)
+    EXPECT_EQ(make_traffic_course(simulation, i)->travel(0.0).distance_m, 0.0);
+}
+
+TEST(Traffic, SaysWhenThereIsNoRoom) {
+  try {
+    Simulation simulation(city_streets(150.0), bodies(500, 0, 0), config_of(1), 0);
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("test.yaml:7: traffic: expected at most as many vehicles and cyclists "
+                          "as the streets of city.glb have room for, about "));
+  }
+}
+
+/// The phases of a junction never give green to two of its groups, and everyone has red in between.
+TEST(Traffic, SignalsExcludeEachOther) {
+  const auto streets = city_streets();
+  int greens = 0, reds = 0;
+  for (double time_s = -50.0; time_s < 100.0; time_s += 0.25)
+    for (const DriveWay& a : streets->ways())
+      for (const DriveWay& b : streets->ways()) {
+        if (!a.turn() || !b.turn() || a.junction != b.junction || a.group == b.group) continue;
+        const Light first = streets->light(a, time_s), second = streets->light(b, time_s);
+        if (first == Light::green && second == Light::green) {
+          // Only where there are no signals at all.
+          EXPECT_EQ(streets->light(a, time_s + 11.0), Light::green);
+          EXPECT_EQ(streets->light(a, time_s + 29.0), Light::green);
+          continue;
+        }
+        greens += first == Light::green ? 1 : 0;
+        reds += first == Light::red && second == Light::red ? 1 : 0;
+        EXPECT_TRUE(first == Light::red || second == Light::red);
+      }
+  EXPECT_GT(greens, 1000);
+  EXPECT_GT(reds, 100);
+}
+
+}  // namespace
+}  // namespace greatx::sim
