@@ -15,7 +15,7 @@ namespace greatx::render {
 namespace {
 
 constexpr double least_texel_m = 0.06;
-constexpr uint32_t side = MarkShares::side;
+constexpr uint32_t block_side = MarkShares::side;
 constexpr double flat = 0.7;  ///< least cosine of a marking's slope
 
 using Polygon = std::vector<dvec2>;
@@ -60,12 +60,12 @@ void over_roads(const scene::Scene& scene, F&& visit) {
 }
 
 float& texel_at(MarkShares& map, uint32_t column, uint32_t row) {
-  uint32_t& place = map.places[size_t{row / side} * map.columns + column / side];
+  uint32_t& place = map.places[size_t{row / block_side} * map.columns + column / block_side];
   if (place == 0) {
-    map.shares.resize(map.shares.size() + size_t{side} * side, 0.0f);
-    place = static_cast<uint32_t>(map.shares.size() / (size_t{side} * side));
+    map.shares.resize(map.shares.size() + size_t{block_side} * block_side, 0.0f);
+    place = static_cast<uint32_t>(map.shares.size() / (size_t{block_side} * block_side));
   }
-  return map.shares[(size_t{place - 1} * side + row % side) * side + column % side];
+  return map.shares[(size_t{place - 1} * block_side + row % block_side) * block_side + column % block_side];
 }
 
 void add_triangle(MarkShares& map, const std::array<dvec3, 3>& corners) {
@@ -73,7 +73,7 @@ void add_triangle(MarkShares& map, const std::array<dvec3, 3>& corners) {
   for (const dvec3& corner : corners) triangle.push_back((dvec2(corner) - map.corner) / map.texel_m);
   dvec2 low(triangle[0]), high(triangle[0]);
   for (const dvec2& p : triangle) low = glm::min(low, p), high = glm::max(high, p);
-  const auto last_row = std::min<int64_t>(int64_t(std::floor(high.y)), int64_t(map.rows) * side - 1);
+  const auto last_row = std::min<int64_t>(int64_t(std::floor(high.y)), int64_t(map.rows) * block_side - 1);
   for (int64_t row = std::max<int64_t>(int64_t(std::floor(low.y)), 0); row <= last_row; ++row) {
     // Cuts a row out of the triangle, and then the row into texels.
     Polygon strip = triangle;
@@ -82,7 +82,7 @@ void add_triangle(MarkShares& map, const std::array<dvec3, 3>& corners) {
     if (strip.size() < 3) continue;
     double left = strip[0].x, right = strip[0].x;
     for (const dvec2& p : strip) left = std::min(left, p.x), right = std::max(right, p.x);
-    const auto last = std::min<int64_t>(int64_t(std::floor(right)), int64_t(map.columns) * side - 1);
+    const auto last = std::min<int64_t>(int64_t(std::floor(right)), int64_t(map.columns) * block_side - 1);
     for (int64_t column = std::max<int64_t>(int64_t(std::floor(left)), 0); column <= last; ++column) {
       Polygon texel = strip;
       cut(texel, 0, double(column), -1.0);
@@ -98,13 +98,14 @@ void add_triangle(MarkShares& map, const std::array<dvec3, 3>& corners) {
 std::vector<std::vector<std::byte>> levels_of(const MarkShares& map) {
   std::vector<std::vector<std::byte>> all(shared::marks_levels + 1);
   for (uint32_t level = 0; level < all.size(); ++level)
-    all[level].resize(size_t{map.rows} * map.columns * (side >> level) * (side >> level));
+    all[level].resize(size_t{map.rows} * map.columns * (block_side >> level) * (block_side >> level));
   std::vector<float> block;
   for (uint32_t place = 0; place < map.places.size(); ++place) {
     if (map.places[place] == 0) continue;
-    const auto from = map.shares.begin() + std::ptrdiff_t(size_t{map.places[place] - 1} * side * side);
-    block.assign(from, from + side * side);
-    for (uint32_t level = 0, edge = side; level < all.size(); ++level, edge /= 2) {
+    const auto from =
+        map.shares.begin() + std::ptrdiff_t(size_t{map.places[place] - 1} * block_side * block_side);
+    block.assign(from, from + block_side * block_side);
+    for (uint32_t level = 0, edge = block_side; level < all.size(); ++level, edge /= 2) {
       const size_t width = size_t{map.columns} * edge;
       const size_t first = place / map.columns * edge * width + place % map.columns * edge;
       for (uint32_t row = 0; row < edge; ++row)
@@ -147,7 +148,7 @@ shared::GpuMarks describe(const scene::GpuScene& gpu_scene, const MarkShares& ma
         .add(*color, double(scene.materials[primitive.material].pbr.roughness), area);
   });
   shared::GpuMarks marks{};
-  const dvec2 size = map.texel_m * double(side) * dvec2(map.columns, map.rows);
+  const dvec2 size = map.texel_m * double(block_side) * dvec2(map.columns, map.rows);
   marks.scale = vec2(1.0 / size);
   marks.offset = vec2(-map.corner / size);
   marks.mark = mark.color();
@@ -177,10 +178,10 @@ MarkShares mark_shares(const scene::Scene& scene, uint32_t most) {
   if (bounds.empty()) return map;
   const dvec2 size(bounds.size());
   // A block without markings surrounds the map, so that places beyond it have none.
-  map.texel_m = std::max(least_texel_m, std::max(size.x, size.y) / (most - 3.0 * side));
-  map.corner = dvec2(bounds.min) - double(side) * map.texel_m;
+  map.texel_m = std::max(least_texel_m, std::max(size.x, size.y) / (most - 3.0 * block_side));
+  map.corner = dvec2(bounds.min) - double(block_side) * map.texel_m;
   const auto blocks = [&](double length) {
-    return static_cast<uint32_t>(std::ceil(length / map.texel_m)) / side + 3;
+    return static_cast<uint32_t>(std::ceil(length / map.texel_m)) / block_side + 3;
   };
   map.columns = blocks(size.x);
   map.rows = blocks(size.y);
@@ -203,8 +204,8 @@ MarkMap::MarkMap(const scene::GpuScene& scene, bool wanted) {
   if (any_) bytes = levels_of(shares);
   map_ = gpu::Image(device,
                     {.format = VK_FORMAT_R8_UNORM,
-                     .width = any_ ? side * shares.columns : 1,
-                     .height = any_ ? side * shares.rows : 1,
+                     .width = any_ ? block_side * shares.columns : 1,
+                     .height = any_ ? block_side * shares.rows : 1,
                      .mip_levels = static_cast<uint32_t>(bytes.size()),
                      .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
                     "map of markings");
