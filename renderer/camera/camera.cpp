@@ -143,7 +143,8 @@ void CameraPass::sort_primitives() {
 void CameraPass::add_moving(uint32_t body, uint32_t i) {
   const scene::Scene& scene = scene_->scene();
   const scene::Primitive& primitive = scene.primitives[i];
-  MovingPiece next{primitive.first_index, primitive.index_count, body, {}};
+  MovingPiece next{
+      primitive.first_index, primitive.index_count, body, lighting_->surfaces().closed()[body], {}};
   if (!moving_.empty() && moving_.back().body == body &&
       moving_.back().first_index + moving_.back().index_count == next.first_index) {
     next.first_index = moving_.back().first_index;
@@ -174,6 +175,10 @@ void CameraPass::build_pipelines() {
     bodies.vertex_shader = "camera/visibility_moving.vert";
     bodies.push_constant_bytes = sizeof(shared::BodyView);
     visibility_moving_ = gpu::GraphicsPipeline(device, bodies, desc_.name + " visibility of bodies");
+    // The picture's y points down, as in clip space: what faces the camera winds counter-clockwise.
+    bodies.cull = VK_CULL_MODE_BACK_BIT;
+    if (std::ranges::any_of(moving_, &MovingPiece::closed))
+      visibility_closed_ = gpu::GraphicsPipeline(device, bodies, desc_.name + " visibility of closed bodies");
   }
   if (!masked_.empty()) {
     draw.vertex_shader = "camera/visibility_masked.vert";
@@ -447,13 +452,16 @@ void CameraPass::draw_moving(gpu::Cmd& cmd, const CameraView& view) {
   struct Drawn {
     double nearest;
     uint32_t piece;
+    bool culled;  ///< the eye is outside of a closed body, so its back faces are left out
   };
   std::vector<Drawn> order;
   for (uint32_t i = 0; i < moving_.size(); ++i) {
     const MovingPiece& piece = moving_[i];
     const dvec3 center = lighting_->body_poses()[piece.body].apply(piece.sphere.center) - view.eye;
+    const double room = piece.sphere.radius + 1e-3 + 2.0 * double(view.constants.near_m);
     if (!view.outside(center, piece.sphere.radius))
-      order.push_back({glm::dot(view.forward, center) - piece.sphere.radius, i});
+      order.push_back({glm::dot(view.forward, center) - piece.sphere.radius, i,
+                       piece.closed && glm::length(center) > room});
   }
   culled_ += static_cast<uint32_t>(moving_.size() - order.size());
   drawn_ += static_cast<uint32_t>(order.size());
@@ -461,10 +469,15 @@ void CameraPass::draw_moving(gpu::Cmd& cmd, const CameraView& view) {
   std::ranges::sort(order, [](const Drawn& a, const Drawn& b) {
     return a.nearest != b.nearest ? a.nearest < b.nearest : a.piece < b.piece;
   });
-  cmd.bind(visibility_moving_);
-  cmd.push(scene_->raster_descriptors());
+  const gpu::GraphicsPipeline* bound = nullptr;
   for (const Drawn& drawn : order) {
     const MovingPiece& piece = moving_[drawn.piece];
+    const gpu::GraphicsPipeline& with = drawn.culled ? visibility_closed_ : visibility_moving_;
+    if (bound != &with) {
+      cmd.bind(with);
+      cmd.push(scene_->raster_descriptors());
+      bound = &with;
+    }
     cmd.constants(view.of_body(lighting_->body_poses()[piece.body]));
     cmd.draw_range(piece.first_index, piece.index_count, 0);
   }

@@ -223,11 +223,12 @@ class CameraPass {
   /// Opaque primitives of a moving body that follow one another.
   struct MovingPiece {
     uint32_t first_index = 0, index_count = 0, body = 0;
+    bool closed = false;  ///< it is the whole of a closed body
     Sphere sphere;
   };
   std::vector<MovingPiece> moving_;
   bool textured_ = false, normal_mapped_ = false, emissive_ = false;  ///< the needs of their materials
-  gpu::GraphicsPipeline visibility_still_, visibility_moving_, visibility_masked_;
+  gpu::GraphicsPipeline visibility_still_, visibility_moving_, visibility_closed_, visibility_masked_;
   gpu::ComputePipeline shade_;
   gpu::Image visibility_, depth_;  ///< multisampled if msaa is
   gpu::Sampler texel_sampler_;

@@ -53,7 +53,10 @@ PlaneField::PlaneField(uint32_t first, uint32_t size, double fall, double period
     : mask_(size - 1), scale_(float(size / period_m)) {
   RandomStream random(seed, stream);
   // The sum of a few uniform numbers is as good as a normal one here.
-  const auto noise = [&] { return float(random.uniform() + random.uniform() - 1.0); };
+  const auto noise = [&] {
+    const uint64_t bits = random.bits();
+    return float(double(bits >> 32) * 0x1p-32 + double(bits & 0xffffffffu) * 0x1p-32 - 1.0);
+  };
   values_.resize(size_t{first} * first);
   for (float& value : values_) value = noise();
   float amplitude = 1.0f;
@@ -124,6 +127,19 @@ float Clouds::density(const vec2& place, float height) const {
   return std::clamp((base + 0.08f * lumps - 0.03f - least) * 2.2f, 0.0f, 1.0f);
 }
 
+/// Returns whether a steep ray surely meets no cumulus. Its places in the layer lie close together, so that
+/// a few of them tell. `lengthen` is the way along the ray for a metre of height.
+bool Clouds::passes_clear(const vec2& along, float lengthen) const {
+  constexpr float steepest = 2.5f;  // at 24 degrees; the field changes little over the way between two looks
+  if (lengthen > steepest) return false;
+  for (const float height : {0.0f, 0.33f, 0.67f, 1.0f}) {
+    const vec2 place = along * ((base_m + thickness_m * height) * lengthen) + middle;
+    const float least = 0.9f * height * std::sqrt(height);
+    if (base_.at(place) - threshold_ > least - 0.8f) return false;
+  }
+  return true;
+}
+
 CloudView Clouds::see(const vec3& direction, float shift) const {
   CloudView view;
   const float sine = std::max(direction.z, 0.005f), cosine = glm::dot(direction, key_);
@@ -134,7 +150,8 @@ CloudView Clouds::see(const vec3& direction, float shift) const {
   const float towards_eye = phase(cosine);
   float weight = 0.0f, way = 0.0f;
   float before = way_to(base_m, sine);
-  for (int k = 0; cumulus_ && k < steps && view.passed > 0.01f; ++k) {
+  const bool empty = !cumulus_ || passes_clear(along, before / base_m);
+  for (int k = 0; !empty && k < steps && view.passed > 0.01f; ++k) {
     const float end = way_to(base_m + thickness_m * float(k + 1) / steps, sine);
     const float at = before + (end - before) * shift, height = (float(k) + shift) / steps;
     const vec2 place = along * at + middle;

@@ -18,8 +18,8 @@ namespace greatx::render {
 class PlaneField {
  public:
   PlaneField() = default;
-  /// Begins with `first` values along a side, doubles their number up to `size` (both powers of two), and adds
-  /// noise at each step, whose amplitude falls by `fall`.
+  /// Begins with `first` values along a side, doubles their number up to `size` (both powers of two), and
+  /// adds noise at each step, whose amplitude falls by `fall`.
   PlaneField(uint32_t first, uint32_t size, double fall, double period_m, uint64_t seed, uint32_t stream);
 
   /// Returns the value at a place, interpolated bilinearly. Places are within 2^20 periods of 0.
@@ -70,6 +70,7 @@ class Clouds {
 
  private:
   float density(const vec2& place, float height) const;
+  bool passes_clear(const vec2& along, float lengthen) const;
 
   PlaneField base_, detail_;
   float threshold_ = 0.0f, veil_ = 0.0f;

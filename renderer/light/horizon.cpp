@@ -96,8 +96,10 @@ shared::GpuHorizon describe_horizon(const scene::Scene& scene, HorizonKind kind,
   horizon.key = vec3(light.key / pi);
   horizon.floor = float(floor);
   horizon.air = float(clear_air_extinction(lighting.turbidity));
-  horizon.min = vec2(scene.bounds.min);
-  horizon.max = vec2(scene.bounds.max);
+  if (!scene.bounds.empty()) {
+    horizon.min = vec2(scene.bounds.min);
+    horizon.max = vec2(scene.bounds.max);
+  }
   horizon.albedo = vec3(ground_color(scene, floor + 0.25 * scene.bounds.size().z));
   horizon.seed = static_cast<uint32_t>(lighting.cloud_seed);
   const double dark = std::clamp(1.0 - luminance(level) / dusk_lux, 0.0, 1.0);

@@ -68,12 +68,13 @@ MovingShadows::MovingShadows(const scene::GpuScene& scene, const SunFrame& frame
                     std::max(most_map_texels, least_tile_texels * tiles_across_));
   }
   const double texels = double(size) / std::max(tiles_across_, 1u) - 2.0 * tile_rim_texels;
-  bool any_opaque = false, any_masked = false;
+  bool any_opaque = false, any_masked = false, any_closed = false;
   for (Caster& caster : casters_)
     for (Part& part : caster.parts) {
       any_opaque |= !part.opaque.empty();
       any_masked |= !part.masked.empty();
-      part.round = scene.scene().bodies[part.body].joint && part.masked.empty() && !part.opaque.empty() &&
+      any_closed |= !part.closed.empty();
+      part.round = scene.scene().bodies[part.body].joint && part.masked.empty() &&
                    outline_variation(scene.scene(), part.body) < round_texels * 2.0 * caster.radius / texels;
     }
   map_ = shadow_map(device, size, "moving shadow map");
@@ -82,6 +83,9 @@ MovingShadows::MovingShadows(const scene::GpuScene& scene, const SunFrame& frame
   desc.push_constant_bytes = sizeof(shared::GpuShadowPart);
   if (any_opaque) opaque_ = shadow_pipeline(scene, desc, false, "moving shadow");
   if (any_masked) masked_ = shadow_pipeline(scene, desc, true, "moving shadow");
+  // In the sun's frame y points up, and in clip space down: what faces the sun winds clockwise.
+  desc.cull = VK_CULL_MODE_FRONT_BIT;
+  if (any_closed) closed_ = shadow_pipeline(scene, desc, false, "moving shadow of closed bodies");
   gpu::submit_setup(device, [&](gpu::Cmd& cmd) {
     cmd.transition(map_, gpu::ImageUse::depth_target, true);
     cmd.begin_rendering({.color = {}, .depth = &map_, .clear_depth = 0.0f, .width = size, .height = size});
@@ -96,7 +100,7 @@ MovingShadows::MovingShadows(const scene::GpuScene& scene, const SunFrame& frame
   tiles_ = no_tiles_.slice();
 }
 
-MovingShadows::Part MovingShadows::part_of(uint32_t body, bool alpha_mask) const {
+MovingShadows::Part MovingShadows::part_of(uint32_t body, const MovingShadowOptions& options) const {
   const scene::Scene& scene = scene_->scene();
   Part part;
   part.body = body;
@@ -104,7 +108,7 @@ MovingShadows::Part MovingShadows::part_of(uint32_t body, bool alpha_mask) const
   for (uint32_t i = range.first_primitive; i < range.first_primitive + range.primitive_count; ++i) {
     const scene::Primitive& primitive = scene.primitives[i];
     const Range next{primitive.first_index, primitive.index_count, i};
-    if (alpha_mask && has_holes(scene, i)) {
+    if (options.alpha_mask && has_holes(scene, i)) {
       part.masked.push_back(next);
     } else if (!part.opaque.empty() &&
                part.opaque.back().first_index + part.opaque.back().index_count == next.first_index) {
@@ -113,6 +117,7 @@ MovingShadows::Part MovingShadows::part_of(uint32_t body, bool alpha_mask) const
       part.opaque.push_back(next);
     }
   }
+  if (body < options.closed.size() && options.closed[body]) part.closed.swap(part.opaque);
   return part;
 }
 
@@ -129,7 +134,7 @@ void MovingShadows::collect(const MovingShadowOptions& options) {
       caster.radius = std::max(0.5 * glm::length(scene.reach_of(b).size()), 1e-3);
       casters_.push_back(std::move(caster));
     }
-    if (caster_of[owner] != ~0u) casters_[caster_of[owner]].parts.push_back(part_of(b, options.alpha_mask));
+    if (caster_of[owner] != ~0u) casters_[caster_of[owner]].parts.push_back(part_of(b, options));
   }
   for (Caster& caster : casters_) {
     caster.first_part = part_count_;
@@ -232,6 +237,7 @@ void MovingShadows::draw(gpu::TickSlot& slot, const Outside& outside) {
       }
   };
   draw_all(opaque_, &Part::opaque);
+  draw_all(closed_, &Part::closed);
   draw_all(masked_, &Part::masked);
   cmd.end_rendering();
   cmd.transition(map_, gpu::ImageUse::sampled);

@@ -22,6 +22,7 @@ namespace greatx::render {
 struct MovingShadowOptions {
   bool casters = false, alpha_mask = false;
   uint32_t tile_texels = 128;  ///< edge of a tile, at most
+  std::vector<bool> closed;    ///< by body (renderer/surface/closed_bodies.h)
 };
 
 class MovingShadows {
@@ -52,8 +53,8 @@ class MovingShadows {
   };
   struct Part {
     uint32_t body = 0;
-    bool round = false;  ///< it looks the same however it has turned on its joint
-    std::vector<Range> opaque, masked;
+    bool round = false;                         ///< it looks the same however it has turned on its joint
+    std::vector<Range> opaque, masked, closed;  ///< `closed` faces away from the sun are left out
   };
   struct Caster {
     uint32_t body = 0, first_part = 0;
@@ -62,7 +63,7 @@ class MovingShadows {
     std::vector<Part> parts;
   };
   void collect(const MovingShadowOptions& options);
-  Part part_of(uint32_t body, bool alpha_mask) const;
+  Part part_of(uint32_t body, const MovingShadowOptions& options) const;
   shared::GpuShadowTile tile_of(uint32_t caster, std::span<const Pose> body_poses) const;
   shared::GpuShadowPart rows_of(const Caster& caster, const Part& part, const shared::GpuShadowTile& tile,
                                 std::span<const Pose> body_poses) const;
@@ -75,7 +76,7 @@ class MovingShadows {
   const scene::GpuScene* scene_ = nullptr;
   SunFrame frame_;
   gpu::Image map_;  ///< 1 x 1 without casters
-  gpu::GraphicsPipeline opaque_, masked_;
+  gpu::GraphicsPipeline opaque_, masked_, closed_;
   std::vector<Caster> casters_;
   uint32_t tiles_across_ = 0, part_count_ = 0;
   uint64_t drawn_tiles_ = 0;

@@ -39,7 +39,8 @@ ShadowMaps::ShadowMaps(const scene::GpuScene& scene, const SunFrame& frame, cons
   moving_ = MovingShadows(scene, frame,
                           {.casters = options.moving_casters,
                            .alpha_mask = options.alpha_mask,
-                           .tile_texels = options.moving_tile_texels});
+                           .tile_texels = options.moving_tile_texels,
+                           .closed = options.closed});
 }
 
 void ShadowMaps::build_static(bool alpha_mask) {

@@ -22,6 +22,7 @@ namespace greatx::render {
 struct ShadowOptions {
   bool static_casters = false, moving_casters = false, alpha_mask = false;
   uint32_t static_texels = 4096, moving_tile_texels = 512;
+  std::vector<bool> closed;  ///< by body (renderer/surface/closed_bodies.h)
 };
 
 class ShadowMaps {

@@ -15,8 +15,7 @@ namespace greatx::render {
 namespace {
 
 constexpr double least_texel_m = 0.06;
-/// Both sides of the map are multiples of 2^levels, so that every level covers the same ground exactly.
-constexpr uint32_t levels = shared::marks_levels;
+constexpr uint32_t block_side = MarkShares::side;
 constexpr double flat = 0.7;  ///< least cosine of a marking's slope
 
 using Polygon = std::vector<dvec2>;
@@ -60,12 +59,21 @@ void over_roads(const scene::Scene& scene, F&& visit) {
   }
 }
 
+float& texel_at(MarkShares& map, uint32_t column, uint32_t row) {
+  uint32_t& place = map.places[size_t{row / block_side} * map.columns + column / block_side];
+  if (place == 0) {
+    map.shares.resize(map.shares.size() + size_t{block_side} * block_side, 0.0f);
+    place = static_cast<uint32_t>(map.shares.size() / (size_t{block_side} * block_side));
+  }
+  return map.shares[(size_t{place - 1} * block_side + row % block_side) * block_side + column % block_side];
+}
+
 void add_triangle(MarkShares& map, const std::array<dvec3, 3>& corners) {
   Polygon triangle;
   for (const dvec3& corner : corners) triangle.push_back((dvec2(corner) - map.corner) / map.texel_m);
   dvec2 low(triangle[0]), high(triangle[0]);
   for (const dvec2& p : triangle) low = glm::min(low, p), high = glm::max(high, p);
-  const auto last_row = std::min<int64_t>(int64_t(std::floor(high.y)), int64_t(map.height) - 1);
+  const auto last_row = std::min<int64_t>(int64_t(std::floor(high.y)), int64_t(map.rows) * block_side - 1);
   for (int64_t row = std::max<int64_t>(int64_t(std::floor(low.y)), 0); row <= last_row; ++row) {
     // Cuts a row out of the triangle, and then the row into texels.
     Polygon strip = triangle;
@@ -74,36 +82,45 @@ void add_triangle(MarkShares& map, const std::array<dvec3, 3>& corners) {
     if (strip.size() < 3) continue;
     double left = strip[0].x, right = strip[0].x;
     for (const dvec2& p : strip) left = std::min(left, p.x), right = std::max(right, p.x);
-    const auto last = std::min<int64_t>(int64_t(std::floor(right)), int64_t(map.width) - 1);
+    const auto last = std::min<int64_t>(int64_t(std::floor(right)), int64_t(map.columns) * block_side - 1);
     for (int64_t column = std::max<int64_t>(int64_t(std::floor(left)), 0); column <= last; ++column) {
       Polygon texel = strip;
       cut(texel, 0, double(column), -1.0);
       cut(texel, 0, double(column + 1), 1.0);
-      map.shares[size_t(row) * map.width + size_t(column)] += float(area_of(texel));
+      texel_at(map, uint32_t(column), uint32_t(row)) += float(area_of(texel));
     }
   }
 }
 
-/// Returns the levels of half the size each as bytes. Sums are kept in floats, so that a thin line keeps its
-/// share down to the step of a byte.
+/// Returns the levels of half the size each as bytes. A block ends as one texel of the last level, so every
+/// level covers the same ground exactly. Sums are kept in floats, so that a thin line keeps its share down to
+/// the step of a byte.
 std::vector<std::vector<std::byte>> levels_of(const MarkShares& map) {
-  std::vector<std::vector<std::byte>> all;
-  std::vector<float> shares = map.shares;
-  for (uint32_t width = map.width, height = map.height;;) {
-    std::vector<std::byte>& bytes = all.emplace_back();
-    bytes.reserve(shares.size());
-    for (const float share : shares) bytes.push_back(std::byte(uint8_t(std::lround(255.0f * share))));
-    if (all.size() > levels || width % 2 != 0 || height % 2 != 0) return all;
-    std::vector<float> half(shares.size() / 4);
-    for (uint32_t row = 0; row < height / 2; ++row)
-      for (uint32_t column = 0; column < width / 2; ++column) {
-        const float* at = &shares[size_t{2} * row * width + 2 * column];
-        half[size_t{row} * (width / 2) + column] = 0.25f * (at[0] + at[1] + at[width] + at[width + 1]);
-      }
-    shares.swap(half);
-    width /= 2;
-    height /= 2;
+  std::vector<std::vector<std::byte>> all(shared::marks_levels + 1);
+  for (uint32_t level = 0; level < all.size(); ++level)
+    all[level].resize(size_t{map.rows} * map.columns * (block_side >> level) * (block_side >> level));
+  std::vector<float> block;
+  for (uint32_t place = 0; place < map.places.size(); ++place) {
+    if (map.places[place] == 0) continue;
+    const auto from =
+        map.shares.begin() + std::ptrdiff_t(size_t{map.places[place] - 1} * block_side * block_side);
+    block.assign(from, from + block_side * block_side);
+    for (uint32_t level = 0, edge = block_side; level < all.size(); ++level, edge /= 2) {
+      const size_t width = size_t{map.columns} * edge;
+      const size_t first = place / map.columns * edge * width + place % map.columns * edge;
+      for (uint32_t row = 0; row < edge; ++row)
+        for (uint32_t column = 0; column < edge; ++column)
+          all[level][first + row * width + column] =
+              std::byte(uint8_t(std::lround(255.0f * block[size_t{row} * edge + column])));
+      for (uint32_t row = 0; row < edge / 2; ++row)
+        for (uint32_t column = 0; column < edge / 2; ++column) {
+          const float* at = &block[size_t{2} * row * edge + 2 * column];
+          // The sum goes to a place whose own value has already been added up.
+          block[size_t{row} * (edge / 2) + column] = 0.25f * (at[0] + at[1] + at[edge] + at[edge + 1]);
+        }
+    }
   }
+  return all;
 }
 
 /// Sums up colours by area.
@@ -131,7 +148,7 @@ shared::GpuMarks describe(const scene::GpuScene& gpu_scene, const MarkShares& ma
         .add(*color, double(scene.materials[primitive.material].pbr.roughness), area);
   });
   shared::GpuMarks marks{};
-  const dvec2 size = map.texel_m * dvec2(map.width, map.height);
+  const dvec2 size = map.texel_m * double(block_side) * dvec2(map.columns, map.rows);
   marks.scale = vec2(1.0 / size);
   marks.offset = vec2(-map.corner / size);
   marks.mark = mark.color();
@@ -158,21 +175,17 @@ MarkShares mark_shares(const scene::Scene& scene, uint32_t most) {
     for (const dvec3& corner : corners) bounds.add(corner);
   });
   MarkShares map;
-  if (bounds.empty()) {
-    map.shares = {0.0f};
-    return map;
-  }
+  if (bounds.empty()) return map;
   const dvec2 size(bounds.size());
-  // An empty texel of the last level surrounds the map, so that places beyond it have no markings.
-  constexpr uint32_t rim = 1u << levels;
-  map.texel_m = std::max(least_texel_m, std::max(size.x, size.y) / (most - 3.0 * rim));
-  map.corner = dvec2(bounds.min) - double(rim) * map.texel_m;
-  const auto texels = [&](double length) {
-    return (static_cast<uint32_t>(std::ceil(length / map.texel_m)) / rim + 3) * rim;
+  // A block without markings surrounds the map, so that places beyond it have none.
+  map.texel_m = std::max(least_texel_m, std::max(size.x, size.y) / (most - 3.0 * block_side));
+  map.corner = dvec2(bounds.min) - double(block_side) * map.texel_m;
+  const auto blocks = [&](double length) {
+    return static_cast<uint32_t>(std::ceil(length / map.texel_m)) / block_side + 3;
   };
-  map.width = texels(size.x);
-  map.height = texels(size.y);
-  map.shares.assign(size_t{map.width} * map.height, 0.0f);
+  map.columns = blocks(size.x);
+  map.rows = blocks(size.y);
+  map.places.assign(size_t{map.columns} * map.rows, 0u);
   over_roads(scene, [&](uint32_t kind, const scene::Primitive&, const std::array<dvec3, 3>& p) {
     const dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
     if (kind == shared::triangle_of_mark && std::abs(normal.z) > flat * glm::length(normal))
@@ -185,14 +198,14 @@ MarkShares mark_shares(const scene::Scene& scene, uint32_t most) {
 MarkMap::MarkMap(const scene::GpuScene& scene, bool wanted) {
   gpu::Device& device = scene.device();
   MarkShares shares;
-  shares.shares = {0.0f};
   if (wanted) shares = mark_shares(scene.scene());
-  any_ = shares.shares.size() > 1;
-  const std::vector<std::vector<std::byte>> bytes = levels_of(shares);
+  any_ = !shares.places.empty();
+  std::vector<std::vector<std::byte>> bytes{{std::byte{0}}};
+  if (any_) bytes = levels_of(shares);
   map_ = gpu::Image(device,
                     {.format = VK_FORMAT_R8_UNORM,
-                     .width = shares.width,
-                     .height = shares.height,
+                     .width = any_ ? block_side * shares.columns : 1,
+                     .height = any_ ? block_side * shares.rows : 1,
                      .mip_levels = static_cast<uint32_t>(bytes.size()),
                      .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
                     "map of markings");
@@ -200,7 +213,7 @@ MarkMap::MarkMap(const scene::GpuScene& scene, bool wanted) {
   gpu::upload_image(device, map_, mips);
   sampler_ = gpu::Sampler(device, {.linear = true, .repeat_u = false, .repeat_v = false, .mipmaps = true},
                           "map of markings");
-  const shared::GpuMarks marks = describe(scene, shares);
+  const shared::GpuMarks marks = any_ ? describe(scene, shares) : shared::GpuMarks{};
   block_ = gpu::upload_buffer(device, std::as_bytes(std::span(&marks, 1)), "markings",
                               VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
 }

@@ -9,6 +9,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/error.h"
+#include "renderer/surface/closed_bodies.h"
 #include "renderer/surface/mark_map.h"
 #include "renderer/surface/octahedral.h"
 #include "shaders/shared/camera.h"
@@ -77,6 +78,7 @@ void require_16_bits(const char* what, size_t count) {
 
 SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
   const scene::Scene& scene = gpu_scene.scene();
+  closed_ = closed_bodies(scene);
   require_16_bits("bodies", scene.bodies.size());
   require_16_bits("materials", scene.materials.size());
   Words triangles, materials;

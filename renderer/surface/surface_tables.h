@@ -26,11 +26,14 @@ class SurfaceTables {
   /// uvec2 [triangles + 1], by triangle + 1: instance + 1, semantic class | (material + 1) << 16; [0]:
   /// nothing.
   const gpu::Buffer& triangle_ids() const { return triangle_ids_; }
+  /// Whether a body is closed (renderer/surface/closed_bodies.h).
+  const std::vector<bool>& closed() const { return closed_; }
 
  private:
   gpu::Buffer triangles_, materials_;  ///< shaders/shared/camera.h: triangle_record_quads
   gpu::Buffer address_;                ///< address of triangles_, if they are too many to be bound
   gpu::Buffer triangle_primitives_, triangle_ids_;
+  std::vector<bool> closed_;
 };
 
 }  // namespace greatx::render

@@ -64,7 +64,8 @@ float way_out(LandRay ray) {
 /// Returns the radiance of a wall in the open: half of the sky, what the ground throws back, the key light.
 vec3 wall_radiance(vec3 albedo, vec2 normal) {
   float facing = max(dot(normal, lighting.sun_direction.xy), 0.0);
-  return albedo * (0.5 * horizon.shaded + 0.08 * horizon.sunlit + 0.75 * facing * horizon.key + 0.3 * horizon.lamps);
+  return albedo * (0.5 * horizon.shaded + 0.08 * horizon.sunlit + 0.75 * facing * horizon.key +
+                   0.1 * horizon.lamps);
 }
 
 /// Returns the radiance of a facade at a place along it and above the ground. Windows smaller than a pixel
@@ -165,15 +166,18 @@ void meet(inout Gathered all, uint kind, LandRay ray, vec2 inverse, Block block,
     float round = block.high.x - block.low.x < country_lot ? 1.0 : 0.35;
     uint tree = hash_of(ivec2(floor(p * 0.3)), 9u);
     top *= 1.0 - 0.3 * fraction(tree, 0) * clamp(1.5 - pixel_m * 0.3, 0.0, 1.0);
-    top *= 1.0 - round * min(aside * aside, 1.0);
+    aside = min(aside * aside, 1.0);
+    top *= 1.0 - round * aside * aside;
   }
   float share = clamp((top - at) / max(pixel_m, 1e-3) + 0.5, 0.0, 1.0);
   if (share > 0.0) {
     vec3 wall;
-    if (kind == horizon_city)
+    if (kind == horizon_city) {
       wall = facade_radiance(block.hash, vec2(across_x ? p.y : p.x, at), normal, air, pixel_m);
-    else
-      wall = wall_radiance(vec3(0.045, 0.075, 0.025) * (0.7 + 0.6 * fraction(hash_of(ivec2(floor(vec2(dot(p, vec2(0.7)), at) * 0.6)), 4u), 0)), normal);
+    } else {
+      float leaves = 0.7 + 0.6 * fraction(hash_of(ivec2(floor(vec2(dot(p, vec2(0.7)), at) * 0.6)), 4u), 0);
+      wall = wall_radiance(vec3(0.045, 0.075, 0.025) * leaves, normal);
+    }
     put(all, through_air(wall, air, direction, enter * ray.lengthen), share);
   }
   float roof_at = ray.slope < 0.0 ? (top - ray.height) / ray.slope : leave;
@@ -197,9 +201,10 @@ void add_profile(inout Gathered all, uint kind, LandRay ray, float ground, vec3 
   float rise = kind == horizon_city ? 9.0 + 26.0 * fraction(hash, 0) * fraction(hash, 1)
                                     : 8.0 + 7.0 * sin(azimuth * 37.0 + seed) * sin(azimuth * 11.0);
   float near = clamp(((rise - ray.height) / land_reach - ray.slope) / ray.pixel + 0.5, 0.0, 1.0);
-  vec3 tone = kind == horizon_city ? vec3(0.2, 0.19, 0.18) * (0.6 + 0.8 * fraction(hash, 2)) : vec3(0.04, 0.06, 0.025);
-  if (kind != horizon_plain)
-    put(all, through_air(tone * (0.7 * horizon.shaded + 0.2 * horizon.sunlit + 0.3 * horizon.lamps), air, direction, land_reach), near);
+  vec3 tone = kind == horizon_city ? vec3(0.2, 0.19, 0.18) * (0.6 + 0.8 * fraction(hash, 2))
+                                   : vec3(0.04, 0.06, 0.025);
+  vec3 light = 0.7 * horizon.shaded + 0.2 * horizon.sunlit + 0.3 * horizon.lamps;
+  if (kind != horizon_plain) put(all, through_air(tone * light, air, direction, land_reach), near);
   float hill = 110.0 + 70.0 * sin(azimuth * 3.0 + seed) + 40.0 * sin(azimuth * 7.3 + 1.7 * seed) +
                14.0 * sin(azimuth * 23.0 + 0.3 * seed) + 5.0 * sin(azimuth * 61.0);
   float far = clamp(((hill - ray.height) / hill_distance - ray.slope) / ray.pixel + 0.5, 0.0, 1.0);

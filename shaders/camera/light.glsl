@@ -66,7 +66,7 @@ vec3 shadow_point(vec3 p, vec3 n_light, float texel_m) {
 /// Returns floor(x) for 0 <= x < 2^22 from the digits of a float: CPU drivers convert lane by lane.
 uint whole(float x) { return floatBitsToUint(floor(x) + 8388608.0) & 0x7fffffu; }
 
-/// Returns the share of the sun that passes the tile of one moving body, which stands at a quadruple of words.
+/// Returns the share of the sun that passes the tile of one moving body, which stands at a quadruple.
 float tile_visibility(uint quad, vec3 p, vec3 n, float pixel_m) {
   float visible = 1.0;
   vec4 ball = uintBitsToFloat(quad_of(shadow_quads[quad]));  // centre, radius

@@ -349,14 +349,15 @@ TEST(Camera, EffectsThatAreOffAreNotBuiltAndChangeNothingElse) {
   };
   render::CameraImages full, unshadowed, geometry;
   EXPECT_THAT(pipelines_of({}, {}, full),
-              testing::ElementsAre("static shadow", "moving shadow", "camera visibility",
-                                   "camera visibility of bodies", "camera shade", "camera develop"));
+              testing::ElementsAre("static shadow", "moving shadow of closed bodies", "camera visibility",
+                                   "camera visibility of bodies", "camera visibility of closed bodies",
+                                   "camera shade", "camera develop"));
   render::CameraEffects none{};
   none.sun = none.sky = none.textures = none.normal_maps = none.alpha_mask = none.emissive = false;
   none.punctual_lights = none.specular = false;  // shadows go off with the sun
   EXPECT_THAT(pipelines_of(none, {}, unshadowed),
-              testing::ElementsAre("camera visibility", "camera visibility of bodies", "camera shade",
-                                   "camera develop"));
+              testing::ElementsAre("camera visibility", "camera visibility of bodies",
+                                   "camera visibility of closed bodies", "camera shade", "camera develop"));
   EXPECT_NE(full.rgb, unshadowed.rgb);
   EXPECT_EQ(full.depth, unshadowed.depth);
   EXPECT_EQ(full.instance, unshadowed.instance);

@@ -65,5 +65,25 @@ TEST(CameraPlan, AVignettingThatLetsNoLightThroughIsNamedWithFileAndLine) {
   EXPECT_EQ(message_of("type: camera, rate_hz: 30, fov_deg: 90, vignetting: [-0.3, 0, 0]"), "accepted");
 }
 
+TEST(CameraPlan, CloudsAndLandFollowTheSkyAndTheScene) {
+  const auto plan_with = [](const std::string& environment, const scene::Scene& scene = {}) {
+    return make_effect_plan(
+        parse_scenario("greatx: 1\nname: x\nticks: 5\nenvironment: {" + environment +
+                           "}\nnodes:\n  - name: car\n    trajectory: {type: static, position_m: [0, 0, 1]}\n"
+                           "    sensors:\n      - {name: front, type: camera, rate_hz: 30, fov_deg: 90}\n",
+                       "s.yaml", "."),
+        scene);
+  };
+  EXPECT_TRUE(plan_with("").clouds.on);
+  EXPECT_FALSE(plan_with("clouds: 0").clouds.on);
+  EXPECT_TRUE(plan_with("clouds: 0, sky: overcast").clouds.on);
+  EXPECT_FALSE(plan_with("sky_illuminance_lux: 0").clouds.on);
+  EXPECT_FALSE(plan_with("").horizon.on) << "there is no scene";
+  EXPECT_FALSE(plan_with("").markings.on);
+  EXPECT_TRUE(plan_with("horizon: city").horizon.on);
+  EXPECT_THAT(plan_with("horizon: city").horizon.reason, ::testing::HasSubstr("city"));
+  EXPECT_FALSE(plan_with("horizon: city, sky_illuminance_lux: 0").horizon.on);
+}
+
 }  // namespace
 }  // namespace greatx::sim

@@ -46,7 +46,8 @@ scene::Material surface(const std::string& name, const std::string& itu, double 
 }
 
 /// Returns a yard with a ground that is textured, bumpy, rough and scatters, a wall, a pane, a fence with
-/// holes, a marking, a sign that glows, a lamp, the crown of a tree with a plate behind it, and body 1, a van.
+/// holes, a marking, a sign that glows, a lamp, the crown of a tree with a plate behind it, and body 1, a
+/// van.
 scene::Scene yard() {
   TinyScene tiny;
   scene::Material ground = surface("ground", "concrete");

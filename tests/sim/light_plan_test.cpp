@@ -94,6 +94,23 @@ TEST(LightPlan, LightIsContinuousThroughSunset) {
   EXPECT_EQ(before_direct, 0.0);
 }
 
+TEST(LightPlan, AClearSkyHasFairWeatherCloudsUnlessTheScenarioSaysOtherwise) {
+  Environment e;
+  EXPECT_EQ(resolve(e).lighting.clouds, 0.3);
+  e.clouds = 0.7;
+  EXPECT_EQ(resolve(e).lighting.clouds, 0.7);
+  e.sky = SkyKind::overcast;
+  EXPECT_EQ(resolve(e).lighting.clouds, 0.0) << "its cover is closed";
+  EXPECT_EQ(resolve(e).lighting.horizon, render::HorizonKind::automatic);
+  for (const auto& [wish, kind] : {std::pair(Horizon::none, render::HorizonKind::none),
+                                   std::pair(Horizon::plain, render::HorizonKind::plain),
+                                   std::pair(Horizon::city, render::HorizonKind::city),
+                                   std::pair(Horizon::country, render::HorizonKind::country)}) {
+    e.horizon = wish;
+    EXPECT_EQ(resolve(e).lighting.horizon, kind);
+  }
+}
+
 TEST(LightPlan, RainBringsCloudsAndFogTakesTheShadows) {
   Environment e;
   e.rain_mm_h = 10.0;
