@@ -181,6 +181,9 @@ void CameraPass::build_pipelines() {
   shade.specialization[shared::spec_haze] = effects_.haze;
   shade.specialization[shared::spec_night_sky] = effects_.night_sky;
   shade.specialization[shared::spec_ambient_occlusion] = effects_.ambient_occlusion;
+  shade.specialization[shared::spec_contact_occlusion] = effects_.contact_occlusion;
+  shade.specialization[shared::spec_bounced_light] = effects_.bounced_light;
+  shade.specialization[shared::spec_glass] = effects_.glass;
   shade.specialization[shared::spec_distortion] = desc_.distortion.any();
   shade.specialization[shared::spec_blend] = desc_.parts;
   const auto arrays_of = [&](scene::TextureReference scene::MaterialTextures::*use) {

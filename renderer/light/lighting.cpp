@@ -12,6 +12,9 @@
 #include "renderer/light/night_sky.h"
 #include "renderer/light/sky.h"
 #include "renderer/light/sky_view.h"
+#include "renderer/light/surroundings.h"
+#include "shaders/shared/contact.h"
+#include "shaders/shared/surroundings.h"
 
 namespace greatx::render {
 
@@ -54,6 +57,10 @@ SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& light
   check(lighting);
   effects_.sky = effects.sky && lighting.sky_illuminance_lux > 0.0;
   effects_.ambient_occlusion = effects.ambient_occlusion && effects_.sky && !scene.scene().bounds.empty();
+  effects_.bounced_light = effects.bounced_light && effects_.ambient_occlusion;
+  effects_.glass = effects.glass && effects_.sky && effects_.specular && !scene.scene().bounds.empty();
+  if (effects.contact_occlusion && effects_.sky) contact_boxes_ = contact_boxes(scene.scene());
+  effects_.contact_occlusion = !contact_boxes_.empty();
   effects_.haze = effects.haze && lighting.haze_extinction_per_m > 0.0;
   const Sky sky(lighting, effects_.haze);
   const KeyLight key = key_light(lighting);
@@ -108,9 +115,10 @@ void SceneLighting::bake(const Lighting& lighting, const Sky& sky) {
   const vec3 ground_light =
       vec3((sky.key_illuminance() * (effects_.sun ? key.direction.z : 0.0) + sky.illuminance()) / pi);
   block.bounce = bounce_share * ground_light;
-  bake_sky_view(block);
+  bake_sky_view(block, sky, key);
   block.environment_scale = float(map.scale);
-  const auto irradiance = sky_irradiance(sky);
+  // Light from below comes from the surroundings then.
+  const auto irradiance = sky_irradiance(sky, !effects_.bounced_light);
   for (size_t i = 0; i < irradiance.size(); ++i) block.irradiance[i] = vec4(vec3(irradiance[i]), 0.0f);
   block_ = gpu::upload_buffer(device, std::as_bytes(std::span(&block, 1)), "lighting",
                               VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
@@ -131,15 +139,30 @@ void SceneLighting::bake(const Lighting& lighting, const Sky& sky) {
   gpu::upload_image(device, environment_, mips);
 }
 
-void SceneLighting::bake_sky_view(shared::GpuLighting& block) {
+void SceneLighting::bake_sky_view(shared::GpuLighting& block, const Sky& sky, const KeyLight& key) {
   HeightField field;
   std::vector<uint16_t> texels(4);
+  std::vector<uint32_t> words(2);
+  if (effects_.ambient_occlusion || effects_.glass) field = height_field(scene_->scene());
+  if (effects_.bounced_light || effects_.glass) {
+    SurroundingLight light;
+    light.key_direction = key.direction;
+    if (effects_.sun) light.key_lux = sky.key_illuminance();
+    light.sky_lux = pi * sky_irradiance(sky)[0];
+    light.beyond = sky.radiance({0.0, 0.0, -1.0});
+    const std::vector<scene::PunctualLight>& lamps = scene_->scene().lights;
+    words = Surroundings(scene_->scene(), field, light,
+                         effects_.punctual_lights ? std::span(lamps) : std::span(lamps).first(0))
+                .words();
+  }
   if (effects_.ambient_occlusion) {
-    field = height_field(scene_->scene());
     texels = sky_view_texels(field);
     describe_sky_view(field, block);
+  } else {
+    field = {};
   }
   gpu::Device& device = scene_->device();
+  surroundings_ = gpu::upload_buffer(device, std::as_bytes(std::span(words)), "surroundings");
   sky_view_ = gpu::Image(device,
                          {.format = VK_FORMAT_R16G16B16A16_SFLOAT,
                           .width = field.width,
@@ -158,6 +181,10 @@ void SceneLighting::record(gpu::TickSlot& slot, std::span<const Pose> body_poses
   body_poses_.assign(body_poses.begin(), body_poses.end());
   body_poses_[0] = Pose{};
   if (effects_.moving_shadows) shadows_.record(slot, body_poses_, block_.slice());
+  if (effects_.contact_occlusion) {
+    const std::vector<uint32_t> words = contact_words(contact_boxes_, body_poses_);
+    contact_ = slot.upload.put(std::span<const uint32_t>(words));
+  }
 }
 
 std::vector<gpu::Binding> SceneLighting::surface_bindings() {
@@ -176,6 +203,8 @@ std::vector<gpu::Binding> SceneLighting::bindings() {
   return {{shared::lighting_binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
           {shared::shadow_tiles_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
           {shared::stars_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+          {shared::contact_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+          {shared::surroundings_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
           {shared::sky_view_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
           {shared::environment_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
           {shared::static_shadow_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
@@ -187,6 +216,10 @@ std::vector<gpu::Descriptor> SceneLighting::descriptors() const {
   all.push_back(gpu::Descriptor::buffer(shared::lighting_binding, block_));
   all.back().type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
   all.push_back(gpu::Descriptor::buffer(shared::stars_binding, stars_));
+  all.push_back(gpu::Descriptor::buffer(shared::surroundings_binding, surroundings_));
+  // A shader without the effect does not read the slot that stands for it.
+  all.push_back(effects_.contact_occlusion ? gpu::Descriptor::buffer(shared::contact_binding, contact_)
+                                           : gpu::Descriptor::buffer(shared::contact_binding, surroundings_));
   all.push_back(gpu::Descriptor::sampled(shared::sky_view_binding, sky_view_, sky_view_sampler_));
   all.push_back(gpu::Descriptor::sampled(shared::environment_binding, environment_, environment_sampler_));
   return all;

@@ -11,6 +11,7 @@
 #include "core/vec.h"
 #include "gpu/cmd.h"
 #include "gpu/tick_ring.h"
+#include "renderer/light/contact.h"
 #include "renderer/light/shadow.h"
 #include "renderer/surface/surface_tables.h"
 #include "scene/device/gpu_scene.h"
@@ -75,6 +76,9 @@ struct CameraEffects {
   bool haze = false;               ///< fog and rain
   bool night_sky = false;          ///< stars, the moon's disc
   bool ambient_occlusion = false;  ///< occlusion of sky light by static bodies
+  bool contact_occlusion = false;  ///< occlusion of sky light by moving bodies
+  bool bounced_light = false;      ///< light that the static world reflects once; with ambient_occlusion
+  bool glass = false;              ///< smooth surfaces mirror the static world
   bool specular = true;            ///< off: every surface is Lambertian
 };
 
@@ -108,7 +112,7 @@ class SceneLighting {
 
  private:
   void bake(const Lighting& lighting, const Sky& sky);
-  void bake_sky_view(shared::GpuLighting& block);
+  void bake_sky_view(shared::GpuLighting& block, const Sky& sky, const KeyLight& key);
 
   const scene::GpuScene* scene_;
   CameraEffects effects_;  ///< the effects asked for, less those that this light cannot cast
@@ -118,8 +122,11 @@ class SceneLighting {
   gpu::Sampler environment_sampler_;
   gpu::Image sky_view_;  ///< renderer/light/sky_view.h; one texel without ambient_occlusion
   gpu::Sampler sky_view_sampler_;
-  gpu::Buffer stars_;  ///< shared::GpuStar [star_cells^2]; one without night_sky
-  gpu::Buffer block_;  ///< GpuLighting
+  gpu::Buffer surroundings_;               ///< renderer/light/surroundings.h; one word without its effects
+  std::vector<ContactBox> contact_boxes_;  ///< empty without contact_occlusion
+  gpu::Slice contact_;                     ///< words of the boxes at this tick
+  gpu::Buffer stars_;                      ///< shared::GpuStar [star_cells^2]; one without night_sky
+  gpu::Buffer block_;                      ///< GpuLighting
   SurfaceTables surfaces_;
   std::vector<Pose> body_poses_;
 };

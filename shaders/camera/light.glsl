@@ -6,6 +6,7 @@
 #define GREATX_CAMERA_LIGHT_GLSL
 #include "camera/effects.glsl"
 #include "camera/octahedral.glsl"
+#include "camera/surroundings.glsl"
 #include "camera/visibility_view.glsl"
 #include "shared/brdf.h"
 
@@ -128,20 +129,36 @@ float sky_share(vec3 p_eye, vec3 n) {
 }
 
 /// Returns the radiance towards the eye of the sky's light: the diffuse part, and a mirror image blurred by
-/// the roughness. The part of the sky that the world hides is replaced by light that the ground throws back.
+/// the roughness. The part of the sky that the world hides is replaced by light that the world throws back:
+/// that of one bounce, or else a constant.
 vec3 reflect_sky(Reflectance r, vec3 n, vec3 v, float roughness, vec3 p_eye) {
   float share = ambient_occlusion_on ? sky_share(p_eye, n) : 1.0;
   vec3 hidden = ambient_occlusion_on ? (1.0 - share) * lighting.bounce : vec3(0.0);
+  Bounced bounced;
+  if (bounced_light_on) {
+    bounced = bounced_at(p_eye, n);
+    hidden = bounced_over_pi(bounced, n);
+  }
   vec3 radiance = r.diffuse * (sky_irradiance_over_pi(n) * share + hidden);
   if (specular_on) {
     vec3 direction = reflect(-v, n);
     vec3 mirrored = sky_irradiance_over_pi(direction);
+    if (bounced_light_on) hidden = bounced_over_pi(bounced, direction);
     bool sharp = roughness < environment_most_roughness;
+    vec3 image = vec3(0.0);
     if (sharp) {
       float rough = smoothstep(environment_most_roughness - 0.1, environment_most_roughness, roughness);
-      mirrored = mix(environment_radiance(direction, roughness), mirrored, rough);
+      image = environment_radiance(direction, roughness);
+      mirrored = mix(image, mirrored, rough);
     }
-    radiance += r.albedo * (mirrored * share + hidden);
+    mirrored = mirrored * share + hidden;
+    bool clear = glass_on && roughness < surroundings_most_roughness + surroundings_fade;
+    if (clear) {
+      image = mirrored_surroundings(p_eye, n, direction, image);
+      float rough = clamp((roughness - surroundings_most_roughness) / surroundings_fade, 0.0, 1.0);
+      mirrored = mix(image, mirrored, rough);
+    }
+    radiance += r.albedo * mirrored;
   }
   return radiance;
 }

@@ -4,6 +4,7 @@
 // Shades the triangles that the visibility pass found. Each triangle that a pixel's samples saw is shaded
 // once and weighed by the number of these samples. Depth and id are those of the triangle that the pixel's
 // centre looks at. With GREATX_MULTISAMPLED a pixel has four samples.
+#include "camera/contact.glsl"
 #include "camera/haze.glsl"
 #include "camera/lamps.glsl"
 #include "camera/lens_ray.glsl"
@@ -46,7 +47,10 @@ vec3 surface_radiance(Seen seen, vec3 ray) {
     vec3 direct = reflect_light(r, s.n, s.v, lighting.sun_direction, lighting.sun_illuminance);
     radiance += direct * sun_visibility(s.p, s.geometric);
   }
-  if (sky_on) radiance += reflect_sky(r, s.n, s.v, s.roughness, s.p);
+  if (sky_on) {
+    float open = contact_occlusion_on ? contact_open(s.p, s.n, seen.body) : 1.0;
+    radiance += open * reflect_sky(r, s.n, s.v, s.roughness, s.p);
+  }
   if (lights_on)
     radiance += reflect_lamps(r, s.n, s.v, s.p, s.roughness < lamp_most_roughness || s.metallic > 0.5);
   if (haze_on) radiance = through_haze(radiance, -s.v, length(s.p));

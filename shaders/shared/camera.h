@@ -60,7 +60,11 @@ const uint spec_moving_bodies = 21u;  // visibility pass; off: it draws the bodi
 // The records of triangles may be larger than the part of a buffer that a shader sees at once. Their address
 // is then bound.
 const uint spec_triangle_address = 22u;
-const uint shade_spec_count = 23u;
+// Effects of docs/global_light.md.
+const uint spec_contact_occlusion = 27u;
+const uint spec_bounced_light = 28u;
+const uint spec_glass = 29u;
+const uint shade_spec_count = 30u;
 // This constant belongs to the masks of the shadow maps.
 const uint shadow_spec_base_color_arrays = 0u;
 

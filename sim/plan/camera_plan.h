@@ -17,6 +17,7 @@ struct Offers {
   bool triangles = false, static_triangles = false, moving_triangles = false;
   bool textures = false, normal_maps = false, reflectance_textures = false, alpha_mask = false,
        emissive = false;
+  bool smooth = false;           ///< a material may be smooth enough to mirror
   double brightest_cd_m2 = 0.0;  ///< the highest luminance that a material emits
   size_t lights = 0;
   /// The highest illuminance that a single lamp gives the ground.
