@@ -232,6 +232,9 @@ void CameraPass::build_pipelines() {
   shade.specialization[shared::spec_mirrors] = wants_mirrors(effects_, desc_);
   shade.specialization[shared::spec_lamp_shadows] = effects_.lamp_shadows;
   shade.specialization[shared::spec_lamp_halos] = effects_.lamp_halos;
+  shade.specialization[shared::spec_contact_occlusion] = effects_.contact_occlusion;
+  shade.specialization[shared::spec_bounced_light] = effects_.bounced_light;
+  shade.specialization[shared::spec_glass] = effects_.glass;
   shade.specialization[shared::spec_blend] = desc_.parts;
   const auto arrays_of = [&](scene::TextureReference scene::MaterialTextures::*use) {
     return scene_->textures().arrays_of(use);

@@ -14,6 +14,9 @@
 #include "renderer/light/panorama.h"
 #include "renderer/light/sky.h"
 #include "renderer/light/sky_view.h"
+#include "renderer/light/surroundings.h"
+#include "shaders/shared/contact.h"
+#include "shaders/shared/surroundings.h"
 #include "shaders/shared/weather.h"
 
 namespace greatx::render {
@@ -91,6 +94,10 @@ SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& light
   check(lighting);
   effects_.sky = effects.sky && lighting.sky_illuminance_lux > 0.0;
   effects_.ambient_occlusion = effects.ambient_occlusion && effects_.sky && !scene.scene().bounds.empty();
+  effects_.bounced_light = effects.bounced_light && effects_.ambient_occlusion;
+  effects_.glass = effects.glass && effects_.sky && effects_.specular && !scene.scene().bounds.empty();
+  if (effects.contact_occlusion && effects_.sky) contact_boxes_ = contact_boxes(scene.scene());
+  effects_.contact_occlusion = !contact_boxes_.empty();
   effects_.haze = effects.haze && lighting.haze_extinction_per_m > 0.0;
   effects_.clouds = effects.clouds && effects_.sky && lighting.sky_model != SkyModel::uniform &&
                     (lighting.clouds > 0.0 || lighting.sky_model == SkyModel::overcast);
@@ -169,9 +176,10 @@ void SceneLighting::bake(const Lighting& lighting, const Sky& sky) {
                                   sky.illuminance() + lamps_on_ground()) /
                                  pi);
   block.bounce = bounce_share * ground_light;
-  bake_sky_view(block);
+  bake_sky_view(block, sky, key);
   block.environment_scale = float(map.scale);
-  const auto irradiance = sky_irradiance(sky);
+  // Light from below comes from the surroundings then.
+  const auto irradiance = sky_irradiance(sky, !effects_.bounced_light);
   for (size_t i = 0; i < irradiance.size(); ++i) block.irradiance[i] = vec4(vec3(irradiance[i]), 0.0f);
   block_ = gpu::upload_buffer(device, std::as_bytes(std::span(&block, 1)), "lighting",
                               VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
@@ -232,15 +240,30 @@ dvec3 SceneLighting::lamps_on_ground() const {
   return flux / std::max(extent.x * extent.y, 1.0);
 }
 
-void SceneLighting::bake_sky_view(shared::GpuLighting& block) {
+void SceneLighting::bake_sky_view(shared::GpuLighting& block, const Sky& sky, const KeyLight& key) {
   HeightField field;
   std::vector<uint16_t> texels(4);
+  std::vector<uint32_t> words(2);
+  if (effects_.ambient_occlusion || effects_.glass) field = height_field(scene_->scene());
+  if (effects_.bounced_light || effects_.glass) {
+    SurroundingLight light;
+    light.key_direction = key.direction;
+    if (effects_.sun) light.key_lux = sky.key_illuminance();
+    light.sky_lux = pi * sky_irradiance(sky)[0];
+    light.beyond = sky.radiance({0.0, 0.0, -1.0});
+    const std::vector<scene::PunctualLight>& lamps = scene_->scene().lights;
+    words = Surroundings(scene_->scene(), field, light,
+                         effects_.punctual_lights ? std::span(lamps) : std::span(lamps).first(0))
+                .words();
+  }
   if (effects_.ambient_occlusion) {
-    field = height_field(scene_->scene());
     texels = sky_view_texels(field);
     describe_sky_view(field, block);
+  } else {
+    field = {};
   }
   gpu::Device& device = scene_->device();
+  surroundings_ = gpu::upload_buffer(device, std::as_bytes(std::span(words)), "surroundings");
   sky_view_ = gpu::Image(device,
                          {.format = VK_FORMAT_R16G16B16A16_SFLOAT,
                           .width = field.width,
@@ -285,6 +308,10 @@ void SceneLighting::record(gpu::TickSlot& slot, std::span<const Pose> body_poses
   body_poses_[0] = Pose{};
   if (effects_.moving_shadows) shadows_.moving().record(slot, body_poses_);
   if (effects_.lamp_shadows) lamp_shadows_.record(slot, body_poses_);
+  if (effects_.contact_occlusion) {
+    const std::vector<uint32_t> words = contact_words(contact_boxes_, body_poses_);
+    contact_ = slot.upload.put(std::span<const uint32_t>(words));
+  }
 }
 
 void SceneLighting::draw_shadows(gpu::TickSlot& slot, const MovingShadows::Outside& outside) const {
@@ -310,6 +337,8 @@ std::vector<gpu::Binding> SceneLighting::bindings() {
            {shared::shadow_tiles_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {shared::stars_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {shared::horizon_binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
+           {shared::contact_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+           {shared::surroundings_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
            {shared::weather_binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
            {shared::rain_cover_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
            {shared::lamp_shadow_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
@@ -335,6 +364,10 @@ std::vector<gpu::Descriptor> SceneLighting::descriptors() const {
   all.push_back(gpu::Descriptor::buffer(shared::horizon_binding, horizon_));
   all.back().type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
   all.push_back(gpu::Descriptor::sampled(shared::panorama_binding, panorama_, sky_view_sampler_));
+  all.push_back(gpu::Descriptor::buffer(shared::surroundings_binding, surroundings_));
+  // A shader without the effect does not read the slot that stands for it.
+  all.push_back(effects_.contact_occlusion ? gpu::Descriptor::buffer(shared::contact_binding, contact_)
+                                           : gpu::Descriptor::buffer(shared::contact_binding, surroundings_));
   all.push_back(gpu::Descriptor::sampled(shared::sky_view_binding, sky_view_, sky_view_sampler_));
   all.push_back(gpu::Descriptor::sampled(shared::environment_binding, environment_, environment_sampler_));
   return all;

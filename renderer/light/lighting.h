@@ -11,6 +11,7 @@
 #include "core/vec.h"
 #include "gpu/cmd.h"
 #include "gpu/tick_ring.h"
+#include "renderer/light/contact.h"
 #include "renderer/light/lamp_shadow.h"
 #include "renderer/light/rain_cover.h"
 #include "renderer/light/shadow.h"
@@ -96,6 +97,9 @@ struct CameraEffects {
   bool lamp_shadows = false;       ///< renderer/light/lamp_shadow.h
   bool lamp_halos = false;         ///< only with haze and lamps
   bool ambient_occlusion = false;  ///< occlusion of sky light by static bodies
+  bool contact_occlusion = false;  ///< occlusion of sky light by moving bodies
+  bool bounced_light = false;      ///< light that the static world reflects once; with ambient_occlusion
+  bool glass = false;              ///< smooth surfaces mirror the static world
   bool specular = true;            ///< off: every surface is Lambertian
 };
 
@@ -147,7 +151,7 @@ class SceneLighting {
 
  private:
   void bake(const Lighting& lighting, const Sky& sky);
-  void bake_sky_view(shared::GpuLighting& block);
+  void bake_sky_view(shared::GpuLighting& block, const Sky& sky, const KeyLight& key);
   void bake_land(const Lighting& lighting, const Sky& sky, const dvec3& sky_lux);
   void bake_panorama_of(const Sky& sky, double scale);
 
@@ -172,6 +176,9 @@ class SceneLighting {
   HorizonKind horizon_kind_ = HorizonKind::none;
   gpu::Buffer horizon_;  ///< GpuHorizon
   gpu::Image panorama_;  ///< renderer/light/panorama.h; one texel without clouds
+  gpu::Buffer surroundings_;               ///< renderer/light/surroundings.h; one word without its effects
+  std::vector<ContactBox> contact_boxes_;  ///< empty without contact_occlusion
+  gpu::Slice contact_;                     ///< words of the boxes at this tick
   SurfaceTables surfaces_;
   MarkMap marks_;
   std::vector<Pose> body_poses_;

@@ -260,7 +260,7 @@ dvec3 Sky::radiance(const dvec3& direction) const {
   return up ? sky : glm::mix(sky, ground_, glm::smoothstep(0.0, 0.2, -direction.z));
 }
 
-std::array<dvec3, 9> sky_irradiance(const Sky& sky) {
+std::array<dvec3, 9> sky_irradiance(const Sky& sky, bool ground) {
   // The factors are Y_lm without their polynomials, and the cosine lobe's A_l / pi = 1, 2/3, 1/4 (Ramamoorthi
   // and Hanrahan, "An Efficient Representation for Irradiance Environment Maps", SIGGRAPH 2001, eq. 3 and 9).
   constexpr double y[9] = {0.282095, 0.488603, 0.488603, 0.488603, 1.092548,
@@ -290,6 +290,7 @@ std::array<dvec3, 9> sky_irradiance(const Sky& sky) {
   };
   std::array<dvec3, 9> result{};
   over_sphere([&](const dvec3& d, double solid_angle) {
+    if (!ground && d.z <= 0.0) return;
     const dvec3 weighted = sky.radiance(d) * solid_angle;
     for (int i = 0; i < 9; ++i) result[i] += weighted * polynomial(i, d);
   });

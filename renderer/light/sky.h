@@ -70,7 +70,7 @@ class Sky {
 
 /// Returns the irradiance over pi in real spherical harmonics to order 2, with the basis' constants
 /// multiplied in, in the order of light.glsl. Its luminance straight up is exactly the sky's illuminance over
-/// pi.
-std::array<dvec3, 9> sky_irradiance(const Sky& sky);
+/// pi. Without `ground`, nothing comes from below the horizon.
+std::array<dvec3, 9> sky_irradiance(const Sky& sky, bool ground = true);
 
 }  // namespace greatx::render

@@ -6,6 +6,7 @@
 #define GREATX_CAMERA_LIGHT_GLSL
 #include "camera/effects.glsl"
 #include "camera/octahedral.glsl"
+#include "camera/surroundings.glsl"
 #include "camera/visibility_view.glsl"
 #include "lib/words.glsl"
 #include "shared/brdf.h"
@@ -146,22 +147,50 @@ float sky_share(vec3 p_eye, vec3 n) {
   return min(share * mix(2.0, 1.0, abs(n.z)), 1.0);
 }
 
-/// Returns the radiance towards the eye of the sky's light: the diffuse part, and a mirror image blurred by
-/// the roughness. The part of the sky that the world hides is replaced by light that the ground throws back.
-vec3 reflect_sky(Reflectance r, vec3 n, vec3 v, float roughness, vec3 p_eye) {
-  float share = ambient_occlusion_on ? sky_share(p_eye, n) : 1.0;
-  vec3 hidden = ambient_occlusion_on ? (1.0 - share) * lighting.bounce : vec3(0.0);
-  vec3 radiance = r.diffuse * (sky_irradiance_over_pi(n) * share + hidden);
-  if (specular_on) {
-    vec3 direction = reflect(-v, n);
-    vec3 mirrored = sky_irradiance_over_pi(direction);
-    bool sharp = roughness < environment_most_roughness;
-    if (sharp) {
-      float rough = smoothstep(environment_most_roughness - 0.1, environment_most_roughness, roughness);
-      mirrored = mix(environment_radiance(direction, roughness), mirrored, rough);
-    }
-    radiance += r.albedo * (mirrored * share + hidden);
+/// Holds the part of the sky that a point sees, and the light that the world throws back onto it.
+struct OutdoorLight {
+  float share;      // of the sky
+  vec3 hidden;      // the constant that stands for the rest, without bounced_light
+  Bounced bounced;  // with bounced_light
+};
+
+OutdoorLight outdoor_light(vec3 p_eye, vec3 n) {
+  OutdoorLight light;
+  light.share = ambient_occlusion_on ? sky_share(p_eye, n) : 1.0;
+  light.hidden = ambient_occlusion_on ? (1.0 - light.share) * lighting.bounce : vec3(0.0);
+  if (bounced_light_on) light.bounced = bounced_at(p_eye, n);
+  return light;
+}
+
+/// Returns the radiance from a mirrored direction, blurred for a roughness: sky, and what hides it.
+vec3 mirrored_light(OutdoorLight light, vec3 n, vec3 direction, float roughness, vec3 p_eye) {
+  vec3 mirrored = sky_irradiance_over_pi(direction);
+  vec3 hidden = bounced_light_on ? bounced_over_pi(light.bounced, direction) : light.hidden;
+  bool sharp = roughness < environment_most_roughness;
+  vec3 image = vec3(0.0);
+  if (sharp) {
+    float rough = smoothstep(environment_most_roughness - 0.1, environment_most_roughness, roughness);
+    image = environment_radiance(direction, roughness);
+    mirrored = mix(image, mirrored, rough);
   }
+  mirrored = mirrored * light.share + hidden;
+  bool clear = glass_on && roughness < surroundings_most_roughness + surroundings_fade;
+  if (clear) {
+    image = mirrored_surroundings(p_eye, n, direction, image);
+    float rough = clamp((roughness - surroundings_most_roughness) / surroundings_fade, 0.0, 1.0);
+    mirrored = mix(image, mirrored, rough);
+  }
+  return mirrored;
+}
+
+/// Returns the radiance towards the eye of the sky's light: the diffuse part, and a mirror image blurred by
+/// the roughness. The part of the sky that the world hides is replaced by light that the world throws back:
+/// that of one bounce, or else a constant.
+vec3 reflect_sky(Reflectance r, vec3 n, vec3 v, float roughness, vec3 p_eye) {
+  OutdoorLight light = outdoor_light(p_eye, n);
+  vec3 hidden = bounced_light_on ? bounced_over_pi(light.bounced, n) : light.hidden;
+  vec3 radiance = r.diffuse * (sky_irradiance_over_pi(n) * light.share + hidden);
+  if (specular_on) radiance += r.albedo * mirrored_light(light, n, reflect(-v, n), roughness, p_eye);
   return radiance;
 }
 #endif

@@ -4,6 +4,7 @@
 // Shades the triangles that the visibility pass found. Each triangle that a pixel's samples saw is shaded
 // once and weighed by the number of these samples. Depth and id are those of the triangle that the pixel's
 // centre looks at. With GREATX_MULTISAMPLED a pixel has four samples.
+#include "camera/contact.glsl"
 #include "camera/halos.glsl"
 #include "camera/haze.glsl"
 #include "camera/lamps.glsl"
@@ -57,8 +58,9 @@ vec3 surface_radiance(Seen seen, vec3 ray, float weight, inout Mirror mirror) {
     vec3 direct = reflect_light(r, s.n, s.v, lighting.sun_direction, lighting.sun_illuminance);
     radiance += direct * sun_visibility(s.p, s.geometric);
   }
-  if (sky_on) radiance += reflect_sky(r, s.n, s.v, s.roughness, s.p);
-  if (mirrors_on) add_mirror(mirror, s, r, weight * water);
+  float open = sky_on && contact_occlusion_on ? contact_open(s.p, s.n, seen.body) : 1.0;
+  if (sky_on) radiance += open * reflect_sky(r, s.n, s.v, s.roughness, s.p);
+  if (mirrors_on) add_mirror(mirror, s, r, weight * water, open);
   if (lights_on)
     radiance += reflect_lamps(r, s.n, s.geometric, s.v, s.p,
                               s.roughness < lamp_most_roughness || s.metallic > 0.5);

@@ -66,18 +66,16 @@ struct Mirror {
 };
 
 /// Keeps what a level film of water mirrors of the sky, since MirrorPass replaces it where it finds something
-/// else in the picture.
-void add_mirror(inout Mirror mirror, Surface s, Reflectance r, float weight) {
+/// else in the picture. `open` is the share of it that moving bodies leave.
+void add_mirror(inout Mirror mirror, Surface s, Reflectance r, float weight, float open) {
   weight *= smoothstep(0.95, 0.99, s.geometric.z) * (1.0 - smoothstep(0.35, 0.5, s.roughness)) *
             dot(r.albedo, vec3(0.2126, 0.7152, 0.0722));
   if (weight < 0.002) return;
   if (haze_on) weight *= haze_passes(length(s.p));
   vec3 shows = vec3(0.0);
   if (sky_on) {
-    float share = ambient_occlusion_on ? sky_share(s.p, s.n) : 1.0;
-    vec3 direction = reflect(-s.v, s.n);
-    shows = environment_radiance(direction, s.roughness) * share;
-    if (ambient_occlusion_on) shows += (1.0 - share) * lighting.bounce;
+    OutdoorLight light = outdoor_light(s.p, s.n);
+    shows = open * mirrored_light(light, s.n, reflect(-s.v, s.n), s.roughness, s.p);
   }
   mirror.weight += weight;
   mirror.roughness = s.roughness;

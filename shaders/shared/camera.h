@@ -86,7 +86,11 @@ const uint spec_snow_cover = 33u;
 const uint spec_mirrors = 34u;  // what surfaces mirror is kept for MirrorPass
 const uint spec_lamp_shadows = 35u;
 const uint spec_lamp_halos = 36u;
-const uint shade_spec_count = 37u;
+// Effects of docs/global_light.md.
+const uint spec_contact_occlusion = 37u;
+const uint spec_bounced_light = 38u;
+const uint spec_glass = 39u;
+const uint shade_spec_count = 40u;
 // These constants belong to the shadow maps.
 const uint shadow_spec_base_color_arrays = 0u;
 const uint shadow_spec_masked = 1u;

@@ -14,6 +14,7 @@
 #include "renderer/light/sky.h"
 #include "renderer/surface/mark_map.h"
 #include "shaders/shared/camera.h"
+#include "shaders/shared/surroundings.h"
 #include "sim/plan/camera_desc.h"
 #include "sim/plan/light_plan.h"
 
@@ -50,6 +51,8 @@ Offers offers_of(const scene::Scene& scene) {
         pbr.base_color_texture >= 0 && !(material.reflectance_905nm && material.reflectance_1550nm);
     offers.normal_maps |= pbr.normal_texture >= 0;
     offers.markings |= render::marks_of(scene, primitive) == shared::triangle_of_mark;
+    offers.smooth |=
+        pbr.metallic_roughness_texture >= 0 || pbr.roughness < shared::surroundings_most_roughness;
     offers.alpha_mask |= pbr.alpha_mode == scene::AlphaMode::mask;
     offers.emissive |= pbr.emissive != vec3(0.0f);
     offers.brightest_cd_m2 =
@@ -283,6 +286,17 @@ void plan_light(EffectPlan& plan, const Shading& shading, const Scenario& scenar
   shading.decide(plan.ambient_occlusion, plan.sky.on && offers.static_triangles,
                  "static meshes hide parts of the sky",
                  plan.sky.on ? "nothing static hides the sky" : "the sky is off", "made once, at the start");
+  shading.decide(plan.contact_occlusion, plan.sky.on && offers.moving_triangles,
+                 "meshes that move hide the sky from what is near them",
+                 plan.sky.on ? "no mesh moves" : "the sky is off", "boxes, placed every tick");
+  shading.decide(plan.bounced_light, plan.ambient_occlusion.on, "static meshes reflect light onto others",
+                 "ambient occlusion is off", "made once, at the start");
+  shading.decide(plan.glass, plan.sky.on && offers.static_triangles && offers.smooth,
+                 "materials are smooth enough to mirror",
+                 !plan.sky.on               ? "the sky is off"
+                 : !offers.static_triangles ? "nothing static to mirror"
+                                            : "no material is smooth",
+                 "up to 28 steps for each pixel that mirrors");
   shading.decide(plan.haze, light.haze, haze_reason(scenario.environment), "neither fog nor rain");
   shading.decide(plan.night_sky, light.night_sky,
                  fmt::format("the sun stands at {:.1f} degrees, the moon at {:.1f}",

@@ -19,6 +19,7 @@ struct Offers {
   bool textures = false, normal_maps = false, reflectance_textures = false, alpha_mask = false,
        emissive = false;
   bool markings = false;         ///< static lane markings
+  bool smooth = false;           ///< a material may be smooth enough to mirror
   double brightest_cd_m2 = 0.0;  ///< the highest luminance that a material emits
   size_t lights = 0;
   /// The highest illuminance that a single lamp gives the ground.

@@ -34,6 +34,9 @@
   X(static_shadows, true, camera, "shadows of static meshes in that direct light") \
   X(moving_shadows, true, camera, "shadows of meshes that move in that direct light") \
   X(ambient_occlusion, true, camera, "the share of the sky that each place sees") \
+  X(contact_occlusion, true, camera, "light of the sky that meshes hide which move near a place") \
+  X(bounced_light, true, camera, "light that the static world reflects once") \
+  X(glass, true, camera, "the static world mirrored in smooth surfaces") \
   X(textures, true, camera, "textures of materials") \
   X(normal_maps, true, camera, "relief of surfaces from textures") \
   X(alpha_mask, true, camera, "holes in materials") \

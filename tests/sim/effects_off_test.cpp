@@ -67,6 +67,7 @@ scene::Scene yard() {
   sign.pbr.emissive = vec3(50.0f);
   scene::Material pane = surface("pane", "glass", 0.006);
   pane.pbr.transmission = 0.8f;
+  pane.pbr.roughness = 0.1f;
   scene::Material leaves;
   leaves.name = "leaves";
   leaves.radio.emplace().foliage.emplace();
@@ -259,6 +260,9 @@ const std::map<std::string, Tried> tried{
     {"static_shadows", {camera_sensor, {"sun"}}},
     {"moving_shadows", {camera_sensor, {"sun"}}},
     {"ambient_occlusion", {camera_sensor, {"sky"}}},
+    {"contact_occlusion", {camera_sensor, {"sky"}}},
+    {"bounced_light", {camera_sensor, {"sky", "ambient_occlusion"}}},
+    {"glass", {camera_sensor, {"sky"}}},
     {"textures", {camera_sensor, {"sky"}}},
     {"normal_maps", {camera_sensor, {"sun", "textures"}}},
     {"alpha_mask", {camera_sensor, {"sky"}}},

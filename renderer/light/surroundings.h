@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A coarse model of the static world for light that surfaces reflect: level cells, each a column with a top,
+// mean colours, and the height up to which it lies in the shadow of the key light. Two effects read it.
+// `bounced_light` takes from it the light that reaches a place after one reflection; it is gathered once,
+// over the cells, at two heights. `glass` looks into it along mirrored rays. docs/global_light.md has the
+// errors.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+#include "renderer/light/sky_view.h"
+#include "scene/description/scene.h"
+
+namespace greatx::render {
+
+/// One column of the static world. Heights are above HeightField::floor.
+struct SurroundingCell {
+  float top = 0.0f;     ///< of the highest surface
+  float bottom = 0.0f;  ///< where what stands in the cell begins; it may hang in the air, as a crown does
+  float ground = 0.0f;  ///< of the lowest level surface
+  float shadow = 0.0f;  ///< what is lower lies in the shadow of the key light
+  dvec3 top_albedo{0.0}, ground_albedo{0.0}, wall_albedo{0.0};
+  dvec2 wall_normal{0.0};  ///< unit, outwards; zero if no wall stands here
+  /// Whether something stands here that is higher than a person.
+  bool stands() const { return top > ground + 2.0f; }
+};
+
+/// The light that falls on the surroundings, per channel.
+struct SurroundingLight {
+  dvec3 key_direction{0.0, 0.0, 1.0};
+  dvec3 key_lux{0.0};  ///< on a surface that faces the key light
+  dvec3 sky_lux{0.0};  ///< on level ground under a free sky
+  dvec3 beyond{0.0};   ///< radiance of the ground beyond the cells
+};
+
+/// Light that surfaces send to a place: real spherical harmonics of order 1 of the irradiance over pi, as a
+/// constant and a vector: c + v . n.
+struct BouncedLight {
+  dvec3 constant{0.0};
+  std::array<dvec3, 3> along{};  ///< for x, y, z
+  dvec3 over_pi(const dvec3& n) const {
+    return glm::max(constant + along[0] * n.x + along[1] * n.y + along[2] * n.z, dvec3(0.0));
+  }
+};
+
+class Surroundings {
+ public:
+  /// Colours are means over materials and their textures. `lamps` light the ground without shadows.
+  Surroundings(const scene::Scene& scene, const HeightField& field, const SurroundingLight& light,
+               std::span<const scene::PunctualLight> lamps);
+
+  const HeightField& field() const { return *field_; }
+  const SurroundingCell& cell(uint32_t column, uint32_t row) const {
+    return cells_[size_t{row} * field_->width + column];
+  }
+  /// Returns the radiance of the highest surface of a cell.
+  dvec3 top_radiance(size_t index) const { return top_radiance_[index]; }
+  /// Returns the radiance of the wall in a cell at a height.
+  dvec3 wall_radiance(const SurroundingCell& cell, double height) const;
+  /// Gathers the light that surfaces send to a point at a height over the floor. It looks along 16 azimuths.
+  BouncedLight gather(const dvec2& place, double height) const;
+  /// Returns the words that shaders/camera/surroundings.glsl reads; the layout is in
+  /// shaders/shared/surroundings.h.
+  std::vector<uint32_t> words() const;
+
+ private:
+  void paint(const scene::Scene& scene);
+  void thicken_walls();
+  void cast_shadows();
+  void shine(std::span<const scene::PunctualLight> lamps);
+  std::vector<uint16_t> distances() const;
+  void put_places(std::vector<uint32_t>& words, uint32_t columns, uint32_t rows) const;
+
+  const HeightField* field_;
+  SurroundingLight light_;
+  std::vector<SurroundingCell> cells_;
+  std::vector<dvec3> top_radiance_, ground_radiance_;
+};
+
+}  // namespace greatx::render

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Holds bounced light and mirror images against closed forms and the path-traced reference.
+#include "renderer/light/surroundings.h"
+
+#include <cmath>
+#include <iostream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "renderer/light/sky_view.h"
+#include "renderer/reference/reference_picture.h"
+#include "tests/renderer/camera_rig.h"
+
+namespace greatx::test {
+namespace {
+
+/// A street of 20 m along y between walls, white or of one colour, on a square of 128 m.
+scene::Scene street(double wall_height, float wall_albedo, float ground_albedo, float roughness = 1.0f) {
+  TinyScene tiny;
+  tiny.object("ground", 0, tiny.material_as(optical_material("ground", ground_albedo)))
+      .quad({-64, -64, 0}, {64, -64, 0}, {64, 64, 0}, {-64, 64, 0});
+  const uint32_t wall = tiny.material_as(optical_material("wall", wall_albedo));
+  const uint32_t smooth = tiny.material_as(optical_material("smooth", wall_albedo, 1.0f, roughness));
+  tiny.object("west", 0, roughness < 1.0f ? smooth : wall).box({-40, -60, 0}, {-10, 60, wall_height});
+  tiny.object("east", 0, wall).box({10, -60, 0}, {40, 60, wall_height});
+  return tiny.build();
+}
+
+render::SurroundingLight sun_on_east() {
+  render::SurroundingLight light;
+  // Low in the west: it lights the east wall, whose normal is -x.
+  light.key_direction = render::Lighting::direction(radians(180.0), radians(45.0));
+  light.key_lux = dvec3(100000.0);
+  return light;
+}
+
+TEST(Surroundings, ColumnsHaveTopsColoursWallsAndShadows) {
+  const scene::Scene scene = street(8.0, 0.6f, 0.3f);
+  const render::HeightField field = render::height_field(scene);
+  const render::Surroundings surroundings(scene, field, sun_on_east(), {});
+  const auto cell_at = [&](double x, double y) {
+    const dvec2 at = (dvec2(x, y) - field.corner) / field.cell_m;
+    return surroundings.cell(static_cast<uint32_t>(at.x), static_cast<uint32_t>(at.y));
+  };
+  EXPECT_NEAR(cell_at(0, 0).top, 0.0, 1e-4);
+  EXPECT_FALSE(cell_at(0, 0).stands());
+  EXPECT_NEAR(cell_at(0, 0).top_albedo.x, 0.3, 1e-6);
+  const render::SurroundingCell wall = cell_at(10.0, 0);
+  EXPECT_TRUE(wall.stands());
+  EXPECT_NEAR(wall.top, 8.0, 1e-4);
+  EXPECT_NEAR(wall.bottom, 0.0, 1e-4);
+  EXPECT_NEAR(wall.wall_normal.x, -1.0, 1e-6);
+  EXPECT_NEAR(wall.wall_albedo.y, 0.6, 1e-6);
+  // At 45 degrees the shadow of 8 m ends 8 m from the west wall, within a cell.
+  EXPECT_NEAR(cell_at(-5, 0).shadow, 3.0, 0.8);
+  EXPECT_LT(cell_at(5, 0).shadow, 0.0);
+}
+
+TEST(Surroundings, WhatHangsInTheAirLeavesTheGroundFree) {
+  TinyScene tiny;
+  tiny.quad({-32, -32, 0}, {32, -32, 0}, {32, 32, 0}, {-32, 32, 0});
+  tiny.object("crown").box({-3, -3, 4}, {3, 3, 9});
+  const scene::Scene scene = tiny.build();
+  const render::HeightField field = render::height_field(scene);
+  const render::Surroundings surroundings(scene, field, {}, {});
+  const render::SurroundingCell& cell = surroundings.cell(field.width / 2, field.height / 2);
+  EXPECT_NEAR(cell.ground, 0.0, 1e-4);
+  EXPECT_NEAR(cell.bottom, 4.0, 1e-4);
+  EXPECT_NEAR(cell.top, 9.0, 1e-4);
+}
+
+TEST(Surroundings, BouncedLightOfALitWallIsThatOfItsFormFactor) {
+  const double height = 12.0;
+  const scene::Scene scene = street(height, 0.5f, 0.0f);
+  const render::HeightField field = render::height_field(scene);
+  const render::Surroundings surroundings(scene, field, sun_on_east(), {});
+  // The wall's lit part sends albedo E cos(45) / pi. Its lower part lies in the shadow of the west wall,
+  // which is 20 m away: nothing below -8 m, so all of it is lit.
+  const double radiance = 0.5 * 100000.0 * std::cos(radians(45.0)) / pi;
+  const render::BouncedLight light = surroundings.gather({0.0, 0.0}, 0.0);
+  // An infinite wall seen from level ground: (1 - cos a) / 2; from a facing wall: sin(a) / 2.
+  const double angle = std::atan(height / 10.0);
+  EXPECT_NEAR(light.over_pi({0, 0, 1}).x / radiance, 0.5 * (1.0 - std::cos(angle)), 0.06);
+  EXPECT_NEAR(light.over_pi({1, 0, 0}).x / radiance, 0.5 * std::sin(angle), 0.08);
+  EXPECT_NEAR(light.over_pi({-1, 0, 0}).x / radiance, 0.0, 0.08);
+}
+
+TEST(Surroundings, OpenGroundSendsItsLightDownwardsOnly) {
+  TinyScene tiny;
+  tiny.object("ground", 0, tiny.material_as(optical_material("ground", 0.4f)))
+      .quad({-128, -128, 0}, {128, -128, 0}, {128, 128, 0}, {-128, 128, 0});
+  const scene::Scene scene = tiny.build();
+  const render::HeightField field = render::height_field(scene);
+  render::SurroundingLight light;
+  light.key_lux = dvec3(50000.0);
+  light.beyond = dvec3(0.4 * 50000.0 / pi);
+  const render::Surroundings surroundings(scene, field, light, {});
+  const render::BouncedLight bounced = surroundings.gather({0, 0}, 1.5);
+  const double radiance = 0.4 * 50000.0 / pi;
+  EXPECT_NEAR(bounced.over_pi({0, 0, -1}).x / radiance, 1.0, 0.02);
+  EXPECT_NEAR(bounced.over_pi({1, 0, 0}).x / radiance, 0.5, 0.02);
+  EXPECT_NEAR(bounced.over_pi({0, 0, 1}).x / radiance, 0.0, 0.02);
+}
+
+/// Returns the errors of a picture of the street, in the shade, against a reference of one bounce.
+render::ReferenceError error_of(const scene::Scene& scene, const render::CameraEffects& effects,
+                                const Pose& eye, bool shade_alone) {
+  render::Lighting lighting = plain_light(180.0, 45.0);
+  render::CameraDesc desc = plain_camera(24);
+  desc.outputs = {};
+  desc.outputs.hdr = true;
+  const render::CameraImages images = CameraRig(scene, lighting, desc, effects).shoot(eye);
+  render::ReferenceOptions options;
+  options.samples = 64;
+  options.paths.bounces = 1;
+  const std::vector<Pose> poses(scene.bodies.size());
+  const render::ReferencePicture reference =
+      render::trace_reference(scene, poses, lighting, effects, desc, eye, options);
+  std::vector<uint8_t> counted(reference.coverage.size());
+  for (size_t i = 0; i < counted.size(); ++i)
+    counted[i] = reference.coverage[i] >= 1.0f && (!shade_alone || reference.key_share[i] < 0.01f);
+  return render::compare_with(reference, images.hdr, counted, 1e5);
+}
+
+TEST(Surroundings, BouncedLightBringsTheShadeOfAStreetNearerToTheReference) {
+  const scene::Scene scene = street(12.0, 0.6f, 0.3f);
+  render::CameraEffects effects = lambertian();
+  effects.ambient_occlusion = true;
+  const Pose eye = look({4.0, 0, 2.0}, 160.0, -10.0);  // to the west wall, which lies in the shade
+  const render::ReferenceError without = error_of(scene, effects, eye, true);
+  effects.bounced_light = true;
+  const render::ReferenceError with = error_of(scene, effects, eye, true);
+  ASSERT_GT(with.pixels, 100u);
+  EXPECT_LT(with.rmse, 0.35);  // docs/global_light.md
+  EXPECT_LT(with.rmse, without.rmse);
+  EXPECT_LT(std::abs(with.bias), 0.15);
+  std::cout << fmt::format("bounced light: rmse {:.3f}, bias {:+.3f} without; {:.3f}, {:+.3f} with\n",
+                           without.rmse, without.bias, with.rmse, with.bias);
+}
+
+TEST(Surroundings, GlassMirrorsTheOtherSideOfTheStreet) {
+  const scene::Scene scene = street(12.0, 0.6f, 0.3f, 0.1f);
+  render::CameraEffects effects;
+  effects.ambient_occlusion = effects.bounced_light = true;
+  const Pose eye = look({4.0, 0, 2.0}, 160.0, -5.0);
+  const render::ReferenceError without = error_of(scene, effects, eye, false);
+  effects.glass = true;
+  const render::ReferenceError with = error_of(scene, effects, eye, false);
+  EXPECT_GT(without.rmse, 0.4);
+  EXPECT_LT(with.rmse, 0.65 * without.rmse);  // docs/global_light.md
+  std::cout << fmt::format("glass: rmse {:.3f} without, {:.3f} with\n", without.rmse, with.rmse);
+}
+
+}  // namespace
+}  // namespace greatx::test
