@@ -24,7 +24,7 @@ struct ContactBox {
 };
 
 /// On level ground beside a box, the share that is left out beyond its reach is below this.
-inline constexpr double contact_least_share = 0.005;
+inline constexpr double contact_least_share = 0.01;
 inline constexpr double contact_farthest_m = 12.0;
 
 /// Returns the boxes of all moving bodies with triangles, by body.

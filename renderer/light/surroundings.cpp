@@ -214,8 +214,8 @@ void Surroundings::paint(const scene::Scene& scene) {
   });
   std::vector<dvec3> walls(cells_.size(), dvec3(0.0));
   std::vector<double> areas(cells_.size(), 0.0);
-  // What stands in a cell begins at its lowest wall or its lowest face that looks down. Where there is neither,
-  // it is a house without a floor.
+  // What stands in a cell begins at its lowest wall or its lowest face that looks down. Without
+  // either, it is a house without a floor.
   const auto stand = [&](size_t i, float low, float high) {
     SurroundingCell& cell = cells_[i];
     if (high > cell.ground + low_m) cell.bottom = std::min(cell.bottom, std::max(low, cell.ground));
@@ -239,7 +239,7 @@ void Surroundings::paint(const scene::Scene& scene) {
   }
 }
 
-/// Gives what stands behind a wall the wall's colour, normal and shadow, since a ray may step over a thin one.
+/// Gives what stands behind a wall the wall's colour, normal and shadow: a ray may step over a thin one.
 void Surroundings::thicken_walls() {
   const std::vector<SurroundingCell> before = cells_;
   const auto width = static_cast<int64_t>(field_->width), height = static_cast<int64_t>(field_->height);

@@ -33,7 +33,8 @@ vec4 four_halves(uint64_t pair) {
 Bounced bounced_at(vec3 p_eye, vec3 n) {
   vec3 p = p_eye + camera.eye_high + n * surroundings.step_m;
   vec2 most = vec2(surroundings.place_columns, surroundings.place_rows) - 1.001;
-  vec2 at = (p.xy - surroundings.corner) * (surroundings.inverse_cell / float(surroundings_place_cells)) - 0.5;
+  float places_a_metre = surroundings.inverse_cell / float(surroundings_place_cells);
+  vec2 at = (p.xy - surroundings.corner) * places_a_metre - 0.5;
   at = clamp(at, vec2(0.0), most);
   vec2 whole = floor(at), part = at - whole;
   bool right = part.x > part.y;

@@ -11,9 +11,10 @@ GREATX_SHARED_BEGIN
 
 const uint surroundings_binding = 22u;  // storage: SurroundingsHeader, then cells, then places
 
-/// A cell is two pairs of words: (halves: top, shadow; half: bottom, then the distance in cells to the nearest
-/// cell in which something stands) and (radiance of the top as below; albedo of the wall, three bytes, and
-/// the turn of its normal, a byte). A radiance is three bytes and an exponent: byte * 2^(exponent - 136).
+/// A cell is two pairs of words. The first holds halves (top, shadow; bottom) and then the distance in cells
+/// to the nearest cell in which something stands. The second holds the radiance of the top, and the albedo of
+/// the wall (three bytes) with the turn of its normal (a byte). A radiance is three bytes and an exponent:
+/// byte * 2^(exponent - 136).
 const uint surroundings_cell_pairs = 2u;
 /// A place of bounced light is three pairs of words in halves: luminance at the low and at the high height
 /// (constant, x, y, z each), then red and blue over luminance, the ground's height, nothing.
