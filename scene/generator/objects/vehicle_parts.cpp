@@ -22,15 +22,28 @@ std::vector<dvec2> wheel_outline(int count, double radius, const dvec2& center) 
   return corners;
 }
 
-/// Adds a face of a wheel at y, with the picture of a wheel. It looks to +y if `left`.
+/// Adds a face of a wheel at y, with the picture of a wheel. It looks to +y if `left`. Its hub lies `dish`
+/// farther inwards: a level disc would be a mirror to a radar that is exactly abeam.
 void add_wheel_face(MeshBuilder& mesh, int material, const std::vector<dvec2>& outline, const dvec2& center,
-                    double radius, double y, bool left) {
-  const dvec3 normal(0.0, left ? 1.0 : -1.0, 0.0);
+                    double radius, double y, bool left, double dish = 0.0) {
+  const double outwards = left ? 1.0 : -1.0;
   const auto uv = [&](const dvec2& p) { return 0.5 + 0.5 * (p - center) / radius; };
-  for (size_t i = 1; i + 1 < outline.size(); ++i) {
-    const dvec2 a = outline[0], b = outline[left ? i + 1 : i], c = outline[left ? i : i + 1];
-    mesh.triangle(material, {dvec3(a.x, y, a.y), dvec3(b.x, y, b.y), dvec3(c.x, y, c.y)},
-                  {normal, normal, normal}, {uv(a), uv(b), uv(c)});
+  const auto add = [&](const dvec3& a, const dvec3& b, const dvec3& c) {
+    const std::array<dvec2, 3> at{uv({a.x, a.z}), uv({b.x, b.z}), uv({c.x, c.z})};
+    if (left)
+      mesh.triangle(material, {a, c, b}, {at[0], at[2], at[1]});
+    else
+      mesh.triangle(material, {a, b, c}, at);
+  };
+  const auto corner = [&](size_t i) {
+    const dvec2& p = outline[i % outline.size()];
+    return dvec3(p.x, y, p.y);
+  };
+  if (dish > 0.0) {
+    const dvec3 hub(center.x, y - outwards * dish, center.y);
+    for (size_t i = 0; i < outline.size(); ++i) add(hub, corner(i), corner(i + 1));
+  } else {
+    for (size_t i = 1; i + 1 < outline.size(); ++i) add(corner(0), corner(i), corner(i + 1));
   }
 }
 
@@ -53,7 +66,7 @@ MeshBuilder make_wheel(double radius, double width, int face, bool left) {
   SmoothMesh tread;
   add_tread(tread, outline, -0.5 * width, 0.5 * width);
   tread.add_to(mesh, 0.8);
-  add_wheel_face(mesh, face, outline, dvec2(0.0), radius, (left ? 0.5 : -0.5) * width, left);
+  add_wheel_face(mesh, face, outline, dvec2(0.0), radius, (left ? 0.5 : -0.5) * width, left, 0.1 * radius);
   add_wheel_face(mesh, material("tyre"), outline, dvec2(0.0), radius, (left ? -0.5 : 0.5) * width, !left);
   return mesh;
 }
@@ -66,7 +79,7 @@ MeshBuilder make_motor_wheel(double radius, double width) {
   tread.add_to(mesh, 0.8);
   for (const bool left : {true, false})
     add_wheel_face(mesh, material("wheel_alloy"), outline, dvec2(0.0), radius, (left ? 0.5 : -0.5) * width,
-                   left);
+                   left, 0.1 * radius);
   return mesh;
 }
 
