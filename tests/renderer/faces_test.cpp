@@ -4,6 +4,7 @@
 // Checks pictures that are drawn as several views: depth, ids and flow against fp64 rays and points, seams
 // where two faces of the cube meet, the image circle, and bands of rows of different instants.
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -55,7 +56,7 @@ TinyScene surroundings() {
 }
 
 struct Agreement {
-  int pixels = 0, same = 0, exact = 0, surfaces = 0;
+  int pixels = 0, same = 0, exact = 0, surfaces = 0, normals = 0;
 };
 Agreement compare_with_rays(TruthRig& rig, const CameraDesc& desc, const Moment& now) {
   const Picture picture = rig.shoot(now, now);
@@ -76,7 +77,18 @@ Agreement compare_with_rays(TruthRig& rig, const CameraDesc& desc, const Moment&
     ++result.same;
     if (!hit) continue;
     ++result.surfaces;
-    if (std::abs(double(depth) - hit->distance) < 1e-5 * hit->distance) ++result.exact;
+    if (!(std::abs(double(depth) - hit->distance) < 1e-5 * hit->distance)) continue;
+    ++result.exact;
+    // The scene is flat-shaded.
+    const scene::Scene& scene = rig.scene();
+    const auto corner = [&](uint32_t c) {
+      return dvec3(scene.positions[scene.indices[3 * hit->triangle + c]]);
+    };
+    const dvec3 flat = glm::normalize(glm::cross(corner(1) - corner(0), corner(2) - corner(0))),
+                normal(picture.truth.normals[3 * i], picture.truth.normals[3 * i + 1],
+                       picture.truth.normals[3 * i + 2]),
+                ray = in_local(now.camera, rays[i]);
+    if (std::abs(glm::dot(flat, normal)) > 1.0 - 1e-5 && glm::dot(normal, ray) < 0.0) ++result.normals;
   }
   return result;
 }
@@ -88,6 +100,7 @@ TEST(Faces, DepthAndIdsAreThoseOfThePixelsRays) {
       const Agreement found = compare_with_rays(rig, desc, {look({0.3, -0.2, 0.1}, 8, 4, 5)});
       EXPECT_GT(found.same, 0.993 * found.pixels) << msaa;
       EXPECT_GT(found.exact, 0.99 * found.surfaces) << msaa;
+      EXPECT_GT(found.normals, 0.995 * found.exact) << msaa;
       EXPECT_GT(found.surfaces, 4000);
     }
 }
@@ -144,7 +157,21 @@ TEST(Faces, FlowIsThePointProjectedAnew) {
 TEST(Faces, SeamsDoNotShow) {
   CameraDesc desc = equirectangular_camera(128);
   desc.outputs.hdr = true;
+  // A texture whose contrast depends on how it is filtered.
   TinyScene tiny = surroundings();
+  scene::Texture specks;
+  specks.name = "specks";
+  specks.width = specks.height = 256;
+  specks.srgb = false;
+  std::mt19937 draw(3);
+  for (uint32_t i = 0; i < 256 * 256; ++i) {
+    const auto shade = static_cast<uint8_t>(draw() % 256);
+    specks.rgba.insert(specks.rgba.end(), {shade, shade, shade, uint8_t{255}});
+  }
+  scene::Material painted = optical_material("painted", 1.0f);
+  painted.pbr.base_color_texture = int32_t(tiny.texture(specks));
+  tiny.object("carpet", 0, tiny.material_as(painted))
+      .quad({-40, -40, -1.9}, {40, -40, -1.9}, {40, 40, -1.9}, {-40, 40, -1.9});
   CameraRig rig(tiny.build(), plain_light(30, 40), desc);
   const render::CameraImages straight = rig.shoot(look({0.3, -0.2, 0.1})),
                              turned = rig.shoot(look({0.3, -0.2, 0.1}, 45.0));
@@ -162,8 +189,8 @@ TEST(Faces, SeamsDoNotShow) {
       brighter += std::abs(x - y) > 2e-3 * std::max(x, y) ? 1 : 0;
     }
   const int pixels = static_cast<int>(desc.width * desc.height);
-  EXPECT_LT(other, pixels / 500);     // outlines
-  EXPECT_LT(brighter, pixels / 250);  // edges of shadows
+  EXPECT_LT(other, pixels / 500);                 // outlines
+  EXPECT_LT(brighter, pixels / 250) << brighter;  // edges of shadows
 }
 
 TEST(Faces, OutsideTheImageCircleNothingIsSeen) {
