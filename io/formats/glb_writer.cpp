@@ -176,6 +176,7 @@ int GlbWriter::add_material(const GlbMaterial& material) {
   use(pbr, "baseColorTexture", material.base_color_texture);
   use(pbr, "metallicRoughnessTexture", material.metallic_roughness_texture);
   if (material.double_sided) json["doubleSided"] = true;
+  if (material.holes) json["alphaMode"] = "MASK";  // glTF's cut-off is 0.5 unless the file gives another one
   Json extensions = material.extensions_json.empty() ? Json::object() : Json::parse(material.extensions_json);
   if (material.unlit) extensions[unlit_extension] = Json::object();
   if (material.emissive_strength != 1.0)

@@ -29,6 +29,8 @@ struct GlbMaterial {
   int base_color_texture = -1, metallic_roughness_texture = -1, normal_texture = -1, emissive_texture = -1;
   bool unlit = false;  ///< KHR_materials_unlit: shows the base colour independently of the light
   bool double_sided = false;
+  /// Whether texels of the base colour's texture with an alpha below 0.5 are holes.
+  bool holes = false;
   /// One JSON object with the extensions by name, or empty. The file lists these extensions as used.
   std::string extensions_json;
 };

@@ -229,6 +229,31 @@ Bytes encode_small(const Layout& layout, std::span<const uint8_t> rgb, int most_
   return out;
 }
 
+/// Encodes RGB with alpha by libpng's simplified interface, after dropping so many bits of red, green and
+/// blue.
+Bytes encode_small_alpha(const Array& image, int dropped_bits) {
+  GREATX_CHECK(image.shape[0] > 0 && image.shape[1] > 0 && image.shape[0] <= largest_side &&
+                   image.shape[1] <= largest_side,
+               "image of {} x {} pixels", image.shape[1], image.shape[0]);
+  const std::span<const uint8_t> given = image.as<uint8_t>();
+  std::vector<uint8_t> pixels(given.begin(), given.end());
+  const int half = dropped_bits == 0 ? 0 : 1 << (dropped_bits - 1);
+  for (size_t i = 0; i < pixels.size(); ++i)
+    if (i % 4 != 3) pixels[i] = static_cast<uint8_t>((pixels[i] >> dropped_bits << dropped_bits) + half);
+  png_image out_image{};
+  out_image.version = PNG_IMAGE_VERSION;
+  out_image.width = static_cast<uint32_t>(image.shape[1]);
+  out_image.height = static_cast<uint32_t>(image.shape[0]);
+  out_image.format = PNG_FORMAT_RGBA;
+  Bytes out(PNG_IMAGE_PNG_SIZE_MAX(out_image));
+  size_t size = out.size();
+  const int written =
+      png_image_write_to_memory(&out_image, out.data(), &size, 0, pixels.data(), 0, nullptr);
+  GREATX_CHECK(written != 0, "libpng: {}", out_image.message);
+  out.resize(size);
+  return out;
+}
+
 /// Writes depth24_code() of `count` depths.
 void depth24_codes(const float* metres, size_t count, uint32_t* codes) {
   constexpr auto range_m = static_cast<float>(depth24_range_m);
@@ -251,6 +276,8 @@ Bytes encode_png(const Array& image, PngCoding coding) {
     GREATX_CHECK(rgb && image.dtype == DType::u8, "{} of {} axes", numpy_name(image.dtype),
                  image.shape.size());
     constexpr int most_dropped_bits = 3;
+    if (image.shape[2] == 4)
+      return encode_small_alpha(image, coding == PngCoding::small_inexact ? most_dropped_bits : 0);
     return encode_small(layout_of(image, 8, PNG_COLOR_TYPE_RGB), image.as<uint8_t>(),
                         coding == PngCoding::small_inexact ? most_dropped_bits : 0);
   }

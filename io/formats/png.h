@@ -23,8 +23,8 @@ enum class PngCoding {
 };
 
 /// Encodes u8 [h, w, 3] as 8-bit RGB, u8 [h, w] as 8-bit grey, and u16 [h, w] or u32 [h, w] as 16-bit grey.
-/// Throws UserError if a u32 value does not fit into 16 bits. `small` and
-/// `small_inexact` accept RGB only.
+/// Throws UserError if a u32 value does not fit into 16 bits. `small` and `small_inexact` accept RGB, and u8
+/// [h, w, 4] as 8-bit RGB with alpha, which has no palette and of which `small_inexact` drops 3 bits.
 Bytes encode_png(const Array& image, PngCoding coding = PngCoding::fast);
 /// Decodes 8-bit RGB, 8-bit grey and 16-bit grey without interlacing. `name` is the file's name in messages.
 /// Throws UserError for every other file, for everything that libpng reports as an error or a warning, and

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "scene/material/lossless.h"
 
 namespace greatx::rf {
 namespace {
@@ -77,7 +78,7 @@ void check_foliage(const scene::Scene& scene, double frequency_hz) {
   std::map<std::pair<uint32_t, uint32_t>, std::vector<Side>> volumes;  // by instance and material
   for (const scene::Facet& facet : scene.facets) {
     const scene::Material& material = scene.materials[facet.material];
-    if (!material.radio || !material.radio->foliage) continue;
+    if (!material.radio || !material.radio->foliage || scene::is_lossless(material)) continue;
     check_frequency(*material.radio->foliage, frequency_hz, fmt::format("material '{}'", material.name));
     std::vector<Side>& sides = volumes[{facet.instance, facet.material}];
     for (uint32_t i = 0; i < facet.triangle_count; ++i) {

@@ -20,7 +20,7 @@ enum class FacetKind : uint8_t {
   /// any wall with windows, be it a half-space.
   wall = 1,
   foliage = 2,  ///< boundary of a volume that attenuates; it never reflects and never blocks
-  absent = 3,   ///< has no effect: foliage while that effect is off
+  absent = 3,   ///< has no effect: foliage without losses, or all foliage while that effect is off
 };
 
 /// Kinds of all facets, [facets of the scene].

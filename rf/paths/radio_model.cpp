@@ -16,6 +16,7 @@
 #include "rf/atmosphere/gas.h"
 #include "rf/atmosphere/rain.h"
 #include "rf/surface/fresnel.h"
+#include "scene/material/lossless.h"
 #include "shaders/shared/rf.h"
 
 namespace greatx::rf {
@@ -24,6 +25,7 @@ namespace {
 
 FacetKind kind_of(const scene::Material& material, const RadioEffects& effects) {
   if (!material.radio) return FacetKind::opaque;
+  if (scene::is_lossless(material)) return FacetKind::absent;
   if (material.radio->foliage) return effects.field.foliage ? FacetKind::foliage : FacetKind::absent;
   if (!effects.transmission || !penetrable(*material.radio)) return FacetKind::opaque;
   const bool dark =

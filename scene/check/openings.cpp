@@ -13,6 +13,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/units.h"
+#include "scene/material/lossless.h"
 
 namespace greatx::scene::check {
 namespace {
@@ -152,10 +153,14 @@ bool lies_on_ground(SemanticClass semantic_class) {
          semantic_class == SemanticClass::water;
 }
 
+const Material& material_of(const Soup& soup, const Topology& topology, const Part& part) {
+  return soup.model->materials[soup.material[topology.part_triangles[part.first]]];
+}
+
+/// Returns whether the part must enclose a volume for radio.
 bool is_foliage(const Soup& soup, const Topology& topology, const Part& part) {
-  const uint32_t material = soup.material[topology.part_triangles[part.first]];
-  const std::optional<RadioMaterial>& radio = soup.model->materials[material].radio;
-  return radio && radio->foliage;
+  const Material& material = material_of(soup, topology, part);
+  return material.radio && material.radio->foliage && !is_lossless(material);
 }
 
 /// Returns whether another surface that faces up is above the point, no higher than the top of the part.
@@ -387,6 +392,8 @@ void find_openings(const Soup& soup, Topology& topology, const SoupTree& tree, c
     if (!claims_solid && soup.class_of(part.object) == SemanticClass::ground)
       find_ground_holes(soup, topology, part, ground, faults);
     if (!claims_solid && lies_on_ground(soup.class_of(part.object))) continue;
+    // Leaves that radio does not see are sheets on purpose.
+    if (!claims_solid && is_lossless(material_of(soup, topology, part))) continue;
     for (const Loop& loop : part.loops)
       for (const Opening& opening : openings_of(loop, topology)) {
         const auto beneath = [&](uint32_t e) {

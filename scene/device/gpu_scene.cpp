@@ -9,6 +9,7 @@
 
 #include "core/activity.h"
 #include "scene/device/scene_trees.h"
+#include "scene/material/lossless.h"
 
 namespace greatx::scene {
 
@@ -34,7 +35,8 @@ shared::GpuMaterial gpu_material(const Material& material, const MaterialTexture
   result.flags = (pbr.alpha_mode == AlphaMode::mask ? shared::material_flag_alpha_mask : 0u) |
                  (pbr.double_sided ? shared::material_flag_double_sided : 0u) |
                  (material.reflectance_905nm ? shared::material_flag_reflectance_905nm : 0u) |
-                 (material.reflectance_1550nm ? shared::material_flag_reflectance_1550nm : 0u);
+                 (material.reflectance_1550nm ? shared::material_flag_reflectance_1550nm : 0u) |
+                 (is_lossless(material) ? shared::material_flag_no_radio : 0u);
   result.base_color_texture = textures.base_color;
   result.reflectance_905nm = material.reflectance_905nm.value_or(luminance(pbr.base_color));
   result.reflectance_1550nm = material.reflectance_1550nm.value_or(luminance(pbr.base_color));

@@ -11,6 +11,7 @@
 
 layout(constant_id = 0) const bool monostatic = false;  // the receiver is where the source is
 layout(constant_id = 1) const bool has_own_body = true;
+layout(constant_id = 2) const bool has_leaves = false;  // surfaces that radio does not see
 
 layout(local_size_x = radar_group) in;
 
@@ -23,18 +24,33 @@ layout(push_constant, scalar) uniform Constants { EchoConstants constants; };
 
 const float infinite_range = 1e30;
 
+bool radio_sees(uint primitive) {
+  return !has_leaves ||
+         (scene_material(scene_primitive(primitive).material).flags & material_flag_no_radio) == 0u;
+}
+
+// Returns the first surface that radio sees, but for one body and one facet.
+#define GREATX_WALK meet_past_leaves
+#define GREATX_WALK_PARAMETERS , uint except_body, uint except_facet
+#define GREATX_WALK_SKIPS owner == except_body
+#define GREATX_WALK_SOLID candidate.facet != except_facet && radio_sees(candidate.primitive)
+#include "lib/walk.glsl"
+
 Hit next_hit(vec3 origin, vec3 direction, uint facet) {
   Hit hit = trace_leaving(origin, direction, infinite_range, facet);
   // Only rays that meet the own body pay for looking at every triangle on their way.
+  if (has_leaves && hit.hit && !radio_sees(hit.primitive))
+    return meet_past_leaves(origin, 0.0, direction, infinite_range,
+                            has_own_body ? constants.source_body : no_body, facet);
   if (has_own_body && hit.hit && scene_primitive(hit.primitive).owner == constants.source_body)
-    hit = trace_closest_except(origin, 0.0, direction, infinite_range, constants.source_body, facet, false);
+    hit = meet_past_leaves(origin, 0.0, direction, infinite_range, constants.source_body, facet);
   return hit;
 }
 
 #define GREATX_WALK meet_obstacle
 #define GREATX_WALK_PARAMETERS , uint except_facet
 #define GREATX_WALK_SKIPS owner == constants.source_body || owner == constants.receiver_body
-#define GREATX_WALK_SOLID candidate.facet != except_facet
+#define GREATX_WALK_SOLID candidate.facet != except_facet && radio_sees(candidate.primitive)
 #define GREATX_WALK_ANY
 #include "lib/walk.glsl"
 bool sees_receiver(vec3 start, uint facet) {

@@ -15,6 +15,7 @@ const uint material_flag_double_sided = 2u;
 // base colour.
 const uint material_flag_reflectance_905nm = 4u;
 const uint material_flag_reflectance_1550nm = 8u;
+const uint material_flag_no_radio = 16u;  // scene::is_lossless()
 
 // Instance masks name the bodies that a ray may meet.
 const uint static_mask = 1u;

@@ -12,6 +12,7 @@
 #include "rf/atmosphere/rain_backscatter.h"
 #include "rf/paths/radio_model.h"
 #include "rf/surface/roughness.h"
+#include "scene/material/lossless.h"
 #include "sim/plan/radio_plan.h"
 
 namespace greatx::sim {
@@ -69,7 +70,7 @@ RadarOffers radar_offers(const scene::Scene& scene) {
   RadarOffers offers;
   for (const scene::Primitive& primitive : scene.primitives) {
     const scene::Material& material = scene.materials[primitive.material];
-    if (!material.radio) continue;
+    if (!material.radio || scene::is_lossless(material)) continue;
     offers.scattering |= material.radio->scattering_coefficient > 0.0;
     if (offers.clutter.empty() && material.radio->clutter) offers.clutter = material.name;
     if (offers.veil.empty() && (material.radio->foliage || rf::penetrable(*material.radio)))

@@ -17,6 +17,7 @@
 #include "rf/field/finite_reflectors.h"
 #include "rf/paths/radio_model.h"
 #include "rf/surface/roughness.h"
+#include "scene/material/lossless.h"
 #include "sim/plan/antennas.h"
 #include "sim/plan/array_plan.h"
 #include "sim/plan/effect_planner.h"
@@ -89,7 +90,7 @@ RadioSurfacesSeen radio_surfaces_of(const scene::Scene& scene, const RadioAsks& 
     if (asks.channels == 0 || seen[facet.material] || !material.radio) continue;
     seen[facet.material] = true;
     if (material.radio->foliage) {
-      surfaces.foliage = true;
+      surfaces.foliage |= !scene::is_lossless(material);
       continue;
     }
     surfaces.edges = true;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/world/solids.h"
 
+#include "scene/material/lossless.h"
+
 namespace greatx::sim {
 namespace {
 
@@ -9,7 +11,9 @@ rf::FacetKinds kinds_of(const scene::Scene& scene) {
   rf::FacetKinds kinds;
   for (const scene::Facet& facet : scene.facets) {
     const std::optional<scene::RadioMaterial>& radio = scene.materials[facet.material].radio;
-    kinds.push_back(radio && radio->foliage ? rf::FacetKind::foliage : rf::FacetKind::opaque);
+    kinds.push_back(!radio || !radio->foliage    ? rf::FacetKind::opaque
+                    : scene::is_lossless(*radio) ? rf::FacetKind::absent
+                                                 : rf::FacetKind::foliage);
   }
   return kinds;
 }

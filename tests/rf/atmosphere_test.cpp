@@ -19,10 +19,12 @@
 #include "rf/atmosphere/gas.h"
 #include "rf/atmosphere/gas_lines.h"
 #include "rf/atmosphere/path_attenuation.h"
+#include "rf/paths/radio_model.h"
 #include "rf/surface/roughness.h"
 #include "rf/surface/surfaces.h"
 #include "scene/build/build.h"
 #include "scene/generator/generate.h"
+#include "scene/material/lossless.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
@@ -376,12 +378,31 @@ TEST(Foliage, GeneratedCrownsAreClosedWhereTheyStand) {
     EXPECT_NO_THROW(check_foliage(built, 3.5e9)) << kind;
     // Removes the first triangle of a crown, which the check finds.
     for (scene::Facet& facet : built.facets)
-      if (built.materials[facet.material].radio->foliage) {
+      if (built.materials[facet.material].radio->foliage && !is_lossless(built.materials[facet.material])) {
         facet.triangle_count = 0;
         break;
       }
     EXPECT_THROW(check_foliage(built, 3.5e9), UserError) << kind;
   }
+}
+
+TEST(Foliage, LeavesWithoutLossesNeedNoInside) {
+  HandScene hand = with_foliage({.attenuation_db_per_m = 0.0});
+  add_crown(hand, 1, {0, 0, 1}, 3);  // open
+  EXPECT_NO_THROW(check_foliage(hand.scene, 28e9));
+  const FacetKinds kinds = facet_kinds(hand.scene, {});
+  ASSERT_EQ(kinds.size(), hand.scene.facets.size());
+  size_t leaves = 0;
+  for (size_t i = 0; i < kinds.size(); ++i) {
+    const bool leaf = hand.scene.facets[i].material == 1;
+    leaves += leaf ? 1 : 0;
+    EXPECT_EQ(kinds[i] == FacetKind::absent, leaf) << i;
+  }
+  EXPECT_EQ(leaves, 3u);
+  // A loss of any size makes them a volume again.
+  HandScene lossy = with_foliage({.attenuation_db_per_m = 1e-9});
+  add_crown(lossy, 1, {0, 0, 1}, 3);
+  EXPECT_THROW(check_foliage(lossy.scene, 28e9), UserError);
 }
 
 TEST(Foliage, AFaceTurnedOverIsNoClosedMesh) {

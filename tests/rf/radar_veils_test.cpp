@@ -123,6 +123,26 @@ TEST_F(RadarVeils, ACrownTakesItsDepthOutAndHome) {
   EXPECT_EQ(seen(tiny, surfaces, false).echoes, 0u);
 }
 
+TEST_F(RadarVeils, LeavesWithoutLossesAreNotThere) {
+  for (const bool transmission : {true, false}) {
+    TinyScene tiny;
+    scene::Material leaves;
+    leaves.name = "sprays";
+    leaves.radio.emplace().foliage = scene::Foliage{.attenuation_db_per_m = 0.0};
+    // Open sheets before, around and behind the plate; one of them is square to the radar.
+    const uint32_t unseen = tiny.material_as(leaves);
+    for (const double x : {12.0, 25.0, plate_m - 0.2, plate_m + 0.3})
+      tiny.object("spray", 0, unseen).quad({x, -2, -2}, {x, -2, 2}, {x, 2, 2}, {x, 2, -2});
+    add_plate(tiny);
+    const Seen with = seen(tiny, {conductor(), volume()}, transmission);
+    TinyScene bare;
+    add_plate(bare);
+    const Seen without = seen(bare, {conductor()}, transmission);
+    EXPECT_EQ(with.section_db, without.section_db);
+    EXPECT_EQ(with.echoes, without.echoes);
+  }
+}
+
 TEST_F(RadarVeils, ThreadsChangeNoByte) {
   TinyScene tiny;
   add_crown(tiny, {}, {20, -3, -2}, {22, 3, 2});

@@ -247,6 +247,15 @@ TEST(SceneCheckHoles, FoliageClaimsToBeASolid) {
   EXPECT_EQ(kinds_of(scene.check()), "hole 1");
 }
 
+TEST(SceneCheckHoles, LeavesThatRadioDoesNotSeeMayBeOpen) {
+  SceneWriter scene;
+  scene.material(
+      {{"name", "sprays"},
+       {"extensions", {{"GREATX_radio_material", {{"foliage", {{"attenuation_db_per_m", 0.0}}}}}}}});
+  scene.add("spray", box({0, 0, 0}, {10, 8, 2}, south | top));
+  EXPECT_EQ(kinds_of(scene.check()), "");
+}
+
 TEST(SceneCheckHoles, AHallClaimsToBeASolidAndABasinDoesNot) {
   for (const double height : {6.5, 5.0}) {
     SceneWriter scene;

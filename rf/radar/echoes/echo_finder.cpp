@@ -15,6 +15,7 @@
 #include "rf/radar/echoes/facet_echoes.h"
 #include "rf/radar/echoes/rain_patches.h"
 #include "rf/radar/echoes/tube_echoes.h"
+#include "scene/material/lossless.h"
 
 namespace greatx::rf {
 namespace {
@@ -222,7 +223,10 @@ EchoFinder::EchoFinder(scene::GpuScene& scene, const RadioSurfaces& surfaces, co
       options_((check(options), options)),
       world_(scene.scene()),
       trees_(scene.scene()),
-      tracer_(scene.scene(), trees_),
+      tracer_(scene.scene(), trees_,
+              [&world = scene.scene()](uint32_t facet) {
+                return !scene::is_lossless(world.materials[world.facets[facet].material]);
+              }),
       traced_(options.max_bounces + (monostatic_ && options.max_bounces >= mirror_bounces ? 1 : 0)) {
   const bool on_cpu = scene.device().info().type == "cpu";
   const bool on_host =

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "scene/material/lossless.h"
 
 namespace greatx::rf {
 namespace {
@@ -17,7 +18,9 @@ bool finite(const dvec3& v) { return std::isfinite(v.x + v.y + v.z); }
 EchoPass::EchoPass(scene::GpuScene& scene, uint32_t max_bounces, bool monostatic, bool own_body)
     : scene_(&scene), max_bounces_(max_bounces) {
   gpu::ComputeDesc compute;
-  compute.specialization = {monostatic ? 1u : 0u, own_body ? 1u : 0u};
+  const bool leaves = std::ranges::any_of(
+      scene.scene().materials, [](const scene::Material& material) { return scene::is_lossless(material); });
+  compute.specialization = {monostatic ? 1u : 0u, own_body ? 1u : 0u, leaves ? 1u : 0u};
   scene.prepare_tracing(compute, "radar/echoes.comp");
   for (const uint32_t slot : {shared::radar_directions_binding, shared::radar_hits_binding})
     compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
@@ -35,9 +38,8 @@ EchoPass::Pending EchoPass::record(gpu::TickSlot& slot, const EchoRays& rays,
   const uint64_t most =
       device.limits().maxStorageBufferRange / std::max(sizeof(vec3), sizeof(uint32_t) * max_bounces_) - 1;
   if (directions.size() > most)
-    throw_user_error(
-        "radar echoes: tubes: expected at most {} rays of {} bounces on '{}', found {}", most,
-        max_bounces_, device.info().name, directions.size());
+    throw_user_error("radar echoes: tubes: expected at most {} rays of {} bounces on '{}', found {}", most,
+                     max_bounces_, device.info().name, directions.size());
   const auto body = [](uint32_t index) { return index == 0 ? ~0u : index; };
   const uint32_t count = static_cast<uint32_t>(directions.size());
   const shared::EchoConstants constants{vec3(rays.source), vec3(rays.receiver),    count,

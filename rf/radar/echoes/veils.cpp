@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "rf/atmosphere/foliage.h"
 #include "rf/radar/echoes/echo_tracks.h"
+#include "scene/material/lossless.h"
 
 namespace greatx::rf {
 namespace {
@@ -23,10 +24,12 @@ double power(const SheetTransmission& t) { return 0.5 * (std::norm(t.te) + std::
 Veils::Veils(const scene::Scene& scene, const FacetTrees& trees, const FacetWorld& world,
              const RadioSurfaces& surfaces)
     : scene_(scene), trees_(trees), world_(world), surfaces_(surfaces) {
-  std::vector<uint8_t> veil(scene.materials.size(), 0);
+  std::vector<uint8_t> veil(scene.materials.size(), 0), unseen(scene.materials.size(), 0);
   for (uint32_t facet = 0; facet < world.facet_count(); ++facet) {
     const uint32_t material = world.facet(facet).material;
     const auto& radio = scene.materials[material].radio;
+    unseen[material] = scene::is_lossless(scene.materials[material]) ? 1 : 0;
+    if (unseen[material] != 0) continue;
     veil[material] =
         surfaces.surface(material).foliage
             ? radio && radio->foliage && foliage_model_covers(*radio->foliage, surfaces.carrier_hz())
@@ -34,7 +37,10 @@ Veils::Veils(const scene::Scene& scene, const FacetTrees& trees, const FacetWorl
   }
   if (std::find(veil.begin(), veil.end(), 1) == veil.end()) return;
   veils_.emplace(scene, trees, [&](uint32_t facet) { return veil[world.facet(facet).material] != 0; });
-  sight_.emplace(scene, trees, [&](uint32_t facet) { return veil[world.facet(facet).material] == 0; });
+  sight_.emplace(scene, trees, [&](uint32_t facet) {
+    const uint32_t material = world.facet(facet).material;
+    return veil[material] == 0 && unseen[material] == 0;
+  });
 }
 
 std::vector<uint32_t> Veils::behind(std::span<const uint32_t> facets, const Ends& ends,

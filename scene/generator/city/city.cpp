@@ -15,6 +15,7 @@
 #include "scene/generator/city/city_buildings.h"
 #include "scene/generator/city/city_ground.h"
 #include "scene/generator/city/city_network.h"
+#include "scene/generator/city/city_street.h"
 #include "scene/generator/mesh/materials.h"
 #include "scene/generator/objects/objects.h"
 #include "scene/generator/objects/street_furniture.h"
@@ -26,16 +27,22 @@ namespace greatx::scene::generator {
 
 namespace {
 
+/// Lowest part of the crown of a tree at a street, m. It keeps 4.6 m above the street free, even if the tree
+/// is scaled down.
+constexpr double street_crown_m = 5.3;
+
 /// Holds the meshes that many nodes share, and the running numbers in the names of the nodes.
 class CityFurniture {
  public:
   explicit CityFurniture(SceneWriter& writer) : writer_(writer) {}
 
-  /// `kind` is as in make_tree.
-  void tree(const dvec2& where, double z, int kind, RandomStream& random) {
+  /// `kind` is as in make_tree. A tree at a street leaves room for lorries below its crown.
+  void tree(const dvec2& where, double z, int kind, bool at_street, RandomStream& random) {
     const int shape = static_cast<int>(random.below(4)) % 2;
-    const int mesh = shared(fmt::format("tree_{}_{}", kind, shape), [&] { return make_tree(kind, shape); });
-    const double scale = random.uniform(0.85, 1.3), yaw = random.uniform(0.0, 2.0 * pi);
+    const std::string name = fmt::format("{}_{}_{}", at_street ? "street_tree" : "tree", kind, shape);
+    const int mesh = shared(name, [&] { return make_tree(kind, shape, at_street ? street_crown_m : 0.0); });
+    const double draw = random.uniform(), yaw = random.uniform(0.0, 2.0 * pi);
+    const double scale = at_street ? 0.95 + 0.2 * draw : 0.85 + 0.45 * draw;
     writer_.add_node({.name = number("tree"),
                       .mesh = mesh,
                       .position = dvec3(where, z),
@@ -121,14 +128,17 @@ double heading(const dvec2& direction) { return std::atan2(direction.y, directio
 /// Places the furniture of a block's pavements. Lamps stand about every 34 m along both sides of an avenue,
 /// staggered, and about every 30 m along the south and west edges of other blocks, so that each street has
 /// one row. Trees of one species stand along avenues. There are also signals, signs, shelters and bins.
-void furnish_pavement(const Block& block, uint64_t seed, CityFurniture& furniture, RandomStream& random) {
+/// Returns the places that these take.
+TakenPlaces furnish_pavement(const Block& block, uint64_t seed, CityFurniture& furniture, CityStreet& street,
+                             RandomStream& random) {
+  TakenPlaces all;
   for (int edge = 0; edge < 4; ++edge) {
     if (!block.street[static_cast<size_t>(edge)]) continue;
     const dvec2 a = block.edge_start(edge), b = block.edge_end(edge);
     const double length = glm::length(b - a);
     const dvec2 along = (b - a) / length, inwards(-along.y, along.x);
     const bool avenue = block.pavement_m[static_cast<size_t>(edge)] >= 4.0;
-    std::vector<double> taken;  // m along the edge
+    std::vector<double>& taken = all[static_cast<size_t>(edge)];
     const auto free = [&](double at, double room) {
       return std::all_of(taken.begin(), taken.end(), [&](double t) { return std::abs(t - at) > room; });
     };
@@ -164,9 +174,13 @@ void furnish_pavement(const Block& block, uint64_t seed, CityFurniture& furnitur
         static_cast<int>(hash(edge % 2, 7, static_cast<uint32_t>(seed)) % 2) * 3;  // linden or plane
     for (int i = 0; avenue && i < slots; ++i) {
       const double at = length * (i + 0.5) / slots;
-      if (free(at, 2.6) && at > 5.0) furniture.tree(spot(at, 1.2), pavement_height_m, kind, random);
+      if (!free(at, 2.6) || at <= 5.0) continue;
+      furniture.tree(spot(at, 1.2), pavement_height_m, kind, true, random);
+      street.grate(spot(at, 1.2), heading(along));
+      taken.push_back(at);
     }
   }
+  return all;
 }
 
 void park_cars(const CityPlan& plan, CityFurniture& furniture, RandomStream& random) {
@@ -225,7 +239,7 @@ void add_park(SceneWriter& writer, const Block& block, CityFurniture& furniture,
       const double u = 0.1 + 0.2 * i + random.uniform(-0.045, 0.045);
       const double v = 0.1 + 0.2 * j + random.uniform(-0.045, 0.045);
       const int kind = static_cast<int>(hash(i, j, 77) % tree_species);
-      furniture.tree(at(u, v), z, kind, random);
+      furniture.tree(at(u, v), z, kind, false, random);
     }
   for (const dvec2& end : {at(0.5, 0.03), at(0.97, 0.5), at(0.5, 0.97), at(0.03, 0.5)}) {
     const dvec2 along = glm::normalize(end - center), side(-along.y, along.x);
@@ -258,6 +272,7 @@ void write_city(SceneWriter& writer, double size_m, uint64_t seed) {
   add("ground_base", base, SemanticClass::ground);
 
   CityFurniture furniture(writer);
+  CityStreet street(writer, seed);
   RandomStream random(seed, 3), details(seed, 4);
   const std::array<const char*, 4> surfaces{"paving", "grass", "asphalt_lot", "paving"};
   int building = 0;
@@ -268,7 +283,7 @@ void write_city(SceneWriter& writer, double size_m, uint64_t seed) {
     add_block_ground(block, material(park ? "grass" : surfaces[details.below(4)]), pavement, courtyard);
     add(fmt::format("pavement_{:03}", i), pavement, SemanticClass::pavement);
     add(fmt::format("{}_{:03}", park ? "park" : "courtyard", i), courtyard, SemanticClass::ground);
-    furnish_pavement(block, seed, furniture, details);
+    street.furnish(block, furnish_pavement(block, seed, furniture, street, details));
     if (park) {
       add_park(writer, block, furniture, details);
       continue;
@@ -280,6 +295,7 @@ void write_city(SceneWriter& writer, double size_m, uint64_t seed) {
                        .position = b.position,
                        .yaw = b.yaw,
                        .semantic_class = SemanticClass::building});
+      for (const CafePlace& cafe : b.cafes) street.cafe(cafe.where, cafe.out);
     }
   }
   park_cars(plan, furniture, details);

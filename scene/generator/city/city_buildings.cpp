@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "scene/generator/city/city_details.h"
 #include "scene/generator/city/city_roofs.h"
 #include "scene/generator/mesh/materials.h"
 
@@ -93,6 +94,12 @@ std::vector<Lot> make_lots(const dvec2& size_m, RandomStream& random) {
   return lots;
 }
 
+/// Returns whether only an alley lies between two lots.
+bool are_neighbours(const Lot& a, const Lot& b, const dvec2& size_m) {
+  const double gu = 5.5 / size_m.x, gv = 5.5 / size_m.y;
+  return a.u0 < b.u1 + gu && b.u0 < a.u1 + gu && a.v0 < b.v1 + gv && b.v0 < a.v1 + gv;
+}
+
 struct Style {
   std::string facade, blind, roof;
   bool shops = false;
@@ -172,6 +179,22 @@ void vary(Style& style, RandomStream& looks) {
   if (style.facade == "facade_brick_brown" && pick < 0.3) style.facade = "facade_stone_light";
 }
 
+/// Changes a façade that a neighbour has as well to another one of its kind.
+void differ(Style& style, const std::vector<std::string>& beside, RandomStream& extras) {
+  static const std::vector<std::string> old_ones{
+      "facade_brick_red",    "facade_plaster_cream", "facade_stone_light",
+      "facade_brick_yellow", "facade_plaster_ochre", "facade_stone_grey",
+      "facade_brick_brown",  "facade_plaster_white", "facade_plaster_rose"};
+  static const std::vector<std::string> new_ones{
+      "facade_concrete_grey",  "facade_glass_blue",   "facade_balcony_white", "facade_metal_silver",
+      "facade_concrete_light", "facade_balcony_sand", "facade_metal_dark",    "facade_glass_green"};
+  const bool old = std::ranges::find(old_ones, style.facade) != old_ones.end();
+  const std::vector<std::string>& choices = old ? old_ones : new_ones;
+  size_t pick = extras.below(static_cast<uint32_t>(choices.size()));
+  while (std::ranges::find(beside, style.facade) != beside.end())
+    style.facade = choices[pick++ % choices.size()];
+}
+
 bool old_town(const Style& style) {
   return style.facade.find("brick") != std::string::npos ||
          style.facade.find("plaster") != std::string::npos || style.facade.find("stone") != std::string::npos;
@@ -183,6 +206,32 @@ struct Site {
   std::vector<bool> alley;  ///< whether edge i faces a neighbour
   dvec2 along;
 };
+
+constexpr double ledge_m = 0.2;    ///< height of the ledge above shops
+constexpr double plinth_m = 0.75;  ///< height of the plinth, below the windows
+
+/// Adds the rings of a ledge above shops, or of a plinth, which stands a little out of the wall.
+void add_foot(RingSolid& solid, const Style& style, double street_level, RandomStream& extras) {
+  const int stone = material("concrete"),
+            plinth = material(extras.uniform() < 0.5 ? "plinth_grey" : "plinth_brown");
+  if (style.shops) {
+    const double out = -0.16;
+    solid.rings.push_back({0.0, street_level, stone});
+    solid.rings.push_back({out, street_level, stone});
+    solid.rings.push_back({out, street_level + ledge_m, stone});
+  } else {
+    solid.rings.push_back({-0.05, foundation, plinth});
+    solid.rings.push_back({-0.05, plinth_m, plinth});
+  }
+}
+
+/// Adds the rings of a cornice at height z.
+void add_cornice(RingSolid& solid, double z, double out, double tall) {
+  const int stone = material("concrete");
+  solid.rings.push_back({0.0, z, stone});
+  solid.rings.push_back({-out, z, stone});
+  solid.rings.push_back({-out, z + tall, stone});
+}
 
 /// Adds the rings of a façade from `bottom` to `top`. There is one ring for every two floors, and each starts
 /// at another bay, so that no two walls show the same lit windows.
@@ -210,11 +259,14 @@ void add_neon(MeshBuilder& mesh, const dvec2& a, const dvec2& b, double z, Rando
   mesh.prism(glow, glow, area > 0.0 ? corners : ccw, z, z + height);
 }
 
-MeshBuilder make_building(const Site& site, int floors, bool tower, RandomStream& random, RandomStream& looks,
-                          double* yaw) {
+Building make_building(const Site& site, int floors, bool tower, const std::vector<std::string>& beside,
+                       RandomStream& random, RandomStream& looks, RandomStream& extras) {
+  Building building;
   Style style = make_style(floors, random);
   const bool blind_alleys = !style.blind.empty() && random.uniform() < 0.7;
   vary(style, looks);
+  differ(style, beside, extras);
+  building.facade = style.facade;
   const int facade = material(style.facade), roof = material(style.roof), stone = material("concrete");
   const int shop = material(looks.uniform() < 0.6 ? "shopfront" : "shopfront_late");
   const bool shops = style.shops;
@@ -241,7 +293,7 @@ MeshBuilder make_building(const Site& site, int floors, bool tower, RandomStream
     }
     for (int k = 0; k < 2; ++k) half[k] = std::floor(100.0 * std::min(-low[k], high[k])) / 100.0;
     footprint = {-half, dvec2(half.x, -half.y), half, dvec2(-half.x, half.y)};
-    *yaw = std::atan2(site.along.y, site.along.x);
+    building.yaw = std::atan2(site.along.y, site.along.x);
     // The edges of the rectangle face south, east, north and west. An edge has a neighbour if the footprint's
     // edge on that side has one.
     const std::array<dvec2, 4> outwards{-across, site.along, across, -site.along};
@@ -255,11 +307,13 @@ MeshBuilder make_building(const Site& site, int floors, bool tower, RandomStream
   solid.footprint = footprint;
   solid.bottom = stone;
   if (shops) solid.rings.push_back({0.0, foundation, shop, true, 0.0, 1u + looks.below(0x7fffffffu)});
-  add_facade(solid, 0.0, shops ? street_level : foundation, street_level, top, facade, looks);
+  add_foot(solid, style, street_level, extras);
+  add_facade(solid, 0.0, shops ? street_level + ledge_m : plinth_m, street_level, top, facade, looks);
   const size_t wall_rings = solid.rings.size();
-  MeshBuilder mesh;
+  MeshBuilder& mesh = building.mesh;
   solid.override_wall = [&](size_t ring, size_t edge, int usual) {
-    return blind_alleys && !tower && ring < wall_rings && alley[edge] ? blind : usual;
+    const bool wall = usual == facade || usual == shop;
+    return blind_alleys && !tower && wall && ring < wall_rings && alley[edge] ? blind : usual;
   };
   std::vector<dvec2> spots = site.spots;
   if (pitched) {
@@ -279,7 +333,10 @@ MeshBuilder make_building(const Site& site, int floors, bool tower, RandomStream
     MeshBuilder unused;
     add_equipment(unused, inset(site.footprint, parapet_width + 0.3), spots, site.along, top, random);
   } else {
-    solid.rings.push_back({0.0, top + parapet_height, stone});
+    if (old_town(style))
+      add_cornice(solid, top + 0.3, 0.3, parapet_height - 0.3);
+    else
+      solid.rings.push_back({0.0, top + parapet_height, stone});
     solid.rings.push_back({parapet_width, top + parapet_height, stone});
     if (tower) {
       solid.rings.push_back({parapet_width, top, roof});
@@ -297,13 +354,24 @@ MeshBuilder make_building(const Site& site, int floors, bool tower, RandomStream
     const std::vector<dvec2> roof_edge = inset(site.footprint, solid.rings.back().inset_m + 0.3);
     const std::vector<dvec2> taken = add_equipment(mesh, roof_edge, spots, site.along, top, random);
     add_roof_details(mesh, roof_edge, taken, site.along, top, looks);
+    add_roof_clutter(mesh, roof_edge, taken, site.along, top, floors <= 9, extras);
   }
   if (shops) {
     const size_t edge = looks.below(static_cast<uint32_t>(footprint.size()));
     if (!alley[edge])
       add_neon(mesh, footprint[edge], footprint[(edge + 1) % footprint.size()], street_level + 0.3, looks);
   }
-  return mesh;
+  const Walls walls{footprint, alley, street_level, floor_height, static_cast<int>(lower), 3.0};
+  if (shops)
+    for (const auto& [place, out] : add_shop_fronts(mesh, walls, extras))
+      building.cafes.push_back({place, out});
+  else
+    add_entrance(mesh, walls, extras);
+  const bool homes =
+      style.facade.find("plaster") != std::string::npos || style.facade.find("brick") != std::string::npos;
+  if (homes && extras.uniform() < 0.4) add_balconies(mesh, walls, extras);
+  if (old_town(style)) add_downpipes(mesh, walls, top, extras);
+  return building;
 }
 
 }  // namespace
@@ -320,7 +388,8 @@ std::vector<Building> make_buildings(const CityPlan& plan, const Block& block, u
   const dvec2 size(0.5 * (glm::length(quad[1] - quad[0]) + glm::length(quad[2] - quad[3])),
                    0.5 * (glm::length(quad[3] - quad[0]) + glm::length(quad[2] - quad[1])));
   std::vector<Building> buildings;
-  for (const Lot& lot : make_lots(size, random)) {
+  const std::vector<Lot> lots = make_lots(size, random);
+  for (const Lot& lot : lots) {
     const dvec2 extent((lot.u1 - lot.u0) * size.x, (lot.v1 - lot.v0) * size.y);
     const bool roomy = std::min(extent.x, extent.y) > 20.0;
     const uint32_t kind = roomy ? random.below(6) : 1 + 2 * random.below(2);
@@ -347,9 +416,20 @@ std::vector<Building> make_buildings(const CityPlan& plan, const Block& block, u
                              : std::clamp(static_cast<int>(random.uniform(2.6, 6.5) + 3.0 * nearness), 2, 9);
     // The looks have their own random stream, so that the looks of one building do not change another one.
     RandomStream looks(seed, 64, static_cast<uint32_t>(first + static_cast<int>(buildings.size())));
-    double yaw = 0.0;
-    MeshBuilder mesh = make_building(site, floors, tower, random, looks, &yaw);
-    buildings.push_back({std::move(mesh), dvec3(center, 0.15), yaw});
+    RandomStream extras(seed, 65, static_cast<uint32_t>(first + static_cast<int>(buildings.size())));
+    std::vector<std::string> beside;
+    for (size_t i = 0; i < buildings.size(); ++i)
+      if (are_neighbours(lots[i], lot, size)) beside.push_back(buildings[i].facade);
+    Building building = make_building(site, floors, tower, beside, random, looks, extras);
+    building.position = dvec3(center, 0.15);
+    // The tables stand 0.65 m in front of the wall.
+    const double c = std::cos(building.yaw), s = std::sin(building.yaw);
+    for (CafePlace& cafe : building.cafes) {
+      const dvec2 p = cafe.where + 0.65 * cafe.out, o = cafe.out;
+      cafe = {snap(center + dvec2(c * p.x - s * p.y, s * p.x + c * p.y)),
+              dvec2(c * o.x - s * o.y, s * o.x + c * o.y)};
+    }
+    buildings.push_back(std::move(building));
   }
   return buildings;
 }

@@ -15,6 +15,7 @@ namespace {
 /// street in single edges.
 constexpr double frame_side_m = 0.15;
 constexpr double frame_end_m = 0.7;
+constexpr double kerb_width_m = 0.2;  ///< of the stones along a pavement
 
 /// A row across the street within the frame. `cuts` are fractions of the width of the street. Cell i lies
 /// between the cuts i and i + 1.
@@ -173,14 +174,16 @@ void add_streets(const CityPlan& plan, MeshBuilder& road, MeshBuilder& markings)
 
 void add_block_ground(const Block& block, int surface, MeshBuilder& pavement, MeshBuilder& courtyard) {
   const std::vector<dvec2> outer = block.outline();
-  const std::vector<dvec2> inner = inset(outer, block.outline_insets());
+  const std::vector<dvec2> inner = inset(outer, block.outline_insets()), behind = inset(outer, kerb_width_m);
   const int slabs = material("pavement"), kerb = material("kerb");
   const double z = pavement_height_m;
   size_t index = 0;
   for (size_t corner = 0; corner < 4; ++corner)
     for (size_t k = 0; k < block.corners[corner].size(); ++k, ++index) {
       const size_t next = (index + 1) % outer.size();
-      pavement.quad(slabs, dvec3(outer[index], z), dvec3(outer[next], z), dvec3(inner[next], z),
+      pavement.quad(kerb, dvec3(outer[index], z), dvec3(outer[next], z), dvec3(behind[next], z),
+                    dvec3(behind[index], z));
+      pavement.quad(slabs, dvec3(behind[index], z), dvec3(behind[next], z), dvec3(inner[next], z),
                     dvec3(inner[index], z));
       const bool last = k + 1 == block.corners[corner].size();
       if (last && !block.street[corner]) continue;  // the base closes the model's edge

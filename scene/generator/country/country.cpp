@@ -37,7 +37,7 @@ struct Field {
 class Country {
  public:
   Country(SceneWriter& writer, double size_m, uint64_t seed)
-      : writer_(writer), random_(seed, 5), terrain_(size_m, random_) {}
+      : writer_(writer), seed_(seed), random_(seed, 5), terrain_(size_m, random_) {}
 
   void write() {
     choose_sites();
@@ -49,6 +49,7 @@ class Country {
     add_woods();
     add_poles();
     add_lamps();
+    add_verges();
   }
 
  private:
@@ -64,6 +65,8 @@ class Country {
   void add_woods();
   void add_poles();
   void add_lamps();
+  void add_verges();
+  void add_yard(size_t farm);
   void add_tree(const dvec2& where, bool conifer);
   bool near_site(const dvec2& point, double margin) const;
   int shared(const std::string& name, const std::function<MeshBuilder()>& make);
@@ -72,6 +75,7 @@ class Country {
   }
 
   SceneWriter& writer_;
+  uint64_t seed_;
   RandomStream random_;
   Terrain terrain_;
   std::vector<Site> farms_;
@@ -225,27 +229,6 @@ void Country::add_ground() {
 
 // These functions add hedges, trees, farms, poles and lamps.
 
-/// Makes a closed hedge over a chain of ground points, 1.2 m wide and 1.7 m high.
-MeshBuilder make_hedge(const std::vector<dvec3>& chain) {
-  MeshBuilder mesh;
-  const int leaves = material("hedge");
-  const auto section = [&](size_t i) {
-    const dvec3 next = chain[std::min(i + 1, chain.size() - 1)], before = chain[i == 0 ? 0 : i - 1];
-    const dvec2 along = glm::normalize(dvec2(next - before)), right(along.y, -along.x);
-    const dvec3 r(right, 0.0), up(0, 0, 1);
-    return std::array<dvec3, 4>{snap(chain[i] + 0.65 * r - 0.5 * up), snap(chain[i] + 0.45 * r + 1.7 * up),
-                                snap(chain[i] - 0.45 * r + 1.7 * up), snap(chain[i] - 0.65 * r - 0.5 * up)};
-  };
-  for (size_t i = 0; i + 1 < chain.size(); ++i) {
-    const auto a = section(i), b = section(i + 1);
-    for (size_t k = 0; k < 4; ++k) mesh.quad(leaves, a[k], b[k], b[(k + 1) % 4], a[(k + 1) % 4]);
-  }
-  const auto first = section(0), last = section(chain.size() - 1);
-  mesh.quad(leaves, first[0], first[1], first[2], first[3]);
-  mesh.quad(leaves, last[3], last[2], last[1], last[0]);
-  return mesh;
-}
-
 int Country::shared(const std::string& name, const std::function<MeshBuilder()>& make) {
   const auto found = meshes_.find(name);
   if (found != meshes_.end()) return found->second;
@@ -258,8 +241,11 @@ void Country::add_hedges() {
     if (field.row0 == 0 || random_.uniform() < 0.15) continue;
     std::vector<dvec3> chain;
     const auto flush = [&] {
-      if (chain.size() > 2)
-        add(fmt::format("hedge_{:03}", count++), make_hedge(chain), SemanticClass::vegetation);
+      if (chain.size() > 2) {
+        add(fmt::format("hedge_{:03}", count), make_hedge(chain, 1300u + static_cast<uint32_t>(count)),
+            SemanticClass::vegetation);
+        ++count;
+      }
       chain.clear();
     };
     const int from = std::max(field.column0, 1), to = std::min(field.column1, terrain_.columns() - 2);
@@ -286,7 +272,7 @@ void Country::add_tree(const dvec2& where, bool conifer) {
   static constexpr std::array<int, 12> kinds{2, 2, 1, 0, 2, 3, 1, 2, 4, 0, 3, 5};
   const int kind = kinds[random_.below(kinds.size())], shape = static_cast<int>(random_.below(2));
   const int mesh =
-      conifer ? shared("conifer", make_conifer)
+      conifer ? shared("conifer", [] { return make_conifer(); })
               : shared(fmt::format("tree_{}_{}", kind, shape), [&] { return make_tree(kind, shape); });
   writer_.add_node({.name = fmt::format("tree_{:03}", tree_count_++),
                     .mesh = mesh,
@@ -327,6 +313,7 @@ void Country::add_farms() {
                       .position = dvec3(at, farm.level),
                       .yaw = yaw + random_.uniform(-0.6, 0.6),
                       .semantic_class = SemanticClass::vehicle});
+    add_yard(f);
     // a few trees around the yard
     for (int i = 0; i < 5; ++i) {
       const double angle = random_.uniform(0.0, 2.0 * pi);
@@ -403,6 +390,60 @@ void Country::add_lamps() {
       const dvec2 at = dvec2(x, terrain_.road_y(x)) - (road_half_width_m + 0.9) * side;
       lamp(LampKind::yard, at, terrain_.height(snap(at)) - 0.05, std::atan2(side.y, side.x));
     }
+  }
+}
+
+/// Adds what stands about in the yard of a farm. It has random numbers of its own.
+void Country::add_yard(size_t number) {
+  const Site& farm = farms_[number];
+  RandomStream random(seed_, 8, static_cast<uint32_t>(number));
+  const double scale = farm.inner_m / 24.0;
+  if (scale < 0.9) return;  // the yards of small models are full
+  const dvec2 along = terrain_.road_direction(farm.center.x), across(-along.y, along.x);
+  const double heading = std::atan2(along.y, along.x);
+  int count = 0;
+  const auto place = [&](const std::string& name, const std::function<MeshBuilder()>& make, const dvec2& at,
+                         double turn) {
+    writer_.add_node({.name = fmt::format("{}_{}{:02}", name, number, count++),
+                      .mesh = shared(name, make),
+                      .position = dvec3(farm.center + scale * (at.x * along + at.y * across), farm.level),
+                      .yaw = heading + turn,
+                      .semantic_class = SemanticClass::furniture});
+  };
+  for (int i = 0; i < 7; ++i)
+    place("bale", make_bale, {17.2 + 1.5 * (i % 3) + 0.2 * random.uniform(), 9.0 + 1.6 * (i / 3)},
+          random.uniform(-0.2, 0.2));
+  place("trailer", make_trailer, {9.0 + random.uniform(-1.0, 1.0), -13.5}, random.uniform(-0.4, 0.4));
+  for (const double x : {-12.0, -2.2})
+    place(
+        "fence", [] { return make_rail_fence(9.6); }, {x, 20.0}, 0.0);
+}
+
+/// Adds grass along both sides of the road, in pieces of 30 m. It has random numbers of its own.
+void Country::add_verges() {
+  RandomStream random(seed_, 7);
+  int count = 0;
+  std::vector<dvec3> feet;
+  const auto flush = [&] {
+    if (!feet.empty())
+      add(fmt::format("grass_{:03}", count), make_grass(feet, 1500u + static_cast<uint32_t>(count)),
+          SemanticClass::vegetation);
+    ++count;
+    feet.clear();
+  };
+  for (const double side : {-1.0, 1.0}) {
+    double next = -terrain_.half() + 30.0;
+    for (double x = -terrain_.half() + 1.0; x < terrain_.half() - 1.0; x += random.uniform(0.5, 1.9)) {
+      const dvec2 along = terrain_.road_direction(x), out(-along.y, along.x);
+      const double from = road_half_width_m + random.uniform(0.25, verge_m + 1.6);
+      const dvec2 at = snap(dvec2(x, terrain_.road_y(x)) + side * from * out);
+      if (std::abs(at.y) > terrain_.half() - 1.0 || std::abs(at.x) > terrain_.half() - 1.0) continue;
+      feet.emplace_back(at, terrain_.height(at));
+      if (x < next) continue;
+      flush();
+      next += 30.0;
+    }
+    flush();
   }
 }
 

@@ -9,9 +9,9 @@ namespace greatx::scene::generator {
 
 namespace {
 
-// Radio properties. Media are those of ITU-R P.2040-4, Table 3, by name where the table has them. Scattering
-// coefficients are plausible values for the effective-roughness model (lowest for smooth glass and metal,
-// highest for rough ground), not measurements of these surfaces.
+// Radio properties. Media are those of ITU-R P.2040-4, Table 3, by name where the table has them.
+// Scattering coefficients are plausible values for the effective-roughness model (lowest for smooth glass
+// and metal, highest for rough ground), not measurements of these surfaces.
 const char* const concrete_wall =
     R"({"itu":"concrete","thickness_m":0.25,"scattering_coefficient":0.2,"cross_polarization":0.1})";
 const char* const concrete_ground =
@@ -38,6 +38,11 @@ const char* const timber = R"({"itu":"wood","thickness_m":0.05,"scattering_coeff
 const char* const trunk = R"({"itu":"wood","thickness_m":0.25,"scattering_coefficient":0.3})";
 // A volume: its faces do not reflect, and the loss grows with the depth.
 const char* const canopy = R"({"foliage":"weissberger","clutter":"foliage"})";
+// Radio does not see these sheets (scene/material/lossless.h): single leaves around a crown, whose inside
+// holds the leaves that attenuate, and pictures of tubes and wires that are much thinner than their sheet
+// is high.
+const char* const unseen = R"({"foliage":{"attenuation_db_per_m":0}})";
+const char* const cloth = R"({"relative_permittivity":1.8,"conductivity":0.002,"thickness_m":0.001})";
 const char* const rubber = R"({"relative_permittivity":3.0,"conductivity":0.02,"thickness_m":0.02})";
 const char* const plastic = R"({"relative_permittivity":2.8,"conductivity":0.003,"thickness_m":0.003})";
 // Dry skin by the four Cole-Cole terms of S. Gabriel, R. W. Lau and C. Gabriel, "The dielectric properties of
@@ -75,12 +80,12 @@ std::vector<MaterialSpec> make_library() {
       {"asphalt", "asphalt", dvec2(16.0, 32.0), 0, vec3(1.0f), 0.95f, 0.0f, vec3(0), asphalt_ground},
       {"asphalt_lot", "asphalt", dvec2(16.0, 32.0), 0, vec3(0.96f), 0.95f, 0.0f, vec3(0), asphalt_ground},
       {"country_road", "country_road", dvec2(6.0, 24.0), 0, vec3(1.0f), 0.95f, 0.0f, vec3(0), asphalt_ground},
-      {"road_marking", "", dvec2(1.0), 0, vec3(0.72f), 0.7f, 0.0f, vec3(0), asphalt_ground},
-      {"pavement", "pavement", dvec2(2.4), 0, vec3(1.0f), 0.9f, 0.0f, vec3(0), concrete_ground},
-      {"kerb", "concrete", dvec2(2.0), 0, vec3(0.85f), 0.85f, 0.0f, vec3(0), concrete_ground},
-      {"paving", "pavement", dvec2(4.8), 0, vec3(0.86f, 0.78f, 0.68f), 0.9f, 0.0f, vec3(0), concrete_ground},
+      {"road_marking", "road_paint", dvec2(4.0), 0, vec3(1.0f), 0.7f, 0.0f, vec3(0), asphalt_ground},
+      {"pavement", "pavement", dvec2(9.6), 0, vec3(1.0f), 0.9f, 0.0f, vec3(0), concrete_ground},
+      {"kerb", "kerb", dvec2(2.0), 0, vec3(1.0f), 0.85f, 0.0f, vec3(0), concrete_ground},
+      {"paving", "pavement", dvec2(19.2), 0, vec3(0.86f, 0.78f, 0.68f), 0.9f, 0.0f, vec3(0), concrete_ground},
       {"subsoil", "", dvec2(2.0), 0, vec3(0.12f, 0.09f, 0.06f), 1.0f, 0.0f, vec3(0), soil},
-      {"grass", "grass", dvec2(6.0), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), lawn},
+      {"grass", "grass", dvec2(14.0), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), lawn},
       {"meadow", "pasture", dvec2(40.0), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), lawn},
       {"wheat", "crop", dvec2(48.0), 0, vec3(0.62f, 0.46f, 0.18f), 1.0f, 0.0f, vec3(0), corn},
       {"wheat_pale", "crop", dvec2(48.0), 0, vec3(0.70f, 0.58f, 0.30f), 1.0f, 0.0f, vec3(0), corn},
@@ -91,7 +96,7 @@ std::vector<MaterialSpec> make_library() {
        true},
       {"stubble", "crop", dvec2(48.0), 0, vec3(0.52f, 0.43f, 0.24f), 1.0f, 0.0f, vec3(0), lawn},
       {"rapeseed", "crop", dvec2(48.0), 0, vec3(0.66f, 0.56f, 0.07f), 1.0f, 0.0f, vec3(0), corn},
-      {"verge", "grass", dvec2(5.0), 0, vec3(0.9f, 0.85f, 0.7f), 1.0f, 0.0f, vec3(0), lawn},
+      {"verge", "grass", dvec2(11.0), 0, vec3(0.9f, 0.85f, 0.7f), 1.0f, 0.0f, vec3(0), lawn},
       {"water", "", dvec2(4.0), 0, vec3(0.03f, 0.07f, 0.08f), 0.06f, 0.0f, vec3(0), fresh_water},
 
       {"facade_brick_red", "facade_brick", facade, facade_bays, vec3(1.0f), 1.0f, 1.0f, home_light,
@@ -155,16 +160,33 @@ std::vector<MaterialSpec> make_library() {
       {"barn_boards_brown", "boards", dvec2(2.0), 0, vec3(0.42f, 0.28f, 0.17f), 0.9f, 0.0f, vec3(0), timber},
       {"door_boards", "boards", dvec2(1.5), 0, vec3(0.75f, 0.72f, 0.66f), 0.8f, 0.0f, vec3(0), timber},
       {"farm_plaster", "farm_wall", dvec2(16.0, 3.0), 4, vec3(1.0f), 1.0f, 1.0f, home_light, brick_wall, 0},
+      {"straw", "crop", dvec2(8.0), 0, vec3(0.7f, 0.54f, 0.24f), 1.0f, 0.0f, vec3(0), timber},
       {"wire", "", dvec2(1.0), 0, vec3(0.03f), 0.6f, 0.0f, vec3(0), carbon_fibre},
       {"wood_pole", "bark", dvec2(1.0), 0, vec3(0.9f), 0.95f, 0.0f, vec3(0), trunk},
 
       {"bark", "bark", dvec2(1.0), 0, vec3(0.8f), 1.0f, 0.0f, vec3(0), trunk},
-      {"leaves_green", "leaves", dvec2(3.0), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), canopy},
-      {"leaves_dark", "leaves", dvec2(3.0), 0, vec3(0.62f, 0.74f, 0.62f), 1.0f, 0.0f, vec3(0), canopy},
-      {"leaves_light", "leaves", dvec2(3.0), 0, vec3(0.96f, 1.0f, 0.6f), 1.0f, 0.0f, vec3(0), canopy},
-      {"leaves_olive", "leaves", dvec2(3.0), 0, vec3(0.95f, 0.9f, 0.66f), 1.0f, 0.0f, vec3(0), canopy},
-      {"leaves_copper", "leaves", dvec2(3.0), 0, vec3(1.0f, 0.62f, 0.5f), 1.0f, 0.0f, vec3(0), canopy},
-      {"needles", "leaves", dvec2(3.0), 0, vec3(0.42f, 0.56f, 0.5f), 1.0f, 0.0f, vec3(0), canopy},
+      {"bark_plane", "bark_plane", dvec2(1.6), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), trunk},
+      {"bark_birch", "bark_birch", dvec2(0.8), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), trunk},
+      // Leaves fill a crown, and sprays stand around it.
+      {"leaves_green", "leaves", dvec2(3.0), 0, vec3(0.72f, 0.81f, 0.76f), 1.0f, 0.0f, vec3(0), canopy},
+      {"sprays_green", "leaf_sprays", dvec2(3.0), 0, vec3(0.8f, 0.9f, 0.84f), 1.0f, 0.0f, vec3(0), unseen},
+      {"leaves_dark", "leaves", dvec2(3.0), 0, vec3(0.54f, 0.67f, 0.56f), 1.0f, 0.0f, vec3(0), canopy},
+      {"sprays_dark", "leaf_sprays", dvec2(3.0), 0, vec3(0.6f, 0.74f, 0.62f), 1.0f, 0.0f, vec3(0), unseen},
+      {"leaves_light", "leaves", dvec2(3.0), 0, vec3(0.9f, 0.9f, 0.56f), 1.0f, 0.0f, vec3(0), canopy},
+      {"sprays_light", "leaf_sprays", dvec2(3.0), 0, vec3(1.0f, 1.0f, 0.62f), 1.0f, 0.0f, vec3(0), unseen},
+      {"leaves_olive", "leaves", dvec2(3.0), 0, vec3(0.76f, 0.79f, 0.59f), 1.0f, 0.0f, vec3(0), canopy},
+      {"sprays_olive", "leaf_sprays", dvec2(3.0), 0, vec3(0.84f, 0.88f, 0.66f), 1.0f, 0.0f, vec3(0), unseen},
+      {"leaves_copper", "leaves", dvec2(3.0), 0, vec3(0.65f, 0.27f, 0.34f), 1.0f, 0.0f, vec3(0), canopy},
+      {"sprays_copper", "leaf_sprays", dvec2(3.0), 0, vec3(0.72f, 0.3f, 0.38f), 1.0f, 0.0f, vec3(0), unseen},
+      {"leaves_birch", "leaves", dvec2(3.0), 0, vec3(0.9f, 0.88f, 0.45f), 1.0f, 0.0f, vec3(0), canopy},
+      {"sprays_birch", "leaf_sprays", dvec2(3.0), 0, vec3(1.0f, 0.98f, 0.5f), 1.0f, 0.0f, vec3(0), unseen},
+      {"needles", "leaves", dvec2(3.0), 0, vec3(0.34f, 0.5f, 0.46f), 1.0f, 0.0f, vec3(0), canopy},
+      {"sprays_needles", "needle_sprays", dvec2(3.0), 0, vec3(0.6f, 0.8f, 0.86f), 1.0f, 0.0f, vec3(0),
+       unseen},
+      {"needles_pine", "leaves", dvec2(3.0), 0, vec3(0.5f, 0.6f, 0.5f), 1.0f, 0.0f, vec3(0), canopy},
+      {"sprays_pine", "needle_sprays", dvec2(3.0), 0, vec3(0.8f, 0.9f, 0.8f), 1.0f, 0.0f, vec3(0), unseen},
+      {"grass_tuft", "grass_tufts", dvec2(1.6), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), unseen},
+      {"sprays_hedge", "leaf_sprays", dvec2(3.0), 0, vec3(0.62f, 0.76f, 0.6f), 1.0f, 0.0f, vec3(0), unseen},
       {"hedge", "leaves", dvec2(2.0), 0, vec3(0.7f, 0.8f, 0.62f), 1.0f, 0.0f, vec3(0), canopy},
 
       {"painted_metal", "", dvec2(1.0), 0, vec3(0.1f, 0.12f, 0.13f), 0.45f, 0.0f, vec3(0), sheet_metal},
@@ -190,6 +212,28 @@ std::vector<MaterialSpec> make_library() {
        plastic},
       {"poster", "poster", dvec2(1.2, 1.8), 0, vec3(1.0f), 0.3f, 0.0f, vec3(0.2f), plastic, 0},
       {"shelter_glass", "", dvec2(1.0), 0, vec3(0.3f, 0.36f, 0.38f), 0.1f, 0.0f, vec3(0), pane},
+      {"traffic_signs", "traffic_signs", dvec2(1.0), 0, vec3(1.0f), 0.5f, 0.0f, vec3(0), sheet_metal},
+      {"bicycle", "bicycles", dvec2(1.0), 0, vec3(1.0f), 0.4f, 0.0f, vec3(0), unseen},
+      {"mesh_fence", "mesh_fence", dvec2(0.3), 0, vec3(1.0f), 0.5f, 0.0f, vec3(0), unseen},
+      {"column_bills", "column_bills", dvec2(3.6, 2.5), 0, vec3(1.0f), 0.7f, 0.0f, vec3(0), concrete_wall},
+      {"column_green", "", dvec2(1.0), 0, vec3(0.03f, 0.1f, 0.06f), 0.5f, 0.0f, vec3(0), sheet_metal},
+      {"post_yellow", "", dvec2(1.0), 0, vec3(0.78f, 0.5f, 0.03f), 0.45f, 0.0f, vec3(0), sheet_metal},
+      {"hydrant_red", "", dvec2(1.0), 0, vec3(0.5f, 0.03f, 0.02f), 0.5f, 0.0f, vec3(0), sheet_metal},
+      {"cabinet_grey", "", dvec2(1.0), 0, vec3(0.36f, 0.39f, 0.38f), 0.6f, 0.0f, vec3(0), plastic},
+      {"chair", "", dvec2(1.0), 0, vec3(0.34f, 0.2f, 0.1f), 0.7f, 0.0f, vec3(0), timber},
+      {"tree_grate", "tree_grate", dvec2(1.5), 0, vec3(1.0f), 0.9f, 0.0f, vec3(0), soil},
+      {"awning_red", "awning", dvec2(0.6, 2.0), 0, vec3(0.8f, 0.24f, 0.18f), 0.9f, 0.0f, vec3(0), cloth},
+      {"awning_green", "awning", dvec2(0.6, 2.0), 0, vec3(0.22f, 0.5f, 0.3f), 0.9f, 0.0f, vec3(0), cloth},
+      {"awning_blue", "awning", dvec2(0.6, 2.0), 0, vec3(0.24f, 0.36f, 0.62f), 0.9f, 0.0f, vec3(0), cloth},
+      {"awning_sand", "awning", dvec2(0.6, 2.0), 0, vec3(0.86f, 0.74f, 0.52f), 0.9f, 0.0f, vec3(0), cloth},
+      {"parapet_white", "concrete", dvec2(3.2), 0, vec3(1.0f), 0.8f, 0.0f, vec3(0), concrete_wall},
+      {"parapet_dark", "", dvec2(1.0), 0, vec3(0.07f, 0.075f, 0.08f), 0.6f, 0.0f, vec3(0), sheet_metal},
+      {"parapet_glass", "", dvec2(1.0), 0, vec3(0.3f, 0.36f, 0.37f), 0.12f, 0.0f, vec3(0), pane},
+      {"door_dark", "boards", dvec2(1.5), 0, vec3(0.16f, 0.12f, 0.09f), 0.7f, 0.0f, vec3(0), timber},
+      {"downpipe", "", dvec2(1.0), 0, vec3(0.34f, 0.36f, 0.37f), 0.5f, 0.3f, vec3(0), sheet_metal},
+      {"plinth_grey", "plinth", dvec2(3.2, 1.6), 0, vec3(0.72f), 0.95f, 0.0f, vec3(0), concrete_wall},
+      {"plinth_brown", "plinth", dvec2(3.2, 1.6), 0, vec3(0.56f, 0.48f, 0.42f), 0.95f, 0.0f, vec3(0),
+       concrete_wall},
       {"bench_wood", "boards", dvec2(1.0), 0, vec3(0.45f, 0.28f, 0.14f), 0.8f, 0.0f, vec3(0), timber},
       {"radome", "", dvec2(1.0), 0, vec3(0.8f), 0.5f, 0.0f, vec3(0), radome},
       {"aviation_light", "", dvec2(1.0), 0, vec3(0.6f, 0.02f, 0.02f), 0.3f, 0.0f, vec3(1.0f, 0.02f, 0.02f),

@@ -94,10 +94,18 @@ const TextureMaps& SceneWriter::maps(const std::string& name) {
   return found != maps_.end() ? found->second : maps_[name] = make_texture(name);
 }
 
-int SceneWriter::texture(int& index, const std::string& name, const Raster& raster, bool exact) {
+int SceneWriter::texture(int& index, const std::string& name, const Raster& raster, bool exact,
+                         const std::vector<uint8_t>& alpha) {
   if (index >= 0 || raster.empty()) return index;
-  const Array image = Array::of<uint8_t>({int64_t{raster.height}, int64_t{raster.width}, 3}, raster.rgb);
   const io::PngCoding coding = exact ? io::PngCoding::small : io::PngCoding::small_inexact;
+  if (!alpha.empty()) {
+    std::vector<uint8_t> rgba;
+    for (size_t i = 0; i < alpha.size(); ++i)
+      rgba.insert(rgba.end(), {raster.rgb[3 * i], raster.rgb[3 * i + 1], raster.rgb[3 * i + 2], alpha[i]});
+    const Array image = Array::of<uint8_t>({int64_t{raster.height}, int64_t{raster.width}, 4}, rgba);
+    return index = file_.add_texture(name, io::encode_png(image, coding));
+  }
+  const Array image = Array::of<uint8_t>({int64_t{raster.height}, int64_t{raster.width}, 3}, raster.rgb);
   return index = file_.add_texture(name, io::encode_png(image, coding));
 }
 
@@ -111,7 +119,8 @@ void SceneWriter::add_material(int library_index) {
   if (!spec.texture.empty()) {
     const TextureMaps& painted = maps(spec.texture);
     Textures& known = textures_[spec.texture];
-    out.base_color_texture = texture(known.color, spec.texture, painted.color);
+    out.base_color_texture = texture(known.color, spec.texture, painted.color, false, painted.alpha);
+    out.holes = out.double_sided = !painted.alpha.empty();
     out.metallic_roughness_texture =
         texture(known.surface, spec.texture + "_surface", painted.metallic_roughness);
     if (spec.relief)

@@ -70,8 +70,9 @@ class SceneWriter {
   /// Writes the material, and those of its textures that no earlier material has written.
   void add_material(int library_index);
   /// Returns the texture in `index`, which it adds to the file at the first call, or -1 if the raster is
-  /// empty. If `exact`, the PNG holds exactly the raster's values.
-  int texture(int& index, const std::string& name, const Raster& raster, bool exact = false);
+  /// empty. If `exact`, the PNG holds exactly the raster's values. `alpha` is TextureMaps::alpha.
+  int texture(int& index, const std::string& name, const Raster& raster, bool exact = false,
+              const std::vector<uint8_t>& alpha = {});
   const TextureMaps& maps(const std::string& name);
 
   std::vector<MaterialSpec> library_;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/generator/objects/farm.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "scene/generator/mesh/materials.h"
@@ -108,6 +110,39 @@ MeshBuilder make_pole() {
   const int wood = material("wood_pole");
   mesh.prism(wood, wood, regular_polygon(6, 0.13), -0.6, 7.2);
   mesh.box(wood, {-0.05, -0.9, 6.6}, {0.05, 0.9, 6.74});
+  return mesh;
+}
+
+MeshBuilder make_bale() {
+  MeshBuilder mesh;
+  mesh.prism_along_y(material("straw"), regular_polygon(10, 0.65, dvec2(0.0, 0.62), 0.2), -0.6, 0.6);
+  return mesh;
+}
+
+MeshBuilder make_trailer() {
+  MeshBuilder mesh;
+  const int boards = material("barn_boards_brown"), steel = material("painted_metal");
+  mesh.box(steel, {-2.4, -0.5, 0.62}, {2.4, 0.5, 0.8});
+  mesh.box(boards, {-2.5, -1.1, 0.78}, {2.5, 1.1, 0.92});
+  for (const double y : {-1.08, 1.02}) mesh.box(boards, {-2.48, y, 0.9}, {2.48, y + 0.06, 1.5});
+  for (const double x : {-2.46, 2.4}) mesh.box(boards, {x, -1.05, 0.91}, {x + 0.06, 1.05, 1.49});
+  mesh.box(material("straw"), {-2.3, -0.98, 0.9}, {2.3, 0.98, 1.42});
+  mesh.box(steel, {2.3, -0.06, 0.64}, {3.6, 0.06, 0.74});
+  for (const double x : {-1.5, 1.5})
+    for (const double y : {-1.0, 0.72})
+      mesh.prism_along_y(material("tyre"), regular_polygon(8, 0.44, dvec2(x, 0.43), 0.4), y, y + 0.28);
+  return mesh;
+}
+
+MeshBuilder make_rail_fence(double length_m) {
+  MeshBuilder mesh;
+  const int wood = material("wood_pole");
+  const int posts = std::max(1, static_cast<int>(std::lround(length_m / 2.6)));
+  for (int i = 0; i <= posts; ++i) {
+    const double x = snap(length_m * i / posts);
+    mesh.box(wood, {x - 0.06, -0.06, -0.5}, {x + 0.06, 0.06, 1.2});
+  }
+  for (const double z : {0.5, 0.98}) mesh.box(wood, {-0.08, 0.04, z}, {length_m + 0.08, 0.09, z + 0.12});
   return mesh;
 }
 

@@ -1,19 +1,54 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes trees with the foot at the origin and z up.
+// Makes trees with the foot at the origin and z up. A crown is a closed body of leaves, which the foliage of
+// radio fills, with sprays of leaves around it: single faces with holes, which radio does not see.
 #pragma once
+
+#include <array>
+#include <vector>
 
 #include "scene/generator/mesh/mesh_builder.h"
 
 namespace greatx::scene::generator {
 
-inline constexpr int tree_species = 6;  ///< linden, maple, oak, plane, Lombardy poplar, copper beech
+/// linden, maple, oak, plane, Lombardy poplar, copper beech, birch
+inline constexpr int tree_species = 7;
 
 /// Makes a broad-leaved tree 6 to 11 m high. `kind` is below tree_species. `shape` (any number) varies the
-/// boughs. The crown is one closed body of 48 triangles with gaps between boughs.
-MeshBuilder make_tree(int kind, int shape);
-/// Makes a spruce some 10 m high.
-MeshBuilder make_conifer();
+/// boughs. The crown stands higher on its trunk if it would otherwise reach below `clear_m`.
+MeshBuilder make_tree(int kind, int shape, double clear_m = 0.0);
+
+enum class Conifer { spruce, pine };
+/// Makes a conifer some 10 m high.
+MeshBuilder make_conifer(Conifer kind = Conifer::spruce);
+
+/// Describes a body of leaves as rings around the z axis from the bottom up, each of the same number of
+/// points, counter-clockwise from above, between two poles.
+struct LeafBody {
+  std::vector<std::vector<dvec3>> rings;
+  dvec3 bottom, top;
+};
+/// Describes the sprays around a body.
+struct Sprays {
+  int per_face = 1;     ///< on each of the faces between two rings; caps have one on every other face
+  double size_m = 1.5;  ///< width and height of a spray
+  double hang = 0.0;    ///< 0: turned at random, 1: upright, so that leaves hang or rise
+};
+/// Adds a closed body of leaves. Light falls on it as on a round crown.
+void add_leaf_body(MeshBuilder& mesh, int material, const LeafBody& body);
+/// Adds sprays around a body, which are open faces. Their normals are those of the round crown as well.
+void add_sprays(MeshBuilder& mesh, int material, const LeafBody& body, const Sprays& sprays, uint32_t seed);
+
+/// Adds one spray with its middle at `at`, in the plane of `across` and `up` (half its width and height).
+/// `normal` lights it, as far as it is on the spray's outside. `draw` picks its picture.
+void add_spray(MeshBuilder& mesh, int material, const dvec3& normal, const dvec3& at, const dvec3& across,
+               const dvec3& up, uint32_t draw);
+
+/// Makes a closed hedge over a chain of ground points, some 1.2 m wide and 1.7 m high, with an uneven top and
+/// sprays on it.
+MeshBuilder make_hedge(const std::vector<dvec3>& chain, uint32_t seed);
+/// Makes tufts of grass at these ground points.
+MeshBuilder make_grass(const std::vector<dvec3>& feet, uint32_t seed);
 
 }  // namespace greatx::scene::generator

@@ -43,6 +43,16 @@ TextureMaps asphalt() {
   for (int i = 0; i < 26; ++i)
     painter.crack(static_cast<int>(hash(i, 4, 14) % 512), static_cast<int>(hash(i, 5, 14) % 1024),
                   40 + static_cast<int>(hash(i, 6, 14) % 150), -22, 15 + static_cast<uint32_t>(i));
+  for (int i = 0; i < 8; ++i) {  // cracks that were sealed with tar
+    int x = static_cast<int>(hash(i, 7, 14) % 512);
+    const int y = static_cast<int>(hash(i, 8, 14) % 1024),
+              length = 90 + static_cast<int>(hash(i, 9, 14) % 180);
+    for (int k = 0; k < length; ++k) {
+      painter.shade(x, y + k, x + 3, y + k + 1, -24);
+      const uint32_t step = hash(k / 2, i, 9) % 7;
+      x += step == 0 ? -1 : step == 1 ? 1 : 0;
+    }
+  }
   painter.speckle(8, 13);
   for (int i = 0; i < 5; ++i) {  // manhole covers of 0.6 m, and gullies
     const int x = i < 3 ? 256 + (i - 1) * 62 : 256 + (i == 3 ? -1 : 1) * 110, y = 120 + 190 * i;
@@ -83,17 +93,60 @@ TextureMaps country_road() {
   return painter.maps();
 }
 
+/// Paints 9.6 m x 9.6 m of slabs of 0.6 m: each with its own shade, some replaced, some cracked, with stains,
+/// chewing gum and moss in the joints.
 TextureMaps pavement() {
-  // The texture covers 2.4 m with slabs of 0.6 m. Each slab has its own shade.
-  TexturePainter painter(128, 128, {158, 154, 147});
-  for (int y = 0; y < 4; ++y)
-    for (int x = 0; x < 4; ++x)
-      painter.shade(32 * x, 32 * y, 32 * x + 32, 32 * y + 32, static_cast<int>(hash(x, y, 21) % 17) - 8);
+  TexturePainter painter(512, 512, {156, 152, 145});
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) {
+      const uint32_t draw = hash(x, y, 21);
+      const int shade = static_cast<int>(draw % 15) - 7 + (draw % 29 == 0 ? 16 : draw % 23 == 0 ? -14 : 0);
+      painter.shade(32 * x, 32 * y, 32 * x + 32, 32 * y + 32, shade);
+    }
+  painter.blotches(256, {-8, -8, -9}, 25);
+  painter.blotches(64, 7, 26);
   painter.speckle(5, 22);
-  for (int i = 0; i < 4; ++i) {
-    painter.shade(32 * i, 0, 32 * i + 1, 128, -38);
-    painter.shade(0, 32 * i, 128, 32 * i + 1, -38);
+  for (int i = 0; i < 16; ++i) {
+    painter.shade(32 * i, 0, 32 * i + 1, 512, -36);
+    painter.shade(0, 32 * i, 512, 32 * i + 1, -36);
   }
+  for (int i = 0; i < 22; ++i) {  // stains, and moss along joints
+    const int x = static_cast<int>(hash(i, 0, 27) % 512), y = static_cast<int>(hash(i, 1, 27) % 512);
+    const int r = 4 + static_cast<int>(hash(i, 2, 27) % 14);
+    for (int dy = -r; dy <= r; ++dy)
+      for (int dx = -r; dx <= r; ++dx) {
+        const int r2 = dx * dx + 2 * dy * dy;
+        if (r2 < r * r)
+          painter.add(x + dx, y + dy,
+                      {-14 + 12 * r2 / (r * r), -13 + 12 * r2 / (r * r), -12 + 11 * r2 / (r * r)});
+      }
+  }
+  for (int i = 0; i < 90; ++i)
+    painter.shade(static_cast<int>(hash(i, 3, 28) % 512), static_cast<int>(hash(i, 4, 28) % 512),
+                  static_cast<int>(hash(i, 3, 28) % 512) + 2, static_cast<int>(hash(i, 4, 28) % 512) + 2,
+                  -34);
+  for (int i = 0; i < 9; ++i) {
+    const int x = 32 * static_cast<int>(hash(i, 5, 29) % 16), y = 32 * static_cast<int>(hash(i, 6, 29) % 16);
+    painter.crack(x + 8 + static_cast<int>(hash(i, 7, 29) % 16), y + 1, 31, -38,
+                  30 + static_cast<uint32_t>(i));
+  }
+  return painter.maps();
+}
+
+/// Paints 4 m x 4 m of white paint on asphalt, which tyres have worn off in places.
+TextureMaps road_paint() {
+  TexturePainter painter(128, 128, {224, 223, 216});
+  painter.blotches(64, 10, 33);
+  painter.blotches(16, 10, 34);
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 128; ++x) {
+      const int wear =
+          static_cast<int>(hash(x / 8, y / 8, 35) % 40) + static_cast<int>(hash(x / 2, y / 3, 36) % 60);
+      if (wear > 82) painter.rect(x, y, x + 1, y + 1, {132, 131, 128});
+    }
+  for (int i = 0; i < 7; ++i)
+    painter.crack(static_cast<int>(hash(i, 0, 37) % 128), static_cast<int>(hash(i, 1, 37) % 128), 40, -60,
+                  38 + static_cast<uint32_t>(i));
   return painter.maps();
 }
 
@@ -110,13 +163,15 @@ void blades(TexturePainter& painter, int size, uint32_t seed) {
 
 }  // namespace
 
+/// Paints 14 m x 14 m of a lawn: patches that are greener, drier or thinner than others, weeds, dry tufts.
 TextureMaps grass() {
-  TexturePainter painter(256, 256, {72, 101, 52});
-  painter.blotches(128, 5, 40);
-  painter.blotches(16, 7, 41);
-  blades(painter, 256, 43);
-  for (int i = 0; i < 240; ++i) {  // weeds and dry tufts
-    const int x = static_cast<int>(hash(i, 0, 44) % 256), y = static_cast<int>(hash(i, 1, 44) % 256);
+  TexturePainter painter(512, 512, {78, 102, 54});
+  painter.blotches(256, {14, 6, 6}, 39);
+  painter.blotches(64, {10, 6, 2}, 40);
+  painter.blotches(16, {5, 7, 4}, 41);
+  blades(painter, 512, 43);
+  for (int i = 0; i < 900; ++i) {
+    const int x = static_cast<int>(hash(i, 0, 44) % 512), y = static_cast<int>(hash(i, 1, 44) % 512);
     const bool dry = hash(i, 2, 44) % 3 == 0;
     for (int dy = 0; dy < 3; ++dy)
       for (int dx = 0; dx < 3; ++dx) painter.add(x + dx, y + dy, dry ? Rgb{24, 12, 0} : Rgb{-14, -8, -8});

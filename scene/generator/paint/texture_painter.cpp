@@ -56,7 +56,7 @@ void TexturePainter::speckle(int amount, uint32_t seed) {
     }
 }
 
-void TexturePainter::blotches(int cell, int amount, uint32_t seed) {
+void TexturePainter::blotches(int cell, const Rgb& amount, uint32_t seed) {
   const int columns = width_ / cell, rows = height_ / cell;
   const auto node = [&](int x, int y) {
     return static_cast<int>(hash(x % columns, y % rows, seed) % 257) - 128;
@@ -69,8 +69,8 @@ void TexturePainter::blotches(int cell, int amount, uint32_t seed) {
       const int64_t low = int64_t{node(cx, cy)} * (cube - sx) + int64_t{node(cx + 1, cy)} * sx;
       const int64_t high = int64_t{node(cx, cy + 1)} * (cube - sx) + int64_t{node(cx + 1, cy + 1)} * sx;
       const int64_t value = (low / cube * (cube - sy) + high / cube * sy) / cube;
-      const int change = static_cast<int>(value) * amount / 128;
-      add(x, y, {change, change, change});
+      const int strength = static_cast<int>(value);
+      add(x, y, {strength * amount.r / 128, strength * amount.g / 128, strength * amount.b / 128});
     }
 }
 
@@ -143,6 +143,7 @@ Raster TexturePainter::whole(const std::vector<Rgb>& pixels) const {
 TextureMaps TexturePainter::maps() const {
   TextureMaps result;
   result.color = whole(colors_);
+  result.alpha = alpha_;
   result.metallic_roughness = whole(surface_);
   result.normal = normals();
   for (size_t layer = 0; layer < lit_.size(); ++layer) result.lit[layer] = halved(lit_[layer]);

@@ -38,7 +38,9 @@ class TexturePainter {
   void speckle(int amount, uint32_t seed);
   /// Adds smooth noise: values within +-amount on a lattice of `cell` pixels. `cell` divides width and
   /// height.
-  void blotches(int cell, int amount, uint32_t seed);
+  void blotches(int cell, int amount, uint32_t seed) { blotches(cell, {amount, amount, amount}, seed); }
+  /// As above, with another amount for each channel, so that the tint varies, too.
+  void blotches(int cell, const Rgb& amount, uint32_t seed);
   /// Draws a crack: a wandering line of `length` pixels, mostly along y, darker by `change`.
   void crack(int x, int y, int length, int change, uint32_t seed);
   /// Starts a metallic-roughness map.
@@ -49,6 +51,13 @@ class TexturePainter {
   void light(int layer, int x0, int y0, int x1, int y1, const Rgb& color);
   /// Sets the height over the plane, in pixels/16. Starts a normal map if there is none.
   void raise(int x0, int y0, int x1, int y1, int height);
+  /// Starts an alpha map that is a hole everywhere.
+  void cut_all() { alpha_.assign(colors_.size(), 0); }
+  /// Paints a pixel that is no hole.
+  void cover(int x, int y, const Rgb& color) {
+    colors_[index(x, y)] = color;
+    alpha_[index(x, y)] = 255;
+  }
   /// Returns the maps. The lit maps have half the resolution, which makes no visible difference. The
   /// roughness map is as large as the colour map, so that a renderer may look both up at once.
   TextureMaps maps() const;
@@ -64,6 +73,7 @@ class TexturePainter {
   std::vector<Rgb> surface_;  ///< (unused, roughness, metallic); empty: not wanted
   std::array<std::vector<Rgb>, lit_pictures> lit_;
   std::vector<int> relief_;
+  std::vector<uint8_t> alpha_;
 };
 
 }  // namespace greatx::scene::generator

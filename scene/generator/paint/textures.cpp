@@ -21,34 +21,50 @@ TextureMaps concrete() {
   return painter.maps();
 }
 
-/// Paints 3 m x 3 m of foliage: clumps of lit leaves in front of dark gaps.
-TextureMaps leaves() {
-  TexturePainter painter(128, 128, {40, 58, 24});
-  painter.blotches(32, 10, 61);
-  for (int pass = 0; pass < 3; ++pass)
-    for (int i = 0; i < 420; ++i) {
-      const int x = static_cast<int>(hash(i, 3 * pass, 62) % 128),
-                y = static_cast<int>(hash(i, 3 * pass + 1, 62) % 128);
-      // Leaves gather where the coarse noise is high. The gaps stay dark.
-      const uint32_t clump = hash(x / 16, y / 16, 63) % 4;
-      if (clump == 0 && pass > 0) continue;
-      const int tone =
-          52 + 17 * pass + static_cast<int>(hash(i, 3 * pass + 2, 62) % 22) + 4 * static_cast<int>(clump);
-      const Rgb leaf{tone * 9 / 10, tone * 13 / 10, tone * 5 / 10};
-      const bool tall = hash(i, pass, 64) % 2 == 0;
-      const int w = tall ? 3 : 5, h = tall ? 5 : 3;
-      painter.rect(x, y, x + w, y + h, leaf);
-      painter.shade(x, y + h, x + w, y + h + 1, -18);
-      painter.shade(x, y, x + w - 1, y + 1, 10);
-    }
-  return painter.maps();
-}
-
 TextureMaps bark() {
   TexturePainter painter(64, 64, {104, 84, 64});
   for (int x = 0; x < 64; ++x)
     painter.shade(x, 0, x + 1, 64, static_cast<int>(hash(x / 3, 0, 71) % 5) * 9 - 18);
   painter.speckle(8, 72);
+  return painter.maps();
+}
+
+/// Paints 2 m x 2 m of granite: kerb stones of 1 m.
+TextureMaps kerb() {
+  TexturePainter painter(128, 128, {182, 180, 174});
+  painter.blotches(64, 9, 731);
+  painter.blotches(16, 7, 732);
+  painter.speckle(12, 733);
+  for (int i = 0; i < 128; i += 64) {
+    painter.shade(i, 0, i + 2, 128, -46);
+    painter.shade(0, i, 128, i + 2, -46);
+  }
+  return painter.maps();
+}
+
+/// Paints the bark of a plane tree: plates of three colours that flake off.
+TextureMaps bark_plane() {
+  TexturePainter painter(64, 64, {150, 142, 120});
+  for (int i = 0; i < 46; ++i) {
+    const int x = static_cast<int>(hash(i, 0, 75) % 64), y = static_cast<int>(hash(i, 1, 75) % 64);
+    const int w = 5 + static_cast<int>(hash(i, 2, 75) % 9), h = 6 + static_cast<int>(hash(i, 3, 75) % 12);
+    const Rgb color = i % 3 == 0 ? Rgb{112, 108, 88} : i % 3 == 1 ? Rgb{178, 170, 142} : Rgb{134, 130, 104};
+    painter.rect(x + 1, y, x + w - 1, y + h, color);
+    painter.rect(x, y + 1, x + w, y + h - 1, color);
+  }
+  painter.speckle(6, 76);
+  return painter.maps();
+}
+
+/// Paints the bark of a birch: white with short dark bands across.
+TextureMaps bark_birch() {
+  TexturePainter painter(64, 64, {206, 204, 196});
+  painter.blotches(16, 9, 77);
+  for (int i = 0; i < 40; ++i) {
+    const int x = static_cast<int>(hash(i, 0, 78) % 64), y = static_cast<int>(hash(i, 1, 78) % 64);
+    const int w = 4 + static_cast<int>(hash(i, 2, 78) % 14);
+    painter.shade(x, y, x + w, y + 1 + static_cast<int>(hash(i, 3, 78) % 3), -90);
+  }
   return painter.maps();
 }
 
@@ -163,15 +179,22 @@ TextureMaps make_texture(const std::string& name) {
   static const std::map<std::string, TextureMaps (*)()> painters = {
       {"asphalt", asphalt},
       {"pavement", pavement},
+      {"road_paint", road_paint},
       {"concrete", concrete},
+      {"kerb", kerb},
       {"grass", grass},
       {"crop", crop},
       {"leaves", leaves},
+      {"leaf_sprays", leaf_sprays},
+      {"needle_sprays", needle_sprays},
+      {"grass_tufts", grass_tufts},
       {"solar", solar},
       {"slate", slate},
       {"country_road", country_road},
       {"pasture", pasture},
       {"bark", bark},
+      {"bark_plane", bark_plane},
+      {"bark_birch", bark_birch},
       {"roof", roof},
       {"corrugated", corrugated},
       {"boards", boards},
@@ -193,6 +216,13 @@ TextureMaps make_texture(const std::string& name) {
       {"face", face},
       {"wheel_alloy", wheel_alloy},
       {"wheel_steel", wheel_steel},
+      {"traffic_signs", traffic_signs},
+      {"bicycles", bicycles},
+      {"column_bills", column_bills},
+      {"awning", awning},
+      {"tree_grate", tree_grate},
+      {"mesh_fence", mesh_fence},
+      {"plinth", plinth},
   };
   const auto found = painters.find(name);
   GREATX_CHECK(found != painters.end(), "no texture called \"{}\"", name);

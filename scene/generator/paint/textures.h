@@ -24,6 +24,7 @@ inline constexpr int lit_pictures = 2;
 /// Holds all texture maps of one surface. All but the first may be empty.
 struct TextureMaps {
   Raster color;                          ///< sRGB base colour
+  std::vector<uint8_t> alpha;            ///< of the base colour, [height * width]; empty: no holes
   Raster metallic_roughness;             ///< as in glTF: G roughness, B metallic, linear
   Raster normal;                         ///< as in glTF: tangent space, +y up
   std::array<Raster, lit_pictures> lit;  ///< sRGB, emitted light; a factor of MaterialSpec::emissive
@@ -37,9 +38,33 @@ TextureMaps make_texture(const std::string& name);
 TextureMaps asphalt();
 TextureMaps country_road();
 TextureMaps pavement();
+TextureMaps road_paint();
 TextureMaps grass();
 TextureMaps pasture();
 TextureMaps crop();
+
+/// Paints 3 m x 3 m of leaves without holes: clumps of lit leaves in front of dark gaps.
+TextureMaps leaves();
+
+// These functions paint plants with holes between the leaves. Each quarter of a picture is another one.
+/// Paints four sprays of leaves, each some 1.5 m wide.
+TextureMaps leaf_sprays();
+/// Paints four boughs with needles, each some 1.5 m long, from the lower edge of their quarters upwards.
+TextureMaps needle_sprays();
+/// Paints four tufts of grass, each some 0.8 m wide, which stand on the lower edges of their quarters.
+TextureMaps grass_tufts();
+
+// These functions paint what stands in streets. street_textures.cpp states the sizes.
+/// Paints eight signs in the order of SignKind (objects/street_pieces.h), four beside each other, and their
+/// grey backs below.
+TextureMaps traffic_signs();
+TextureMaps bicycles();
+TextureMaps column_bills();
+TextureMaps awning();
+TextureMaps tree_grate();
+TextureMaps mesh_fence();
+/// Paints the foot of a wall, 3.2 m x 1.6 m: dirt that has splashed up.
+TextureMaps plinth();
 
 // These functions paint façades: two floors of 3.2 m and eight bays of 3.0 m (facade_bay_px pixels each). In
 // each floor the lowest 0.85 m is plain wall, so that a parapet may end there.

@@ -92,7 +92,10 @@ void window(TexturePainter& painter, int x0, int y0, int x1, int y1, const Windo
 void streaks(TexturePainter& painter, int x0, int x1, int y, uint32_t seed) {
   for (int x = x0; x < x1; ++x) {
     const uint32_t h = hash(x / 2, y, seed);
-    if (h % 4 == 0) painter.shade(x, y, x + 1, y + 6 + static_cast<int>(h / 4 % 16), -7);
+    if (h % 4 != 0) continue;
+    const int length = 8 + static_cast<int>(h / 4 % 24);
+    painter.shade(x, y, x + 1, y + length, -7);
+    painter.shade(x, y, x + 1, y + length / 2, -5);
   }
 }
 

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/generator/city/city_plan.h"
+#include "scene/generator/mesh/mesh_builder.h"
 #include "tests/scene/generator/soup.h"
 
 namespace greatx::scene {
@@ -93,9 +95,108 @@ TEST(City, CenterIsACrossingOpenToTheSky) {
     const Soup soup = load_soup({.kind = "city", .seed = seed, .size_m = 300});
     EXPECT_EQ(height_over(soup.triangles, dvec2(0.0)), 0.0) << "seed " << seed;
     EXPECT_EQ(height_over(soup.of_class(SemanticClass::road), dvec2(0.0)), 0.0) << "seed " << seed;
+    // Awnings and signs reach over the pavement.
     for (const SoupTriangle& t : soup.of_class(SemanticClass::building))
       for (const dvec3& c : t.corners)
-        ASSERT_GT(std::max(std::abs(c.x), std::abs(c.y)), 11.0) << "seed " << seed;
+        ASSERT_GT(std::max(std::abs(c.x), std::abs(c.y)), c.z > 2.4 ? 10.2 : 11.0) << "seed " << seed;
+  }
+}
+
+TEST(City, NeighboursHaveDifferentFacades) {
+  size_t pairs = 0;
+  for (const uint64_t seed : {1u, 2u, 3u, 7u}) {
+    const Soup soup = load_soup({.kind = "city", .seed = seed, .size_m = 300});
+    struct House {
+      std::string name, facade;
+      Bounds walls;
+    };
+    std::vector<House> houses;
+    for (uint32_t i = 0; i < soup.model.instances.size(); ++i) {
+      if (soup.model.instances[i].semantic_class != SemanticClass::building) continue;
+      House house{soup.model.instances[i].name, "", {}};
+      for (const SoupTriangle& t : soup.of_instance(i)) {
+        const std::string& material = soup.model.materials[t.material].name;
+        if (!material.starts_with("facade_")) continue;
+        house.facade = material;
+        for (const dvec3& c : t.corners) house.walls.add(c);
+      }
+      houses.push_back(house);
+    }
+    // Only an alley of 5 m is between neighbours; the narrowest street with its pavements has 14 m.
+    for (size_t a = 0; a < houses.size(); ++a)
+      for (size_t b = 0; b < a; ++b) {
+        const dvec2 gap = glm::max(dvec2(houses[a].walls.min - houses[b].walls.max),
+                                   dvec2(houses[b].walls.min - houses[a].walls.max));
+        if (std::max(gap.x, gap.y) > 5.2) continue;
+        ++pairs;
+        EXPECT_NE(houses[a].facade, houses[b].facade)
+            << houses[a].name << ", " << houses[b].name << ", seed " << seed;
+      }
+  }
+  EXPECT_GT(pairs, 100u);
+}
+
+TEST(City, CrownsLeaveRoomForLorries) {
+  for (const uint64_t seed : {1u, 7u}) {
+    const Soup soup = load_soup({.kind = "city", .seed = seed, .size_m = 300});
+    const std::vector<SoupTriangle> roads = soup.of_class(SemanticClass::road);
+    size_t over = 0;
+    for (const SoupTriangle& t : soup.of_class(SemanticClass::vegetation))
+      for (int i = 0; i <= 4; ++i)
+        for (int j = 0; i + j <= 4; ++j) {
+          const dvec3 p = t.corners[2] + 0.25 * i * (t.corners[0] - t.corners[2]) +
+                          0.25 * j * (t.corners[1] - t.corners[2]);
+          if (p.z > 4.6) continue;
+          EXPECT_LT(height_over(roads, dvec2(p)), -1e8)
+              << soup.model.instances[t.instance].name << " " << p.z;
+          ++over;
+        }
+    EXPECT_GT(over, 100u) << "trunks and the park's trees";
+  }
+}
+
+TEST(City, NothingStandsWherePeopleWalk) {
+  // People walk within 0.6 m of a line at these distances from the kerb (city_street.h).
+  for (const uint64_t seed : {1u, 7u}) {
+    const Soup soup = load_soup({.kind = "city", .seed = seed, .size_m = 300});
+    const generator::CityPlan plan = generator::plan_city(300.0, seed);
+    std::vector<std::pair<dvec2, dvec2>> lines;
+    for (const generator::Block& block : plan.block) {
+      const auto depth = [](double pavement) { return pavement == 4.0 ? 3.1 : pavement == 3.0 ? 2.0 : 1.0; };
+      std::vector<double> depths;
+      for (size_t i = 0; i < 4; ++i) {
+        const size_t arcs = block.corners[i].size() - 1;
+        for (size_t k = 0; k < arcs; ++k) {
+          const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(arcs);
+          depths.push_back((1.0 - t) * depth(block.pavement_m[(i + 3) % 4]) + t * depth(block.pavement_m[i]));
+        }
+        depths.push_back(depth(block.pavement_m[i]));
+      }
+      const std::vector<dvec2> line = generator::inset(block.outline(), depths);
+      for (size_t i = 0; i < line.size(); ++i) lines.emplace_back(line[i], line[(i + 1) % line.size()]);
+    }
+    size_t tried = 0;
+    for (const SoupTriangle& t : soup.triangles) {
+      const ModelInstance& instance = soup.model.instances[t.instance];
+      const SemanticClass c = instance.semantic_class;
+      const bool stands = c == SemanticClass::furniture || c == SemanticClass::pole ||
+                          c == SemanticClass::vegetation || c == SemanticClass::street_lamp ||
+                          c == SemanticClass::building;
+      if (!stands) continue;
+      for (int i = 0; i <= 4; ++i)
+        for (int j = 0; i + j <= 4; ++j) {
+          const dvec3 p = t.corners[2] + 0.25 * i * (t.corners[0] - t.corners[2]) +
+                          0.25 * j * (t.corners[1] - t.corners[2]);
+          if (p.z > 0.15 + 2.3) continue;
+          ++tried;
+          for (const auto& [a, b] : lines) {
+            const double along = std::clamp(glm::dot(dvec2(p) - a, b - a) / glm::dot(b - a, b - a), 0.0, 1.0);
+            ASSERT_GE(glm::length(dvec2(p) - glm::mix(a, b, along)), 0.6)
+                << instance.name << " at " << p.x << ", " << p.y << ", " << p.z << ", seed " << seed;
+          }
+        }
+    }
+    EXPECT_GT(tried, 1000u);
   }
 }
 
