@@ -59,10 +59,8 @@ void add_tread(SmoothMesh& mesh, const std::vector<dvec2>& outline, double y0, d
 
 MeshBuilder make_wheel(double radius, double width, int face, bool left) {
   MeshBuilder mesh;
-  const std::vector<dvec2> outline = wheel_outline(width < 0.15   ? 10
-                                                   : radius > 0.4 ? 14
-                                                                  : 16,
-                                                   radius, dvec2(0.0));
+  const int corners = width < 0.15 ? 10 : radius > 0.5 ? 12 : radius > 0.4 ? 14 : 16;
+  const std::vector<dvec2> outline = wheel_outline(corners, radius, dvec2(0.0));
   SmoothMesh tread;
   add_tread(tread, outline, -0.5 * width, 0.5 * width);
   tread.add_to(mesh, 0.8);
