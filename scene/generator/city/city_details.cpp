@@ -69,13 +69,13 @@ void add_awning(MeshBuilder& mesh, int cloth, const Wall& wall, double from, dou
   const double thick = 0.05;
   const std::array<dvec3, 4> left{at(from, -sunk_m, high_z - thick), at(from, depth, low_z),
                                   at(from, depth, low_z + 0.18), at(from, -sunk_m, high_z)};
-  const std::array<dvec3, 4> right{at(to, -sunk_m, high_z - thick), at(to, depth, low_z),
-                                   at(to, depth, low_z + 0.18), at(to, -sunk_m, high_z)};
+  // The other end is the same, moved by whole millimetres, so that all faces are planar.
+  const dvec3 shift(snap((to - from) * wall.along), 0.0);
+  std::array<dvec3, 4> right;
+  for (size_t k = 0; k < 4; ++k) right[k] = left[k] + shift;
   for (size_t k = 0; k < 4; ++k) {
     const size_t next = (k + 1) % 4;
-    // The sides are triangles, since rounding to millimetres would bend a quadrilateral.
-    mesh.polygon(cloth, std::array{left[k], right[next], left[next]});
-    mesh.polygon(cloth, std::array{left[k], right[k], right[next]});
+    mesh.quad(cloth, left[k], right[k], right[next], left[next]);
   }
   mesh.polygon(cloth, left);
   mesh.polygon(cloth, std::array{right[3], right[2], right[1], right[0]});

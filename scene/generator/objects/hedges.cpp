@@ -101,7 +101,7 @@ MeshBuilder make_grass(const std::vector<dvec3>& feet, uint32_t seed) {
     const double angle = pi * uneven(key, 1, seed), half = 0.42 + 0.14 * uneven(key, 2, seed);
     const double high = 0.24 + 0.1 * uneven(key, 3, seed);
     const dvec3 across(std::cos(angle), std::sin(angle), 0.0);
-    // Grass is as bright as the ground around it, so that its normal is the ground's. A face that is seen from
+    // Grass is as bright as the ground around it, so its normal is the ground's. A face that is seen from
     // behind turns its normal over, so that each tuft has two faces, a centimetre apart.
     const dvec3 out(-std::sin(angle), std::cos(angle), 0.0), middle = foot + dvec3(0, 0, high - 0.05);
     for (const double side : {1.0, -1.0})

@@ -74,7 +74,7 @@ MeshBuilder make_bicycle_rack(uint32_t draw) {
   for (int i = 0; i < 3; ++i) {
     const double x = 0.9 * (i - 1);
     for (const double y : {-0.36, 0.32}) mesh.box(steel, {x, y, -0.05}, {x + 0.04, y + 0.04, 0.78});
-    mesh.box(steel, {x, -0.36, 0.76}, {x + 0.04, 0.36, 0.8});
+    mesh.box(steel, {x + 0.004, -0.356, 0.76}, {x + 0.036, 0.356, 0.8});
     const uint32_t kind = hash(i, 1, draw) % 3;
     if (kind == 2) continue;
     // The sheet leans on its hoop.
@@ -110,7 +110,7 @@ MeshBuilder make_planter(uint32_t draw) {
   MeshBuilder mesh;
   const int concrete = material("concrete");
   mesh.box(concrete, {-0.8, -0.3, -0.05}, {0.8, 0.3, 0.5});
-  add_bush(mesh, {draw % 2 == 0 ? -0.2 : 0.25, 0.0}, 0.45, 0.44, 0.75, draw + 1);
+  add_bush(mesh, {draw % 2 == 0 ? -0.2 : 0.25, 0.0}, 0.45, 0.32, 0.75, draw + 1);
   return mesh;
 }
 
@@ -146,8 +146,8 @@ MeshBuilder make_cafe() {
   for (const double x : {-1.15, 1.15}) {
     mesh.box(top, {x - 0.34, -0.34, 0.7}, {x + 0.34, 0.34, 0.74});
     mesh.box(metal, {x - 0.04, -0.04, -0.02}, {x + 0.04, 0.04, 0.72});
-    add_chair(mesh, {x - 0.72, 0.05}, 0.1);
-    add_chair(mesh, {x + 0.7, -0.04}, pi - 0.25);
+    add_chair(mesh, {x - 0.72, 0.05}, 0.0);
+    add_chair(mesh, {x + 0.7, -0.04}, pi);
   }
   return mesh;
 }

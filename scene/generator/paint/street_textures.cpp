@@ -214,8 +214,9 @@ TextureMaps mesh_fence() {
   painter.cut_all();
   for (int i = 0; i < 32; ++i)
     for (const int at : {0, 1, 8, 9, 16, 17, 24, 25}) {
-      painter.cover(at, i, {150, 152, 154});
-      if (at < 2) painter.cover(i, at, {150, 152, 154});
+      const int tone = 132 + static_cast<int>(hash(i, at, 741) % 36);
+      painter.cover(at, i, {tone, tone + 2, tone + 4});
+      if (at < 2) painter.cover(i, at, {tone, tone + 2, tone + 4});
     }
   return painter.maps();
 }

@@ -171,6 +171,13 @@ double coplanar_overlap(const Soup& soup, std::string* first) {
     std::sort(flats.begin(), flats.end(), [](const Flat& a, const Flat& b) { return a.low.x < b.low.x; });
     for (size_t i = 0; i < flats.size(); ++i)
       for (size_t j = i + 1; j < flats.size() && flats[j].low.x < flats[i].high.x; ++j) {
+        // Far from the origin, two planes with a slightly different normal may have the same offset and still
+        // be centimetres apart where the triangles are.
+        const SoupTriangle &one = *flats[i].triangle, &other = *flats[j].triangle;
+        if (std::ranges::any_of(other.corners, [&](const dvec3& corner) {
+              return std::abs(glm::dot(one.normal(), corner - one.corners[0])) > 3e-3;
+            }))
+          continue;
         const double shared = overlap(flats[i], flats[j]);
         if (shared < 1e-4) continue;  // the edge of a triangle is off by a fraction of a millimetre
         if (total == 0.0 && first != nullptr) {
