@@ -25,10 +25,10 @@ const float surroundings_high = 16.0f;
 /// The cells from place to place.
 const uint surroundings_place_cells = 2u;
 /// The most steps of a mirrored ray.
-const uint surroundings_most_steps = 28u;
+const uint surroundings_most_steps = 16u;
 /// Surfaces up to this roughness mirror the surroundings; beyond it the image fades.
-const float surroundings_most_roughness = 0.35f;
-const float surroundings_fade = 0.15f;
+const float surroundings_most_roughness = 0.25f;
+const float surroundings_fade = 0.1f;
 
 struct SurroundingsHeader {
   vec2 corner;         ///< local x, y of the first cell's corner

@@ -296,7 +296,7 @@ void plan_light(EffectPlan& plan, const Shading& shading, const Scenario& scenar
                  !plan.sky.on               ? "the sky is off"
                  : !offers.static_triangles ? "nothing static to mirror"
                                             : "no material is smooth",
-                 "up to 28 steps for each pixel that mirrors");
+                 "up to 16 steps for each pixel that mirrors");
   shading.decide(plan.haze, light.haze, haze_reason(scenario.environment), "neither fog nor rain");
   shading.decide(plan.night_sky, light.night_sky,
                  fmt::format("the sun stands at {:.1f} degrees, the moon at {:.1f}",
