@@ -207,14 +207,13 @@ void add_sprays(MeshBuilder& mesh, int material, const LeafBody& body, const Spr
   };
   const auto at = [&](size_t ring, size_t i) { return body.rings[ring][i % sides]; };
   for (size_t i = 0; i < sides; ++i) {
-    for (size_t r = 0; r < last; ++r)
+    // The lowest faces look down. They have half as many sprays, since sprays cost a picture more than faces.
+    for (size_t r = i % 2; r < last; ++r)
       for (int k = 0; k < sprays.per_face; ++k)
         on_face({at(r, i), at(r, i + 1), at(r + 1, i + 1), at(r + 1, i)});
     if (i % 2 == 0) continue;
     on_face({at(last, i), at(last, i + 1), glm::mix(at(last, i + 1), body.top, 0.9),
              glm::mix(at(last, i), body.top, 0.9)});
-    on_face({at(0, i + 1), at(0, i), glm::mix(at(0, i), body.bottom, 0.6),
-             glm::mix(at(0, i + 1), body.bottom, 0.6)});
   }
 }
 

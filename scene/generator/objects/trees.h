@@ -31,7 +31,8 @@ struct LeafBody {
 };
 /// Describes the sprays around a body.
 struct Sprays {
-  int per_face = 1;     ///< on each of the faces between two rings; caps have one on every other face
+  int per_face =
+      1;  ///< on each of the faces between two rings; every other face of the lowest band and of the top
   double size_m = 1.5;  ///< width and height of a spray
   double hang = 0.0;    ///< 0: turned at random, 1: upright, so that leaves hang or rise
 };
