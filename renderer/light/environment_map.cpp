@@ -7,6 +7,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "core/parallel.h"
 #include "core/units.h"
 #include "renderer/surface/octahedral.h"
 
@@ -53,22 +54,24 @@ EnvironmentMap bake_environment(const Sky& sky, uint32_t size, uint32_t levels) 
   EnvironmentMap map;
   map.scale = sky.illuminance() > 0.0 ? sky.illuminance() : 1.0;
   std::vector<dvec3> base(size_t(size) * size);
-  for (uint32_t row = 0; row < size; ++row)
+  parallel_for(size, 0, [&](size_t row) {
     for (uint32_t column = 0; column < size; ++column)
       base[row * size + column] =
-          sky.radiance(octahedral_direction((column + 0.5) / size, (row + 0.5) / size)) / map.scale;
+          sky.radiance(octahedral_direction((column + 0.5) / size, (double(row) + 0.5) / size)) / map.scale;
+  });
   for (uint32_t level = 0; level < levels; ++level) {
     const uint32_t edge = std::max(size >> level, 1u);
-    std::vector<uint16_t> texels;
-    texels.reserve(size_t(edge) * edge * 4);
-    for (uint32_t i = 0; i < edge * edge; ++i) {
-      const dvec3 direction = octahedral_direction((i % edge + 0.5) / edge, (i / edge + 0.5) / edge);
+    std::vector<uint16_t> texels(size_t(edge) * edge * 4);
+    parallel_for(size_t(edge) * edge, 0, [&](size_t i) {
+      const dvec3 direction =
+          octahedral_direction((double(i % edge) + 0.5) / edge, (double(i / edge) + 0.5) / edge);
       const dvec3 value =
           level == 0 ? base[i]
                      : blurred(base, size, direction, double(level) / (levels - 1), level == 1 ? 24 : 64);
-      for (int c = 0; c < 3; ++c) texels.push_back(glm::packHalf1x16(float(std::min(value[c], 65504.0))));
-      texels.push_back(glm::packHalf1x16(1.0f));
-    }
+      for (int c = 0; c < 3; ++c)
+        texels[4 * i + size_t(c)] = glm::packHalf1x16(float(std::min(value[c], 65504.0)));
+      texels[4 * i + 3] = glm::packHalf1x16(1.0f);
+    });
     map.levels.push_back(std::move(texels));
   }
   return map;

@@ -7,6 +7,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "core/parallel.h"
 #include "renderer/light/clouds.h"
 
 namespace greatx::render {
@@ -55,10 +56,11 @@ std::vector<uint16_t> bake_panorama(const Sky& sky, uint32_t size, double scale)
   // Texels of the coarse map lie on the square's border too, so that the horizon is one of its lines.
   constexpr uint32_t last = coarse_size - 1;
   std::vector<vec3> coarse(size_t{coarse_size} * coarse_size);
-  for (uint32_t row = 0; row < coarse_size; ++row)
+  parallel_for(coarse_size, 0, [&](size_t row) {
     for (uint32_t column = 0; column < coarse_size; ++column)
       coarse[row * coarse_size + column] =
           vec3(sky.cloudless(panorama_direction(double(column) / last, double(row) / last)));
+  });
   const auto cloudless = [&](double u, double v) {
     const float x = float(u * last), y = float(v * last);
     const auto i = std::min(static_cast<uint32_t>(x), last - 1),
@@ -68,14 +70,16 @@ std::vector<uint16_t> bake_panorama(const Sky& sky, uint32_t size, double scale)
                     glm::mix(at[coarse_size], at[coarse_size + 1], x - float(i)), y - float(j));
   };
   std::vector<vec4> texels(size_t{size} * size);
-  for (uint32_t row = 0; row < size; ++row)
+  parallel_for(size, 0, [&](size_t index) {
+    const auto row = static_cast<uint32_t>(index);
     for (uint32_t column = 0; column < size; ++column) {
       const double u = (column + 0.5) / size, v = (row + 0.5) / size;
       const dvec3 direction = panorama_direction(u, v);
       const CloudView view = sky.clouds(direction, shift_of(column, row));
       const dvec3 seen = sky.over_clouds(direction, dvec3(cloudless(u, v)), view);
-      texels[size_t{row} * size + column] = vec4(vec3(seen / scale), view.passed);
+      texels[index * size + column] = vec4(vec3(seen / scale), view.passed);
     }
+  });
   blur(texels, size);
   std::vector<uint16_t> halves;
   halves.reserve(4 * texels.size());

@@ -8,6 +8,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "core/parallel.h"
 #include "core/units.h"
 
 namespace greatx::render {
@@ -143,15 +144,16 @@ double sky_share(const HeightField& field, uint32_t column, uint32_t row, double
 
 std::vector<uint16_t> sky_view_texels(const HeightField& field) {
   const Looks looks(field.cell_m);
-  std::vector<uint16_t> texels;
-  texels.reserve(4 * field.heights.size());
-  for (uint32_t row = 0; row < field.height; ++row)
+  std::vector<uint16_t> texels(4 * field.heights.size());
+  parallel_for(field.height, 0, [&](size_t row) {
     for (uint32_t column = 0; column < field.width; ++column) {
-      const auto at =
-          shares<3>(field, looks, column, row, {0.0, shared::sky_view_middle, shared::sky_view_top});
-      texels.push_back(glm::packHalf1x16(field.heights[size_t{row} * field.width + column]));
-      for (const double share : at) texels.push_back(glm::packHalf1x16(float(share)));
+      const auto at = shares<3>(field, looks, column, static_cast<uint32_t>(row),
+                                {0.0, shared::sky_view_middle, shared::sky_view_top});
+      const size_t place = row * field.width + column;
+      texels[4 * place] = glm::packHalf1x16(field.heights[place]);
+      for (size_t i = 0; i < at.size(); ++i) texels[4 * place + 1 + i] = glm::packHalf1x16(float(at[i]));
     }
+  });
   return texels;
 }
 

@@ -92,14 +92,14 @@ Count most_of_a_tick(const std::string& scenario) {
 TEST(Allocations, TickOfTheDefaultScenarioStaysWithinItsNumber) {
   const Count most = most_of_a_tick(default_scenario());
   EXPECT_GT(most.allocations, 0u);  // the records themselves
-  EXPECT_LE(most.allocations, 36'500u);
-  EXPECT_LE(most.bytes, 148'000'000u);
+  EXPECT_LE(most.allocations, 58'000u);
+  EXPECT_LE(most.bytes, 170'000'000u);
 }
 
 TEST(Allocations, TickWithoutRadarStaysWithinItsNumber) {
   const Count most = most_of_a_tick(without_radar());
   EXPECT_GT(most.allocations, 0u);
-  EXPECT_LE(most.allocations, 10'700u);
+  EXPECT_LE(most.allocations, 25'500u);
   EXPECT_LE(most.bytes, 29'000'000u);
 }
 
