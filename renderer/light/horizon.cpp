@@ -22,7 +22,7 @@ constexpr double aerosol_scale_m = 1200.0, air_scale_m = 8000.0;
 constexpr double air_depth_550 = 0.098;  ///< vertical optical depth of air (Rayleigh) at 550 nm
 /// Below this illuminance of the ground windows are lit and street lamps are on, lux.
 constexpr double dusk_lux = 400.0;
-constexpr double lit_window_cd_m2 = 60.0, lamp_lux = 6.0;
+constexpr double lit_window_cd_m2 = 20.0, lamp_lux = 6.0;
 
 /// Calls visit(primitive, corners, twice the area times the unit normal) for every static triangle.
 template <typename F>
