@@ -198,7 +198,7 @@ TEST_F(SchemaTest, KnowsKindsBoundsAndDefaults) {
 TEST_F(SchemaTest, ChoosesTheShapeThatTheValueHas) {
   const FormType fixed = at(city(), "nodes[0].trajectory"), curve = at(city(), "nodes[1].trajectory");
   EXPECT_EQ(fixed.shape_key, "type");
-  EXPECT_EQ(fixed.shapes, (std::vector<std::string>{"static", "waypoints", "bezier", "corridor"}));
+  EXPECT_EQ(fixed.shapes, (std::vector<std::string>{"static", "waypoints", "bezier", "corridor", "follow"}));
   const auto has = [](const FormType& type, const char* key) {
     return std::ranges::find(type.members, key, &FormType::Member::key) != type.members.end();
   };
