@@ -247,8 +247,7 @@ Bytes encode_small_alpha(const Array& image, int dropped_bits) {
   out_image.format = PNG_FORMAT_RGBA;
   Bytes out(PNG_IMAGE_PNG_SIZE_MAX(out_image));
   size_t size = out.size();
-  const int written =
-      png_image_write_to_memory(&out_image, out.data(), &size, 0, pixels.data(), 0, nullptr);
+  const int written = png_image_write_to_memory(&out_image, out.data(), &size, 0, pixels.data(), 0, nullptr);
   GREATX_CHECK(written != 0, "libpng: {}", out_image.message);
   out.resize(size);
   return out;

@@ -174,8 +174,8 @@ class SceneLighting {
   gpu::Buffer stars_;  ///< shared::GpuStar [star_cells^2]; one without night_sky
   gpu::Buffer block_;  ///< GpuLighting
   HorizonKind horizon_kind_ = HorizonKind::none;
-  gpu::Buffer horizon_;  ///< GpuHorizon
-  gpu::Image panorama_;  ///< renderer/light/panorama.h; one texel without clouds
+  gpu::Buffer horizon_;                    ///< GpuHorizon
+  gpu::Image panorama_;                    ///< renderer/light/panorama.h; one texel without clouds
   gpu::Buffer surroundings_;               ///< renderer/light/surroundings.h; one word without its effects
   std::vector<ContactBox> contact_boxes_;  ///< empty without contact_occlusion
   gpu::Slice contact_;                     ///< words of the boxes at this tick

@@ -37,7 +37,7 @@ const uint horizon_binding = 28u;   // uniform: GpuHorizon (shaders/shared/horiz
 const uint panorama_binding = 29u;  // sampled: the sky's radiance with clouds, and what they let through
 const uint marks_binding = 30u;     // uniform: GpuMarks (shaders/shared/marks.h)
 const uint mark_map_binding = 31u;  // sampled: the share of the ground under markings
-const uint stars_binding = 20u;  // storage: GpuStar [star_cells, star_cells]
+const uint stars_binding = 20u;     // storage: GpuStar [star_cells, star_cells]
 // Weather and night (shaders/shared/weather.h).
 const uint weather_binding = 24u;      // uniform: GpuWeather
 const uint rain_cover_binding = 25u;   // sampled with comparison: what lies under the open sky
