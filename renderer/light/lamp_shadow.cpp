@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/units.h"
-#include "shaders/shared/camera.h"
+#include "renderer/light/shadow_raster.h"
 
 namespace greatx::render {
 
@@ -53,7 +53,7 @@ dvec3 lamp_flux(const Light& light) {
 
 LampShadows::LampShadows(const scene::GpuScene& scene, const LampShadowOptions& options) : scene_(&scene) {
   tiles_.resize(scene.scene().lights.size());
-  sampler_ = caster_sampler(scene.device(), "lamp shadow");
+  sampler_ = shadow_sampler(scene.device(), "lamp shadow");
   if (options.wanted) {
     place_lamps();
     if (!lamps_.empty()) find_casters(options.alpha_mask);
@@ -115,34 +115,34 @@ void LampShadows::find_casters(bool alpha_mask) {
     for (uint32_t part = b; part < scene.bodies.size() && scene.owner_of(part) == b; ++part) {
       const scene::Body& body = scene.bodies[part];
       for (uint32_t i = body.first_primitive; i < body.first_primitive + body.primitive_count; ++i)
-        (alpha_mask && has_mask(scene, i) ? caster.masked : caster.opaque).push_back(i);
+        (alpha_mask && has_holes(scene, i) ? caster.masked : caster.opaque).push_back(i);
     }
     opaque |= !caster.opaque.empty();
     masked |= !caster.masked.empty();
     casters_.push_back(std::move(caster));
   }
-  if (opaque) moving_opaque_ = caster_pipeline(*scene_, true, false);
-  if (masked) moving_masked_ = caster_pipeline(*scene_, true, true);
+  if (opaque) moving_opaque_ = caster_pipeline(*scene_, true, false, "moving caster");
+  if (masked) moving_masked_ = caster_pipeline(*scene_, true, true, "moving caster");
 }
 
 void LampShadows::draw_static(bool alpha_mask) {
   const scene::Scene& scene = scene_->scene();
   const bool moves = !casters_.empty();
-  static_map_ = caster_map(scene_->device(), map_texels_, moves ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : 0,
-                           "static lamp shadows");
+  static_map_ = shadow_map(scene_->device(), map_texels_, "static lamp shadows",
+                           moves ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : 0);
   if (moves)
-    map_ = caster_map(scene_->device(), map_texels_, VK_IMAGE_USAGE_TRANSFER_DST_BIT, "lamp shadows");
+    map_ = shadow_map(scene_->device(), map_texels_, "lamp shadows", VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   const scene::Body& world = scene.bodies[0];
   std::vector<CasterSphere> spheres;
   bool any_opaque = false, any_masked = false;
   for (uint32_t i = world.first_primitive;
        !lamps_.empty() && i < world.first_primitive + world.primitive_count; ++i) {
     spheres.push_back(sphere_of(scene, scene.primitives[i]));
-    (alpha_mask && has_mask(scene, i) ? any_masked : any_opaque) = true;
+    (alpha_mask && has_holes(scene, i) ? any_masked : any_opaque) = true;
   }
   gpu::GraphicsPipeline opaque, masked;
-  if (any_opaque) opaque = caster_pipeline(*scene_, false, false);
-  if (any_masked) masked = caster_pipeline(*scene_, false, true);
+  if (any_opaque) opaque = caster_pipeline(*scene_, false, false, "static caster");
+  if (any_masked) masked = caster_pipeline(*scene_, false, true, "static caster");
   gpu::submit_setup(scene_->device(), [&](gpu::Cmd& cmd) {
     const auto scope = cmd.scope("static lamp shadows");
     cmd.transition(static_map_, gpu::ImageUse::depth_target, true);
@@ -161,7 +161,7 @@ void LampShadows::draw_static(bool alpha_mask) {
         std::vector<uint32_t> near;
         for (uint32_t i = 0; i < spheres.size(); ++i)
           if (glm::length(spheres[i].center - lamp.position) < spheres[i].radius + lamp.reach &&
-              (alpha_mask && has_mask(scene, world.first_primitive + i)) == with_mask)
+              (alpha_mask && has_holes(scene, world.first_primitive + i)) == with_mask)
             near.push_back(world.first_primitive + i);
         if (near.empty()) continue;
         cmd.viewport(lamp.x, lamp.y, tile_texels_);

@@ -15,7 +15,9 @@
 
 #include "core/vec.h"
 #include "gpu/tick_ring.h"
-#include "renderer/light/casters.h"
+#include "scene/device/gpu_scene.h"
+#include "shaders/shared/camera.h"
+#include "shaders/shared/weather.h"
 
 namespace greatx::render {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "shaders/shared/camera.h"
+#include "renderer/light/shadow_raster.h"
 
 namespace greatx::render {
 
@@ -18,12 +18,12 @@ RainCover::RainCover(const scene::GpuScene& gpu_scene, bool wanted) {
   const scene::Body& world = scene.bodies[0];
   for (uint32_t i = world.first_primitive; wanted && i < world.first_primitive + world.primitive_count; ++i) {
     const scene::Material& material = scene.materials[scene.primitives[i].material];
-    const bool drips = has_mask(scene, i) || (material.radio && material.radio->foliage);
+    const bool drips = has_holes(scene, i) || (material.radio && material.radio->foliage);
     if (!drips) roofs.push_back(i);
   }
   const uint32_t size = roofs.empty() ? 1 : cover_texels;
-  map_ = caster_map(gpu_scene.device(), size, 0, "rain cover");
-  sampler_ = caster_sampler(gpu_scene.device(), "rain cover");
+  map_ = shadow_map(gpu_scene.device(), size, "rain cover");
+  sampler_ = shadow_sampler(gpu_scene.device(), "rain cover");
   gpu::GraphicsPipeline pipeline;
   shared::CasterConstants constants{};
   if (!roofs.empty()) {
@@ -38,7 +38,7 @@ RainCover::RainCover(const scene::GpuScene& gpu_scene, bool wanted) {
     constants.rows[1] = vec4(dvec4(0.0, 2.0 / size_m.y, 0.0, -2.0 * middle.y / size_m.y));
     constants.rows[2] = vec4(dvec4(0.0, 0.0, 1.0 / size_m.z, -least_.z / size_m.z));
     constants.rows[3] = vec4(0.0f, 0.0f, 0.0f, 1.0f);
-    pipeline = caster_pipeline(gpu_scene, false, false);
+    pipeline = caster_pipeline(gpu_scene, false, false, "rain cover");
   }
   gpu::submit_setup(gpu_scene.device(), [&](gpu::Cmd& cmd) {
     const auto scope = cmd.scope("rain cover");

@@ -7,7 +7,8 @@
 #pragma once
 
 #include "gpu/resources.h"
-#include "renderer/light/casters.h"
+#include "scene/device/gpu_scene.h"
+#include "shaders/shared/weather.h"
 
 namespace greatx::render {
 

@@ -11,12 +11,6 @@ namespace greatx::render {
 
 namespace {
 
-gpu::Descriptor scene_descriptor(const scene::GpuScene& scene) {
-  for (const gpu::Descriptor& descriptor : scene.raster_descriptors())
-    if (descriptor.slot == shared::scene_binding) return descriptor;
-  GREATX_CHECK(false, "the scene has no descriptor {}", shared::scene_binding);
-}
-
 vec4 row_of(const dvec3& axis, double scale, double offset) { return vec4(dvec4(axis * scale, offset)); }
 
 }  // namespace
@@ -31,10 +25,7 @@ SunFrame SunFrame::of(const dvec3& to_sun) {
 
 ShadowMaps::ShadowMaps(const scene::GpuScene& scene, const SunFrame& frame, const ShadowOptions& options)
     : scene_(&scene), options_(options), frame_(frame) {
-  gpu::Device& device = scene.device();
-  sampler_ = gpu::Sampler(
-      device, {.linear = true, .repeat_u = false, .repeat_v = false, .compare_greater_or_equal = true},
-      "shadow");
+  sampler_ = shadow_sampler(scene.device(), "shadow");
   build_static(options.alpha_mask);
   moving_ = MovingShadows(scene, frame,
                           {.casters = options.moving_casters,
@@ -66,17 +57,15 @@ void ShadowMaps::build_static(bool alpha_mask) {
     static_max_ = bounds.center() + half;
   }
 
-  shared::ShadowConstants constants;
+  shared::CasterConstants constants;
   const dvec3 center = 0.5 * (static_min_ + static_max_), size_m = static_max_ - static_min_;
-  constants.row0 = row_of(frame_.x, 2.0 / size_m.x, -2.0 * center.x / size_m.x);
-  constants.row1 = row_of(frame_.y, 2.0 / size_m.y, -2.0 * center.y / size_m.y);
-  constants.row2 = row_of(frame_.z, 1.0 / size_m.z, -static_min_.z / size_m.z);
+  constants.rows[0] = row_of(frame_.x, 2.0 / size_m.x, -2.0 * center.x / size_m.x);
+  constants.rows[1] = row_of(frame_.y, 2.0 / size_m.y, -2.0 * center.y / size_m.y);
+  constants.rows[2] = row_of(frame_.z, 1.0 / size_m.z, -static_min_.z / size_m.z);
+  constants.rows[3] = vec4(0.0f, 0.0f, 0.0f, 1.0f);
   gpu::GraphicsPipeline opaque_pipeline, masked_pipeline;
-  gpu::GraphicsDesc desc;
-  desc.vertex_shader = "camera/static_shadow.vert";
-  desc.push_constant_bytes = sizeof(shared::ShadowConstants);
-  if (!opaque.empty()) opaque_pipeline = shadow_pipeline(*scene_, desc, false, "static shadow");
-  if (!masked.empty()) masked_pipeline = shadow_pipeline(*scene_, desc, true, "static shadow");
+  if (!opaque.empty()) opaque_pipeline = caster_pipeline(*scene_, false, false, "static shadow");
+  if (!masked.empty()) masked_pipeline = caster_pipeline(*scene_, false, true, "static shadow");
   gpu::submit_setup(scene_->device(), [&](gpu::Cmd& cmd) {
     const auto scope = cmd.scope("static shadow");
     cmd.transition(static_map_, gpu::ImageUse::depth_target, true);
@@ -85,11 +74,10 @@ void ShadowMaps::build_static(bool alpha_mask) {
     const auto draw_all = [&](const gpu::GraphicsPipeline& with, std::span<const uint32_t> primitives) {
       if (primitives.empty()) return;
       cmd.bind(with);
-      cmd.push({scene_descriptor(*scene_)});
+      cmd.push(static_caster_descriptors(*scene_));
       cmd.constants(constants);
       cmd.bind_indices(scene_->indices());
-      for (const uint32_t index : primitives)
-        cmd.draw_indexed(scene.primitives[index].first_index, scene.primitives[index].index_count, index);
+      draw_casters(cmd, scene, primitives);
     };
     draw_all(opaque_pipeline, opaque);
     draw_all(masked_pipeline, masked);

@@ -4,17 +4,27 @@
 
 #include <fmt/format.h>
 
-#include "shaders/shared/camera.h"
+#include "core/error.h"
 
 namespace greatx::render {
 
-gpu::Image shadow_map(gpu::Device& device, uint32_t size, std::string_view name) {
-  return gpu::Image(device,
-                    {.format = shadow_map_format,
-                     .width = size,
-                     .height = size,
-                     .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT},
-                    name);
+namespace {
+constexpr VkFormat shadow_map_format = VK_FORMAT_D32_SFLOAT;
+}  // namespace
+
+gpu::Image shadow_map(gpu::Device& device, uint32_t size, std::string_view name, VkImageUsageFlags also) {
+  return gpu::Image(
+      device,
+      {.format = shadow_map_format,
+       .width = size,
+       .height = size,
+       .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | also},
+      name);
+}
+
+gpu::Sampler shadow_sampler(gpu::Device& device, std::string_view name) {
+  return gpu::Sampler(
+      device, {.linear = true, .repeat_u = false, .repeat_v = false, .compare_greater_or_equal = true}, name);
 }
 
 bool has_holes(const scene::Scene& scene, uint32_t primitive) {
@@ -33,6 +43,29 @@ gpu::GraphicsPipeline shadow_pipeline(const scene::GpuScene& scene, gpu::Graphic
   for (const gpu::Binding& binding : scene::GpuScene::raster_bindings()) desc.bindings.push_back(binding);
   desc.depth_format = shadow_map_format;
   return gpu::GraphicsPipeline(scene.device(), desc, fmt::format("{}{}", name, masked ? " masked" : ""));
+}
+
+gpu::GraphicsPipeline caster_pipeline(const scene::GpuScene& scene, bool moving, bool masked,
+                                      std::string_view name) {
+  gpu::GraphicsDesc desc;
+  desc.vertex_shader = moving ? "camera/caster_moving.vert" : "camera/caster.vert";
+  desc.push_constant_bytes = sizeof(shared::CasterConstants);
+  return shadow_pipeline(scene, desc, masked, name);
+}
+
+std::vector<gpu::Descriptor> static_caster_descriptors(const scene::GpuScene& scene) {
+  std::vector<gpu::Descriptor> found;
+  for (const gpu::Descriptor& descriptor : scene.raster_descriptors())
+    if (descriptor.slot == shared::scene_binding) found.push_back(descriptor);
+  GREATX_CHECK(found.size() == 1, "the scene has no descriptor {}", shared::scene_binding);
+  return found;
+}
+
+void draw_casters(gpu::Cmd& cmd, const scene::Scene& scene, std::span<const uint32_t> primitives) {
+  for (const uint32_t index : primitives) {
+    const scene::Primitive& primitive = scene.primitives[index];
+    cmd.draw_indexed(primitive.first_index, primitive.index_count, index);
+  }
 }
 
 }  // namespace greatx::render

@@ -1,21 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Gives the passes that draw shadow maps what they share.
+// Gives the passes that draw maps of depth what they share: those of the sun, of lamps and of the rain.
+// Depth is reversed, as in renderer/light/shadow.h.
 #pragma once
 
+#include <span>
 #include <string_view>
+#include <vector>
 
+#include "gpu/cmd.h"
 #include "gpu/pipeline.h"
 #include "gpu/resources.h"
 #include "scene/device/gpu_scene.h"
+#include "shaders/shared/camera.h"
 
 namespace greatx::render {
 
-inline constexpr VkFormat shadow_map_format = VK_FORMAT_D32_SFLOAT;
-
-/// Returns a square depth map that shaders sample.
-gpu::Image shadow_map(gpu::Device& device, uint32_t size, std::string_view name);
+/// Returns a square depth map that shaders sample. `also` are further uses.
+gpu::Image shadow_map(gpu::Device& device, uint32_t size, std::string_view name, VkImageUsageFlags also = 0);
+/// Returns the sampler that compares with such a map. What lies beyond its rim is lit.
+gpu::Sampler shadow_sampler(gpu::Device& device, std::string_view name);
 
 /// Returns whether an alpha mask cuts holes into a primitive.
 bool has_holes(const scene::Scene& scene, uint32_t primitive);
@@ -24,5 +29,13 @@ bool has_holes(const scene::Scene& scene, uint32_t primitive);
 /// bindings and push constants that this shader has beside the scene's.
 gpu::GraphicsPipeline shadow_pipeline(const scene::GpuScene& scene, gpu::GraphicsDesc desc, bool masked,
                                       std::string_view name);
+/// Returns such a pipeline with push constants CasterConstants. `moving` casters stand where their bodies
+/// are.
+gpu::GraphicsPipeline caster_pipeline(const scene::GpuScene& scene, bool moving, bool masked,
+                                      std::string_view name);
+/// Returns the descriptors that a pipeline of static casters needs.
+std::vector<gpu::Descriptor> static_caster_descriptors(const scene::GpuScene& scene);
+/// Draws primitives with the bound pipeline. The scene's indices are bound.
+void draw_casters(gpu::Cmd& cmd, const scene::Scene& scene, std::span<const uint32_t> primitives);
 
 }  // namespace greatx::render

@@ -5,7 +5,7 @@
 //
 // Draws casters that move into a map of the depths that a lamp sees.
 #include "lib/scene.glsl"
-#include "shared/weather.h"
+#include "shared/camera.h"
 
 layout(push_constant, scalar) uniform Constants { CasterConstants caster; };
 layout(location = 0) flat out uint out_material;

@@ -282,11 +282,9 @@ struct GpuShadowPart {
   vec4 row2;
 };
 
-/// Holds the push constants of the static shadow pipeline: clip = (dot(row, vec4(p, 1)), 1).
-struct ShadowConstants {
-  vec4 row0;
-  vec4 row1;
-  vec4 row2;
+/// Holds the push constants of the passes that draw casters of shadows: clip = (dot(row, vec4(p, 1))).
+struct CasterConstants {
+  vec4 rows[4];
 };
 
 GREATX_SHARED_END

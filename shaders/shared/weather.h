@@ -117,11 +117,6 @@ const float drop_brightness = 0.94f;
 /// Optical depth is added up in whole numbers of this, so that the order does not matter.
 const float streak_unit = 1.0f / 16777216.0f;
 
-/// Holds the push constants of the passes that draw casters of shadows: clip = (dot(row, vec4(p, 1))).
-struct CasterConstants {
-  vec4 rows[4];
-};
-
 // Bindings of set 0 of the passes that draw streaks and add them.
 const uint streaks_seen_binding = 0u;   // storage: uvec2 [pixels]
 const uint streaks_depth_binding = 1u;  // storage: uint [pixels], optical depth

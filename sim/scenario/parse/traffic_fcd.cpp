@@ -2,35 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/scenario/parse/traffic_fcd.h"
 
-#include <algorithm>
 #include <cmath>
-#include <pugixml.hpp>
 
 #include "core/units.h"
 #include "sim/scenario/limits.h"
 #include "sim/scenario/parse/csv.h"
+#include "sim/scenario/parse/xml_text.h"
 
 namespace greatx::sim {
 namespace {
-
-/// Knows the line of each element. Offsets are asked for in ascending order.
-class XmlLines {
- public:
-  XmlLines(std::string_view text, const std::string& name) : text_(text), name_(name) {}
-  SourceLocation where(std::ptrdiff_t offset) {
-    const size_t end =
-        std::clamp<size_t>(static_cast<size_t>(std::max<std::ptrdiff_t>(offset, 0)), at_, text_.size());
-    line_ += static_cast<int>(std::ranges::count(text_.substr(at_, end - at_), '\n'));
-    at_ = end;
-    return {name_, line_};
-  }
-
- private:
-  std::string_view text_;
-  std::string name_;
-  size_t at_ = 0;
-  int line_ = 1;
-};
 
 double number_of(const pugi::xml_node& node, const char* attribute, const SourceLocation& where, double most,
                  std::optional<double> missing = std::nullopt) {
@@ -93,13 +73,6 @@ void choose_variant(RecordedTrack& track, const std::string& type, bool person, 
   if (const auto found = options.types.find(type); found != options.types.end())
     track.variant = found->second;
   track.kind = find_variant(track.variant)->kind;
-}
-
-pugi::xml_document parse_xml(std::string_view text, XmlLines& lines) {
-  pugi::xml_document document;
-  const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
-  if (!result) throw_user_error_at(lines.where(result.offset), "XML: {}", result.description());
-  return document;
 }
 
 /// Collects the tracks of a file by their ids.

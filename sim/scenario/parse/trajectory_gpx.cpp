@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/scenario/parse/trajectory_gpx.h"
 
-#include <algorithm>
 #include <cmath>
-#include <pugixml.hpp>
 #include <string>
 
 #include "sim/scenario/limits.h"
 #include "sim/scenario/parse/csv.h"
+#include "sim/scenario/parse/xml_text.h"
 
 namespace greatx::sim {
 namespace {
@@ -19,25 +18,6 @@ std::string_view trimmed(std::string_view text) {
   return first == text.npos ? std::string_view()
                             : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
-
-/// Knows the line of each element. Offsets are asked for in ascending order.
-class GpxLines {
- public:
-  GpxLines(std::string_view text, const std::string& name) : text_(text), name_(name) {}
-  SourceLocation where(std::ptrdiff_t offset) {
-    const size_t end =
-        std::clamp<size_t>(static_cast<size_t>(std::max<std::ptrdiff_t>(offset, 0)), at_, text_.size());
-    line_ += static_cast<int>(std::ranges::count(text_.substr(at_, end - at_), '\n'));
-    at_ = end;
-    return {name_, line_};
-  }
-
- private:
-  std::string_view text_;
-  std::string name_;
-  size_t at_ = 0;
-  int line_ = 1;
-};
 
 WayPoint parse_track_point(const pugi::xml_node& node, const SourceLocation& where, const WayPointLog& log,
                            LogTimes& times) {
@@ -64,10 +44,8 @@ WayPoint parse_track_point(const pugi::xml_node& node, const SourceLocation& whe
 }  // namespace
 
 std::vector<WayPoint> parse_gpx(std::string_view text, const std::string& name, const WayPointLog& log) {
-  GpxLines lines(text, name);
-  pugi::xml_document document;
-  const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
-  if (!result) throw_user_error_at(lines.where(result.offset), "XML: {}", result.description());
+  XmlLines lines(text, name);
+  const pugi::xml_document document = parse_xml(text, lines);
   const pugi::xml_node root = document.child("gpx"), track = root.child("trk");
   if (!root) throw_user_error("{}: expected the root element <gpx>: not a GPX file", name);
   if (!track) throw_user_error("{}: expected a track (<trk>), found none", name);
