@@ -127,7 +127,7 @@ void CameraPass::sort_primitives() {
     const uint32_t body = scene.instances[primitive.instance].body;
     if (desc_.excluded_body && scene.owner_of(body) == *desc_.excluded_body) continue;
     const scene::PbrMaterial& pbr = scene.materials[primitive.material].pbr;
-    const bool masked = effects_.alpha_mask && pbr.alpha_mode == scene::AlphaMode::mask;
+    const bool masked = effects_.alpha_mask && scene.has_holes(i);
     if (!masked && body != 0)
       add_moving(body, i);
     else

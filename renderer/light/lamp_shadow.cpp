@@ -115,7 +115,7 @@ void LampShadows::find_casters(bool alpha_mask) {
     for (uint32_t part = b; part < scene.bodies.size() && scene.owner_of(part) == b; ++part) {
       const scene::Body& body = scene.bodies[part];
       for (uint32_t i = body.first_primitive; i < body.first_primitive + body.primitive_count; ++i)
-        (alpha_mask && has_holes(scene, i) ? caster.masked : caster.opaque).push_back(i);
+        (alpha_mask && scene.has_holes(i) ? caster.masked : caster.opaque).push_back(i);
     }
     opaque |= !caster.opaque.empty();
     masked |= !caster.masked.empty();
@@ -138,7 +138,7 @@ void LampShadows::draw_static(bool alpha_mask) {
   for (uint32_t i = world.first_primitive;
        !lamps_.empty() && i < world.first_primitive + world.primitive_count; ++i) {
     spheres.push_back(sphere_of(scene, scene.primitives[i]));
-    (alpha_mask && has_holes(scene, i) ? any_masked : any_opaque) = true;
+    (alpha_mask && scene.has_holes(i) ? any_masked : any_opaque) = true;
   }
   gpu::GraphicsPipeline opaque, masked;
   if (any_opaque) opaque = caster_pipeline(*scene_, false, false, "static caster");
@@ -161,7 +161,7 @@ void LampShadows::draw_static(bool alpha_mask) {
         std::vector<uint32_t> near;
         for (uint32_t i = 0; i < spheres.size(); ++i)
           if (glm::length(spheres[i].center - lamp.position) < spheres[i].radius + lamp.reach &&
-              (alpha_mask && has_holes(scene, world.first_primitive + i)) == with_mask)
+              (alpha_mask && scene.has_holes(world.first_primitive + i)) == with_mask)
             near.push_back(world.first_primitive + i);
         if (near.empty()) continue;
         cmd.viewport(lamp.x, lamp.y, tile_texels_);

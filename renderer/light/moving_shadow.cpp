@@ -108,7 +108,7 @@ MovingShadows::Part MovingShadows::part_of(uint32_t body, const MovingShadowOpti
   for (uint32_t i = range.first_primitive; i < range.first_primitive + range.primitive_count; ++i) {
     const scene::Primitive& primitive = scene.primitives[i];
     const Range next{primitive.first_index, primitive.index_count, i};
-    if (options.alpha_mask && has_holes(scene, i)) {
+    if (options.alpha_mask && scene.has_holes(i)) {
       part.masked.push_back(next);
     } else if (!part.opaque.empty() &&
                part.opaque.back().first_index + part.opaque.back().index_count == next.first_index) {

@@ -18,7 +18,7 @@ RainCover::RainCover(const scene::GpuScene& gpu_scene, bool wanted) {
   const scene::Body& world = scene.bodies[0];
   for (uint32_t i = world.first_primitive; wanted && i < world.first_primitive + world.primitive_count; ++i) {
     const scene::Material& material = scene.materials[scene.primitives[i].material];
-    const bool drips = has_holes(scene, i) || (material.radio && material.radio->foliage);
+    const bool drips = scene.has_holes(i) || (material.radio && material.radio->foliage);
     if (!drips) roofs.push_back(i);
   }
   const uint32_t size = roofs.empty() ? 1 : cover_texels;

@@ -41,7 +41,7 @@ void ShadowMaps::build_static(bool alpha_mask) {
   const scene::Body& world = scene.bodies[0];
   if (options_.static_casters)
     for (uint32_t i = world.first_primitive; i < world.first_primitive + world.primitive_count; ++i)
-      (alpha_mask && has_holes(scene, i) ? masked : opaque).push_back(i);
+      (alpha_mask && scene.has_holes(i) ? masked : opaque).push_back(i);
   const bool wanted = !opaque.empty() || !masked.empty();
   const uint32_t size = wanted ? options_.static_texels : 1;
   static_map_ = shadow_map(scene_->device(), size, "static shadow map");

@@ -27,10 +27,6 @@ gpu::Sampler shadow_sampler(gpu::Device& device, std::string_view name) {
       device, {.linear = true, .repeat_u = false, .repeat_v = false, .compare_greater_or_equal = true}, name);
 }
 
-bool has_holes(const scene::Scene& scene, uint32_t primitive) {
-  return scene.materials[scene.primitives[primitive].material].pbr.alpha_mode == scene::AlphaMode::mask;
-}
-
 gpu::GraphicsPipeline shadow_pipeline(const scene::GpuScene& scene, gpu::GraphicsDesc desc, bool masked,
                                       std::string_view name) {
   desc.specialization = {0u, masked ? 1u : 0u};

@@ -22,9 +22,6 @@ gpu::Image shadow_map(gpu::Device& device, uint32_t size, std::string_view name,
 /// Returns the sampler that compares with such a map. What lies beyond its rim is lit.
 gpu::Sampler shadow_sampler(gpu::Device& device, std::string_view name);
 
-/// Returns whether an alpha mask cuts holes into a primitive.
-bool has_holes(const scene::Scene& scene, uint32_t primitive);
-
 /// Returns a pipeline that draws casters by the named vertex shader, with holes if `masked`. `desc` holds the
 /// bindings and push constants that this shader has beside the scene's.
 gpu::GraphicsPipeline shadow_pipeline(const scene::GpuScene& scene, gpu::GraphicsDesc desc, bool masked,

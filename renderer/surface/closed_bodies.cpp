@@ -94,7 +94,7 @@ std::vector<bool> closed_bodies(const scene::Scene& scene) {
     bool has_holes = false;
     for (uint32_t i = range.first_primitive; i < range.first_primitive + range.primitive_count; ++i) {
       const scene::Primitive& primitive = scene.primitives[i];
-      has_holes |= scene.materials[primitive.material].pbr.alpha_mode == scene::AlphaMode::mask;
+      has_holes |= scene.has_holes(i);
       for (uint32_t k = 0; k < primitive.index_count; ++k)
         corners.push_back(scene.positions[scene.indices[primitive.first_index + k]]);
     }

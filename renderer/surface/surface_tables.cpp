@@ -90,7 +90,7 @@ SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
     const uint32_t body = scene.instances[primitive.instance].body;
     GREATX_CHECK(triangles.size() == size_t{4} * shared::triangle_record_quads * (primitive.first_index / 3),
                  "primitive {} does not follow the one before", i);
-    const bool has_holes = scene.materials[primitive.material].pbr.alpha_mode == scene::AlphaMode::mask;
+    const bool has_holes = scene.has_holes(i);
     const uint32_t marks = marks_of(scene, primitive);
     for (uint32_t t = 0; t < primitive.index_count / 3; ++t) {
       primitives[primitive.first_index / 3 + t] = i;

@@ -180,6 +180,10 @@ struct Scene {
     while (bodies[body].joint) body = bodies[body].joint->owner;
     return body;
   }
+  /// Returns whether the material of a primitive has an alpha mask, which may cut holes into it.
+  bool has_holes(uint32_t primitive) const {
+    return materials[primitives[primitive].material].pbr.alpha_mode == AlphaMode::mask;
+  }
   /// Returns the bounds of a body with all its parts, however they are turned, in its frame.
   const Bounds& reach_of(uint32_t body) const {
     return bodies[body].reach.empty() ? bodies[body].bounds : bodies[body].reach;

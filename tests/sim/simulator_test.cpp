@@ -102,14 +102,13 @@ TEST(Simulator, SensorsOfDifferentRatesFireWhenTheyShould) {
   EXPECT_THAT(lidar_ticks, ::testing::ElementsAre(0, 3, 5, 8));  // round(k * 2.5), half up
 }
 
-/// From this height rays meet leaf sprays whose masks the picture cuts: a comparison of all rays errs
-/// by 9.5e-3.
+/// From this height rays meet leaf sprays whose masks the picture cuts. A comparison of all rays
+/// would err by 9.5e-3.
 TEST(Consistency, RaysThatMeetHolesAreNotHeldAgainstThePicture) {
   const KeptRun r = keep_run(
       head + city +
       "nodes:\n  - name: uav\n    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-20, -15, "
-      "20]}, "
-      "{t_s: 1, position_m: [10, 5, 20]}]}\n    sensors:\n"
+      "20]}, {t_s: 1, position_m: [10, 5, 20]}]}\n    sensors:\n"
       "      - {name: camera, type: camera, rate_hz: 10, width: 160, height: 120, fov_deg: 90, mount: "
       "{rotation_deg: [0, 10, 0]}}\n");
   const Consistency& c = r.statistics.consistency;

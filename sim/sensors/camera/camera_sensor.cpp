@@ -224,13 +224,6 @@ std::vector<Array> CameraSensor::collect(const gpu::TickSlot& slot) {
   return arrays;
 }
 
-/// Returns whether a ray first meets a material with holes. Rays take it as solid, while a picture filters
-/// its mask, so the two may rightly see different surfaces there.
-static bool meets_holes(const scene::Scene& scene, const shared::ProbeHit& hit) {
-  return hit.primitive != 0 && scene.materials[scene.primitives[hit.primitive - 1].material].pbr.alpha_mode ==
-                                   scene::AlphaMode::mask;
-}
-
 void CameraSensor::check(const gpu::TickSlot& slot) {
   depth_errors_ = {};
   const std::span<const shared::ProbeHit> hits = probe_hits_[slot.index].as<shared::ProbeHit>();
@@ -239,7 +232,9 @@ void CameraSensor::check(const gpu::TickSlot& slot) {
     if (!interior_plane(images_, pixel.x, pixel.y)) continue;
     const double depth = images_.depth[size_t{pixel.y} * images_.width + pixel.x];
     if (depth <= pass_.desc().near_m || hits[i].t <= pass_.desc().near_m) continue;
-    if (meets_holes(world_.scene, hits[i])) continue;
+    // Rays take a material with holes as solid, while a picture filters its mask, so the two may rightly see
+    // different surfaces there.
+    if (hits[i].primitive != 0 && world_.scene.has_holes(hits[i].primitive - 1)) continue;
     depth_errors_.add(std::abs(depth - hits[i].t) / depth);
   }
 }
