@@ -13,6 +13,14 @@ constexpr int glyph = Canvas::glyph_width * theme::text_scale;
 constexpr int text_height = 7 * theme::text_scale;
 
 int pixel(int start, int extent, double t) { return start + static_cast<int>(std::lround(t * (extent - 1))); }
+
+/// Returns the ticks of an axis below a plot, and of one at its side. Grid lines stand at the same values.
+std::vector<double> ticks_below(const Rect& plot, const Scale& scale) {
+  return scale.ticks(std::max(2, plot.width / 110));
+}
+std::vector<double> ticks_beside(const Rect& plot, const Scale& scale) {
+  return scale.ticks(std::max(2, plot.height / 60));
+}
 }  // namespace
 
 double Scale::at(double value) const {
@@ -61,9 +69,20 @@ std::string tick_text(double value) {
   return fmt::format("{:.4g}", value);
 }
 
+void draw_x_grid(Canvas& canvas, const Rect& plot, const Scale& scale) {
+  for (const double value : ticks_below(plot, scale))
+    canvas.fill({pixel(plot.x, plot.width, scale.at(value)), plot.y, 1, plot.height}, canvas.theme().grid);
+}
+
+void draw_y_grid(Canvas& canvas, const Rect& plot, const Scale& scale) {
+  for (const double value : ticks_beside(plot, scale))
+    canvas.fill({plot.x, pixel(plot.y, plot.height, 1.0 - scale.at(value)), plot.width, 1},
+                canvas.theme().grid);
+}
+
 void draw_x_axis(Canvas& canvas, const Rect& plot, const Scale& scale, const std::string& label) {
   int taken = std::numeric_limits<int>::min();  // by numbers; one that has no room is left out
-  for (const double value : scale.ticks(std::max(2, plot.width / 110))) {
+  for (const double value : ticks_below(plot, scale)) {
     const int x = pixel(plot.x, plot.width, scale.at(value));
     canvas.fill({x, plot.bottom(), 1, 5}, canvas.theme().dim);
     const std::string text = tick_text(value);
@@ -78,7 +97,7 @@ void draw_x_axis(Canvas& canvas, const Rect& plot, const Scale& scale, const std
 
 void draw_y_axis(Canvas& canvas, const Rect& plot, const Scale& scale, const std::string& label) {
   size_t longest = 0;
-  for (const double value : scale.ticks(std::max(2, plot.height / 60))) {
+  for (const double value : ticks_beside(plot, scale)) {
     const int y = pixel(plot.y, plot.height, 1.0 - scale.at(value));
     const std::string text = tick_text(value);
     longest = std::max(longest, text.size());
@@ -123,7 +142,7 @@ void draw_color_scale(Canvas& canvas, const Rect& bar, const Scale& scale, Color
                       const std::string& label) {
   canvas.raster(bar, 1, bar.height, [&](int, int y) { return map(1.0 - y / (bar.height - 1.0)); });
   canvas.frame(bar, canvas.theme().border);
-  for (const double value : scale.ticks(std::max(2, bar.height / 60))) {
+  for (const double value : ticks_beside(bar, scale)) {
     const int y = pixel(bar.y, bar.height, 1.0 - scale.at(value));
     canvas.fill({bar.right() + 1, y, 4, 1}, canvas.theme().dim);
     canvas.text(bar.right() + 8, y - text_height / 2, tick_text(value), theme::text_scale,

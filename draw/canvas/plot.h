@@ -38,6 +38,9 @@ double round_down(double value);
 /// Returns a short text such as "0.05", "250" or "1e-07".
 std::string tick_text(double value);
 
+/// Draws a faint line across a plot at each tick of an axis below it, or of one at its left.
+void draw_x_grid(Canvas& canvas, const Rect& plot, const Scale& scale);
+void draw_y_grid(Canvas& canvas, const Rect& plot, const Scale& scale);
 /// Draws ticks and a label below a plot, about 2 * theme::line_height high.
 void draw_x_axis(Canvas& canvas, const Rect& plot, const Scale& scale, const std::string& label);
 /// Draws ticks and a label at the left of a plot.

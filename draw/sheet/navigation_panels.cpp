@@ -39,10 +39,7 @@ class LinesPanel : public SeriesPanel {
     const Rect plot = plot_in(area);
     const Scale time = times(), scale = values();
     canvas.fill(plot, canvas.theme().panel);
-    for (const double tick : scale.ticks(std::max(2, plot.height / 60)))
-      canvas.fill(
-          {plot.x, plot.bottom() - 1 - static_cast<int>(scale.at(tick) * (plot.height - 1)), plot.width, 1},
-          canvas.theme().grid);
+    draw_y_grid(canvas, plot, scale);
     canvas.clip(plot);
     for (size_t n = 0; n < lines_.lines.size(); ++n) draw_line(canvas, plot, time, scale, n);
     canvas.unclip();

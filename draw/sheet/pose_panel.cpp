@@ -90,14 +90,8 @@ class TrajectoryPanel : public SeriesPanel {
     const Map map = map_of(area);
     canvas.fill(map.plot, canvas.theme().panel);
     canvas.clip(map.plot);
-    for (const double value : map.x.ticks(std::max(2, map.plot.width / 110)))
-      canvas.fill(
-          {map.plot.x + static_cast<int>(map.x.at(value) * map.plot.width), map.plot.y, 1, map.plot.height},
-          canvas.theme().grid);
-    for (const double value : map.y.ticks(std::max(2, map.plot.height / 60)))
-      canvas.fill({map.plot.x, map.plot.bottom() - static_cast<int>(map.y.at(value) * map.plot.height),
-                   map.plot.width, 1},
-                  canvas.theme().grid);
+    draw_x_grid(canvas, map.plot, map.x);
+    draw_y_grid(canvas, map.plot, map.y);
     if (scene_)
       for (const OutlineLine& line : scene_->outlines) {
         const dvec2 from = map.place(line.from), to = map.place(line.to);
@@ -186,10 +180,7 @@ class CoursePanel : public SeriesPanel {
     const Rect plot = plot_of_courses(area);
     const Scale time = times(), scale = values();
     canvas.fill(plot, canvas.theme().panel);
-    for (const double tick : scale.ticks(std::max(2, plot.height / 60)))
-      canvas.fill(
-          {plot.x, plot.bottom() - 1 - static_cast<int>(scale.at(tick) * (plot.height - 1)), plot.width, 1},
-          canvas.theme().grid);
+    draw_y_grid(canvas, plot, scale);
     canvas.clip(plot);
     for (size_t n = 0; n < courses_->positions.size(); ++n) {
       const auto place = [&](size_t i) {

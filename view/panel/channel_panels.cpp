@@ -260,8 +260,7 @@ class ResponsePlot : public ResponsePanel {
     canvas.fill(plot, theme::panel);
     const io::Scale frequency = frequency_scale(db_.size());
     canvas.clip(plot);
-    for (const double value : vertical_.ticks(std::max(2, plot.height / 60)))
-      canvas.fill({plot.x, plot.y + pixel_of(value), plot.width, 1}, theme::grid);
+    io::draw_y_grid(canvas, plot, vertical_);
     // Where many subcarriers share a column of pixels: from the weakest to the strongest.
     const size_t width = static_cast<size_t>(plot.width);
     double before_x = 0.0, before_y = 0.0;

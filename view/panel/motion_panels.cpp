@@ -67,8 +67,7 @@ class MotionPlot : public Panel {
     values_ = {low - pad, high + pad, false};
     time_ = io::scale_for(line_.front()->time_s, line_.back()->time_s);
     canvas.clip(plot);
-    for (const double value : values_.ticks(std::max(2, plot.height / 60)))
-      canvas.fill({plot.x, static_cast<int>(place(0.0, value).y), plot.width, 1}, theme::grid);
+    io::draw_y_grid(canvas, plot, values_);
     for (size_t n = 0; n < count_; ++n) draw_node(canvas, n);
     canvas.unclip();
     if (!axes) return;

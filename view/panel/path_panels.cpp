@@ -214,9 +214,7 @@ class DelayGain : public PathPanel {
     const double top_db = paths_.empty() ? -60.0 : strongest_db_;
     gain_ = {std::max(low_db, top_db - 2.0 * compass_db) - 3.0, top_db + 3.0, false};
     canvas.clip(plot);
-    for (const double value : gain_.ticks(std::max(2, plot.height / 60)))
-      canvas.fill({plot.x, plot.bottom() - static_cast<int>(gain_.at(value) * plot.height), plot.width, 1},
-                  theme::grid);
+    io::draw_y_grid(canvas, plot, gain_);
     for (PathMark& path : paths_) {
       path.x = plot.x + delay_.at(path.delay_s * factor_) * plot.width;
       path.y = plot.bottom() - gain_.at(path.gain_db) * plot.height;
