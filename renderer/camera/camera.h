@@ -185,7 +185,8 @@ class CameraPass {
   /// The view of the pixels' centres: uvec2 [height * width], the bits of planar depth (sky: +inf),
   /// triangle + 1 (0: nothing).
   const gpu::Buffer& seen() const { return seen_; }
-  /// The numbers of pieces (DrawList) that the last record() drew, and left out because they lie outside the view.
+  /// The numbers of pieces (DrawList) that the last record() drew, and left out because they lie outside the
+  /// view.
   uint32_t drawn() const { return drawn_; }
   uint32_t culled() const { return culled_; }
   /// The lamps of the last record().
