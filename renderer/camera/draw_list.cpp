@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "scene/description/index_bounds.h"
+
 namespace greatx::render {
 
 namespace {
@@ -12,9 +14,7 @@ namespace {
 constexpr double free_radius_m = 4.0, most_growth = 1.2;
 
 void bound(const scene::Scene& scene, DrawPiece& piece) {
-  scene::Bounds bounds;
-  for (uint32_t i = 0; i < piece.index_count; ++i)
-    bounds.add(dvec3(scene.positions[scene.indices[piece.first_index + i]]));
+  const scene::Bounds bounds = scene::bounds_of_indices(scene, piece.first_index, piece.index_count);
   piece.center = bounds.center();
   piece.radius = 0.5 * glm::length(bounds.size());
 }

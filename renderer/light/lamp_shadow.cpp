@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "renderer/light/shadow_raster.h"
+#include "scene/description/index_bounds.h"
 
 namespace greatx::render {
 
@@ -28,9 +29,7 @@ struct CasterSphere {
 };
 
 CasterSphere sphere_of(const scene::Scene& scene, const scene::Primitive& primitive) {
-  scene::Bounds bounds;
-  for (uint32_t i = 0; i < primitive.index_count; ++i)
-    bounds.add(dvec3(scene.positions[scene.indices[primitive.first_index + i]]));
+  const scene::Bounds bounds = scene::bounds_of_indices(scene, primitive.first_index, primitive.index_count);
   return {bounds.center(), 0.5 * glm::length(bounds.size())};
 }
 
