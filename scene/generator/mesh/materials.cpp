@@ -58,9 +58,11 @@ const char* const body_cover =
     R"({"layers":[{"relative_permittivity":2.8,"conductivity":0.003,"thickness_m":0.003},)"
     R"({"relative_permittivity":1.0,"conductivity":0.0,"thickness_m":0.06},)"
     R"({"itu":"metal","thickness_m":0.002}],)" GREATX_CURVED(33) "}";
-// Engines and drives: fins, chains and pipes turn every way within a facet.
+// Engines and wheels: fins, pipes, spokes and bolts turn every way within a facet.
 const char* const castings = R"({"itu":"metal","thickness_m":0.002,"scattering_coefficient":0.99})";
-const char* const rubber = R"({"relative_permittivity":3.0,"conductivity":0.02,"thickness_m":0.02})";
+// Treads have blocks and grooves.
+const char* const rubber =
+    R"({"relative_permittivity":3.0,"conductivity":0.02,"thickness_m":0.02,"scattering_coefficient":0.99})";
 const char* const plastic = R"({"relative_permittivity":2.8,"conductivity":0.003,"thickness_m":0.003})";
 // Dry skin by the four Cole-Cole terms of S. Gabriel, R. W. Lau and C. Gabriel, "The dielectric properties of
 // biological tissues: III", Phys. Med. Biol. 41 (1996). The rows are fitted to it within 1.1 % of the
@@ -296,8 +298,8 @@ std::vector<MaterialSpec> make_library() {
        plastic},
       {"lit_window", "", dvec2(1.0), 0, vec3(0.035f, 0.042f, 0.045f), 0.08f, 0.0f, lamp_color_4000k * 0.04f,
        body_pane},
-      {"wheel_alloy", "wheel_alloy", dvec2(1.0), 0, vec3(1.0f), 0.45f, 0.0f, vec3(0), body_metal},
-      {"wheel_steel", "wheel_steel", dvec2(1.0), 0, vec3(1.0f), 0.55f, 0.0f, vec3(0), body_metal},
+      {"wheel_alloy", "wheel_alloy", dvec2(1.0), 0, vec3(1.0f), 0.45f, 0.0f, vec3(0), castings},
+      {"wheel_steel", "wheel_steel", dvec2(1.0), 0, vec3(1.0f), 0.55f, 0.0f, vec3(0), castings},
       {"car_glass", "", dvec2(1.0), 0, vec3(0.025f, 0.035f, 0.04f), 0.08f, 0.0f, vec3(0), body_pane},
       {"tyre", "", dvec2(1.0), 0, vec3(0.015f), 0.9f, 0.0f, vec3(0), rubber},
       {"wheel_rim", "", dvec2(1.0), 0, vec3(0.45f), 0.35f, 0.8f, vec3(0), body_metal},
