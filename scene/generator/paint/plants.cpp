@@ -88,19 +88,26 @@ int reach_towards(int x, int y, int quarter) {
 
 TextureMaps leaves() {
   constexpr int size = 256;
-  TexturePainter painter(size, size, {30, 44, 20});
-  painter.blotches(64, 8, 61);
-  for (int layer = 0; layer < 3; ++layer)
-    for (int i = 0; i < 560; ++i) {
-      const int x = static_cast<int>(hash(i, 5 * layer, 62) % size),
-                y = static_cast<int>(hash(i, 5 * layer + 1, 62) % size);
-      // Leaves gather in clumps. The gaps stay dark.
-      if (hash(x / 24, y / 24, 63) % 4 == 0 && layer > 0) continue;
-      const int length = 9 + static_cast<int>(hash(i, 5 * layer + 2, 62) % 6);
-      const int tone = 56 + 20 * layer + static_cast<int>(hash(i, 5 * layer + 3, 62) % 34);
-      add_leaf(x, y, directions[hash(i, 5 * layer + 4, 62) % directions.size()], length, leaf_color(tone),
+  TexturePainter painter(size, size, {24, 36, 16});
+  painter.blotches(64, 7, 61);
+  // Leaves gather in clumps. Light from above falls on a clump's upper leaves; its lower ones, and the gaps
+  // between clumps, are dark.
+  for (int clump = 0; clump < 46; ++clump) {
+    const int radius = 18 + static_cast<int>(hash(clump, 0, 63) % 20);
+    const int cx = static_cast<int>(hash(clump, 1, 63) % size),
+              cy = static_cast<int>(hash(clump, 2, 63) % size);
+    const int tint = static_cast<int>(hash(clump, 3, 63) % 17) - 8;
+    for (int i = 0; i < radius * radius / 9; ++i) {
+      const int key = 1000 * clump + i;
+      const int x = static_cast<int>(hash(key, 0, 62) % static_cast<uint32_t>(2 * radius)) - radius,
+                y = static_cast<int>(hash(key, 1, 62) % static_cast<uint32_t>(2 * radius)) - radius;
+      if (x * x + y * y > radius * radius) continue;
+      const int length = 8 + static_cast<int>(hash(key, 2, 62) % 6);
+      const int tone = 96 + tint - 44 * y / radius + static_cast<int>(hash(key, 3, 62) % 30) - 15;
+      add_leaf(cx + x, cy + y, directions[hash(key, 4, 62) % directions.size()], length, leaf_color(tone),
                [&](int px, int py, const Rgb& color) { painter.rect(px, py, px + 1, py + 1, color); });
     }
+  }
   return painter.maps();
 }
 
