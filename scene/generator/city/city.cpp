@@ -34,13 +34,14 @@ constexpr double street_crown_m = 5.3;
 /// Holds the meshes that many nodes share, and the running numbers in the names of the nodes.
 class CityFurniture {
  public:
-  explicit CityFurniture(SceneWriter& writer) : writer_(writer) {}
+  CityFurniture(SceneWriter& writer, Season season) : writer_(writer), season_(season) {}
 
   /// `kind` is as in make_tree. A tree at a street leaves room for lorries below its crown.
   void tree(const dvec2& where, double z, int kind, bool at_street, RandomStream& random) {
     const int shape = static_cast<int>(random.below(4)) % 2;
     const std::string name = fmt::format("{}_{}_{}", at_street ? "street_tree" : "tree", kind, shape);
-    const int mesh = shared(name, [&] { return make_tree(kind, shape, at_street ? street_crown_m : 0.0); });
+    const int mesh =
+        shared(name, [&] { return make_tree(kind, shape, at_street ? street_crown_m : 0.0, season_); });
     const double draw = random.uniform(), yaw = random.uniform(0.0, 2.0 * pi);
     const double scale = at_street ? 0.95 + 0.2 * draw : 0.85 + 0.45 * draw;
     writer_.add_node({.name = number("tree"),
@@ -49,6 +50,20 @@ class CityFurniture {
                       .yaw = yaw,
                       .scale = scale,
                       .semantic_class = SemanticClass::vegetation});
+  }
+  /// Leaves lie around a tree in autumn: `half` m to both sides of `where` along `along` and across it, at
+  /// height z.
+  void fallen_leaves(const dvec2& where, double z, int kind, const dvec2& along, const dvec2& half) {
+    if (season_ != Season::autumn) return;
+    const dvec2 u = half.x * along, v = half.y * dvec2(-along.y, along.x);
+    MeshBuilder mesh;
+    const std::string name = number("leaves");
+    add_fallen_leaves(
+        mesh, kind,
+        {dvec3(where - u - v, z), dvec3(where + u - v, z), dvec3(where + u + v, z), dvec3(where - u + v, z)},
+        static_cast<uint32_t>(counts_["leaves"]));
+    writer_.add_node(
+        {.name = name, .mesh = writer_.add_mesh(name, mesh), .semantic_class = SemanticClass::vegetation});
   }
   void lamp(LampKind kind, const dvec2& where, double z, double yaw) {
     const Lamp lamp = make_lamp(kind);
@@ -119,6 +134,7 @@ class CityFurniture {
   }
 
   SceneWriter& writer_;
+  Season season_;
   std::map<std::string, int> meshes_, counts_;
   std::array<int, 4> lights_{-1, -1, -1, -1};  ///< by LampKind
 };
@@ -177,6 +193,9 @@ TakenPlaces furnish_pavement(const Block& block, uint64_t seed, CityFurniture& f
       if (!free(at, 2.6) || at <= 5.0) continue;
       furniture.tree(spot(at, 1.2), pavement_height_m, kind, true, random);
       street.grate(spot(at, 1.2), heading(along));
+      // On the pavement, and in the gutter.
+      furniture.fallen_leaves(spot(at, 2.3), pavement_height_m + 0.02, kind, along, {1.7, 1.3});
+      furniture.fallen_leaves(spot(at + 0.8, -0.45), 0.01, kind, along, {2.6, 0.42});
       taken.push_back(at);
     }
   }
@@ -240,6 +259,9 @@ void add_park(SceneWriter& writer, const Block& block, CityFurniture& furniture,
       const double v = 0.1 + 0.2 * j + random.uniform(-0.045, 0.045);
       const int kind = static_cast<int>(hash(i, j, 77) % tree_species);
       furniture.tree(at(u, v), z, kind, false, random);
+      for (const dvec2& side : {dvec2(1.1, 0.6), dvec2(-0.9, 1.2), dvec2(0.2, -1.3)})
+        furniture.fallen_leaves(at(u, v) + side, z + 0.015 + 0.002 * side.y, kind,
+                                glm::normalize(dvec2(side.y, 1.0 + side.x)), {1.5, 1.4});
     }
   for (const dvec2& end : {at(0.5, 0.03), at(0.97, 0.5), at(0.5, 0.97), at(0.03, 0.5)}) {
     const dvec2 along = glm::normalize(end - center), side(-along.y, along.x);
@@ -257,7 +279,7 @@ void add_park(SceneWriter& writer, const Block& block, CityFurniture& furniture,
 
 }  // namespace
 
-void write_city(SceneWriter& writer, double size_m, uint64_t seed) {
+void write_city(SceneWriter& writer, double size_m, uint64_t seed, Season season) {
   const CityPlan plan = plan_city(size_m, seed);
   const auto add = [&](const std::string& name, const MeshBuilder& mesh, SemanticClass semantic_class) {
     writer.add_node({.name = name, .mesh = writer.add_mesh(name, mesh), .semantic_class = semantic_class});
@@ -271,7 +293,7 @@ void write_city(SceneWriter& writer, double size_m, uint64_t seed) {
   add("lane_markings", markings, SemanticClass::lane_marking);
   add("ground_base", base, SemanticClass::ground);
 
-  CityFurniture furniture(writer);
+  CityFurniture furniture(writer, season);
   CityStreet street(writer, seed);
   RandomStream random(seed, 3), details(seed, 4);
   const std::array<const char*, 4> surfaces{"paving", "grass", "asphalt_lot", "paving"};

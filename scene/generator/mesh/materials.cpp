@@ -180,6 +180,13 @@ std::vector<MaterialSpec> make_library() {
       {"sprays_copper", "leaf_sprays", dvec2(3.0), 0, vec3(0.72f, 0.3f, 0.38f), 1.0f, 0.0f, vec3(0), unseen},
       {"leaves_birch", "leaves", dvec2(3.0), 0, vec3(0.9f, 0.88f, 0.45f), 1.0f, 0.0f, vec3(0), canopy},
       {"sprays_birch", "leaf_sprays", dvec2(3.0), 0, vec3(1.0f, 0.98f, 0.5f), 1.0f, 0.0f, vec3(0), unseen},
+      // Leaves on the ground, and the boughs of bare crowns, whose volume for radio is that of the twigs.
+      {"fallen_yellow", "fallen_leaves", dvec2(3.0), 0, vec3(0.66f, 0.44f, 0.08f), 1.0f, 0.0f, vec3(0),
+       unseen},
+      {"fallen_red", "fallen_leaves", dvec2(3.0), 0, vec3(0.5f, 0.17f, 0.05f), 1.0f, 0.0f, vec3(0), unseen},
+      {"fallen_brown", "fallen_leaves", dvec2(3.0), 0, vec3(0.36f, 0.21f, 0.09f), 1.0f, 0.0f, vec3(0),
+       unseen},
+      {"boughs", "bark", dvec2(1.0), 0, vec3(0.62f), 1.0f, 0.0f, vec3(0), unseen},
       {"needles", "leaves", dvec2(3.0), 0, vec3(0.34f, 0.5f, 0.46f), 1.0f, 0.0f, vec3(0), canopy},
       {"sprays_needles", "needle_sprays", dvec2(3.0), 0, vec3(0.6f, 0.8f, 0.86f), 1.0f, 0.0f, vec3(0),
        unseen},

@@ -95,18 +95,40 @@ struct Species {
   Crown crown;
   const char* bark;
   double trunk_m;
+  const char* fallen;  ///< material of its leaves on the ground
 };
 
 const std::array<Species, tree_species>& species() {
   static const std::array<Species, tree_species> list{{
       // linden, maple, oak, plane, Lombardy poplar, copper beech, birch
-      {{"leaves_green", "sprays_green", 2.2, 7.4, 2.1, 0.42, 0.18, 0.3, {1, 1.7, 0.2}}, "bark", 0.22},
-      {{"leaves_light", "sprays_light", 2.3, 6.9, 2.4, 0.45, 0.0, 0.34, {1, 1.8, 0.0}}, "bark", 0.21},
-      {{"leaves_olive", "sprays_olive", 2.1, 6.4, 2.75, 0.4, 0.0, 0.4, {1, 2.0, 0.0}}, "bark", 0.28},
-      {{"leaves_dark", "sprays_dark", 2.4, 7.8, 2.2, 0.5, 0.05, 0.34, {1, 1.8, 0.1}}, "bark_plane", 0.24},
-      {{"leaves_green", "sprays_green", 1.2, 10.6, 1.1, 0.35, 0.5, 0.24, {2, 1.4, 0.8}}, "bark", 0.18},
-      {{"leaves_copper", "sprays_copper", 2.0, 6.0, 2.2, 0.45, 0.0, 0.28, {1, 1.7, 0.1}}, "bark", 0.19},
-      {{"leaves_birch", "sprays_birch", 1.9, 8.2, 1.5, 0.38, 0.3, 0.36, {2, 1.3, 0.7}}, "bark_birch", 0.14},
+      {{"leaves_green", "sprays_green", 2.2, 7.4, 2.1, 0.42, 0.18, 0.3, {1, 1.7, 0.2}},
+       "bark",
+       0.22,
+       "fallen_yellow"},
+      {{"leaves_light", "sprays_light", 2.3, 6.9, 2.4, 0.45, 0.0, 0.34, {1, 1.8, 0.0}},
+       "bark",
+       0.21,
+       "fallen_red"},
+      {{"leaves_olive", "sprays_olive", 2.1, 6.4, 2.75, 0.4, 0.0, 0.4, {1, 2.0, 0.0}},
+       "bark",
+       0.28,
+       "fallen_brown"},
+      {{"leaves_dark", "sprays_dark", 2.4, 7.8, 2.2, 0.5, 0.05, 0.34, {1, 1.8, 0.1}},
+       "bark_plane",
+       0.24,
+       "fallen_brown"},
+      {{"leaves_green", "sprays_green", 1.2, 10.6, 1.1, 0.35, 0.5, 0.24, {2, 1.4, 0.8}},
+       "bark",
+       0.18,
+       "fallen_yellow"},
+      {{"leaves_copper", "sprays_copper", 2.0, 6.0, 2.2, 0.45, 0.0, 0.28, {1, 1.7, 0.1}},
+       "bark",
+       0.19,
+       "fallen_red"},
+      {{"leaves_birch", "sprays_birch", 1.9, 8.2, 1.5, 0.38, 0.3, 0.36, {2, 1.3, 0.7}},
+       "bark_birch",
+       0.14,
+       "fallen_yellow"},
   }};
   return list;
 }
@@ -217,7 +239,54 @@ void add_sprays(MeshBuilder& mesh, int material, const LeafBody& body, const Spr
   }
 }
 
-MeshBuilder make_tree(int kind, int shape, double clear_m) {
+namespace {
+
+/// Returns the body that stands for the twigs of a bare crown: smaller about the middle of the body of leaves.
+LeafBody bare_body(const LeafBody& leaves) {
+  const dvec3 middle = 0.5 * (leaves.bottom + leaves.top);
+  const auto nearer = [&](const dvec3& p) { return snap(middle + leafless_scale * (p - middle)); };
+  LeafBody body{leaves.rings, nearer(leaves.bottom), nearer(leaves.top)};
+  for (auto& ring : body.rings)
+    for (dvec3& p : ring) p = nearer(p);
+  return body;
+}
+
+/// Adds the boughs of a bare crown, which rise from the trunk, and its leader.
+void add_boughs(MeshBuilder& mesh, const Crown& crown, double trunk_radius, uint32_t seed) {
+  const int bark = material("boughs");
+  const double height = crown.high - crown.low;
+  const auto bough = [&](const dvec3& from, const dvec3& to, double thick) {
+    const dvec3 along = glm::normalize(to - from);
+    const dvec3 side = glm::normalize(glm::cross(along, dvec3(0.36, -0.48, 0.8))),
+                over = glm::cross(along, side);
+    std::vector<dvec3> foot;
+    for (const dvec2& p : regular_polygon(3, thick)) foot.push_back(snap(from + p.x * side + p.y * over));
+    add_spike(mesh, bark, foot, snap(to), glm::length(to - from));
+  };
+  bough({0.0, 0.0, crown.low + 0.1 * height}, {0.0, 0.0, crown.high - 0.12 * height}, 0.55 * trunk_radius);
+  constexpr int count = 9;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2.4 * i + 0.3 * noise_of(i, 11, seed);  // the golden angle, as buds stand
+    const double at = crown.low + (0.02 + 0.5 * i / count) * height;
+    const double top =
+        std::min(at + (0.34 + 0.1 * noise_of(i, 12, seed)) * height, crown.high - 0.1 * height);
+    const double far = crown.radius * (0.86 - 0.34 * i / count) * (1.0 + 0.12 * noise_of(i, 13, seed));
+    bough({0.0, 0.0, at}, {far * std::cos(angle), far * std::sin(angle), top},
+          trunk_radius * (0.4 - 0.2 * i / count));
+  }
+}
+
+}  // namespace
+
+void add_fallen_leaves(MeshBuilder& mesh, int kind, const std::array<dvec3, 4>& corners, uint32_t draw) {
+  const double u = 0.5 * static_cast<double>(draw % 2), v = 0.5 * static_cast<double>(draw / 2 % 2);
+  const std::array<dvec2, 4> uv{dvec2(u, v + 0.5), dvec2(u + 0.5, v + 0.5), dvec2(u + 0.5, v), dvec2(u, v)};
+  const int leaves = material(species()[static_cast<size_t>(kind)].fallen);
+  for (const auto& [a, b, c] : {std::array<size_t, 3>{0, 1, 2}, std::array<size_t, 3>{0, 2, 3}})
+    mesh.triangle(leaves, {snap(corners[a]), snap(corners[b]), snap(corners[c])}, {uv[a], uv[b], uv[c]});
+}
+
+MeshBuilder make_tree(int kind, int shape, double clear_m, Season season) {
   const Species& s = species()[static_cast<size_t>(kind)];
   Crown crown = s.crown;
   const double lift = std::max(0.0, clear_m - crown.low);
@@ -228,7 +297,13 @@ MeshBuilder make_tree(int kind, int shape, double clear_m) {
   add_trunk(mesh, s.bark, s.trunk_m * (1.0 + 0.08 * lift), crown.low + 0.45 * (crown.high - crown.low),
             crown.low, 3, seed);
   const LeafBody body = crown_body(crown, seed);
-  add_leaf_body(mesh, material(crown.leaves), body);
+  if (season == Season::winter) {
+    add_leaf_body(mesh, material(crown.leaves), bare_body(body));
+    add_boughs(mesh, crown, s.trunk_m, seed);
+    crown.around.hang = 0.8;  // twigs rise
+  } else {
+    add_leaf_body(mesh, material(crown.leaves), body);
+  }
   add_sprays(mesh, material(crown.sprays), body, crown.around, seed);
   return mesh;
 }

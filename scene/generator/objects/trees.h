@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene/generator/mesh/mesh_builder.h"
+#include "scene/generator/mesh/seasons.h"
 
 namespace greatx::scene::generator {
 
@@ -17,7 +18,19 @@ inline constexpr int tree_species = 7;
 
 /// Makes a broad-leaved tree 6 to 11 m high. `kind` is below tree_species. `shape` (any number) varies the
 /// boughs. The crown stands higher on its trunk if it would otherwise reach below `clear_m`.
-MeshBuilder make_tree(int kind, int shape, double clear_m = 0.0);
+///
+/// In winter the crown is bare: boughs and sprays of twigs, which radio does not see, and a closed body of
+/// twigs that is smaller than the body of leaves by leafless_scale along each axis.
+MeshBuilder make_tree(int kind, int shape, double clear_m = 0.0, Season season = Season::summer);
+
+/// A path through the middle of a leafless crown takes this share of the loss in leaf, dB over dB: ITU-R
+/// P.833-10 says that around 1 GHz the specific attenuation is some 20 % larger in leaf. All foliage of a
+/// scene has one specific attenuation, so that the bare crown's volume is smaller in its place.
+inline constexpr double leafless_scale = 1.0 / 1.2;
+
+/// Adds leaves that have fallen from a tree of this kind onto the ground between four corners,
+/// counter-clockwise from above: two open faces. `draw` picks their picture.
+void add_fallen_leaves(MeshBuilder& mesh, int kind, const std::array<dvec3, 4>& corners, uint32_t draw);
 
 enum class Conifer { spruce, pine };
 /// Makes a conifer some 10 m high.

@@ -38,13 +38,16 @@ Generated parse_generated(const Field& field) {
   Generated generated;
   generated.kind = kinds[kind];
   if (kind == city || kind == country || kind == canyon) {  // the others look the same for every seed
-    const FieldMap map(field, {"kind", "seed", "size_m"});
+    const FieldMap map(
+        field, kind == canyon ? Keys{"kind", "seed", "size_m"} : Keys{"kind", "seed", "size_m", "season"});
     if (const auto f = map.find("seed")) generated.seed = f->integer(0);
     if (const auto f = map.find("size_m"))
       generated.size_m = f->between(kind == canyon    ? 60.0
                                     : kind == country ? 160.0
                                                       : 100.0,
                                     kind == country ? 2000.0 : 1000.0);
+    constexpr std::array<std::string_view, 4> seasons{"summer", "spring", "autumn", "winter"};
+    if (const auto f = map.find("season")) generated.variant = seasons[f->choice(seasons)];
     return generated;
   }
   if (kind == mast) {
