@@ -285,7 +285,7 @@ void Country::add_tree(const dvec2& where, bool conifer) {
                     .semantic_class = SemanticClass::vegetation});
 }
 
-/// Adds leaves around a tree that stand a few centimetres over the ground, as far as it is level between them.
+/// Adds leaves around a tree, a few centimetres over the ground.
 void Country::add_fallen(const dvec2& where, int kind) {
   MeshBuilder mesh;
   uint32_t draw = static_cast<uint32_t>(tree_count_);

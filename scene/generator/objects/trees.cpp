@@ -241,7 +241,7 @@ void add_sprays(MeshBuilder& mesh, int material, const LeafBody& body, const Spr
 
 namespace {
 
-/// Returns the body that stands for the twigs of a bare crown: smaller about the middle of the body of leaves.
+/// Returns the body that stands for the twigs of a bare crown: smaller about the middle of the leaves.
 LeafBody bare_body(const LeafBody& leaves) {
   const dvec3 middle = 0.5 * (leaves.bottom + leaves.top);
   const auto nearer = [&](const dvec3& p) { return snap(middle + leafless_scale * (p - middle)); };

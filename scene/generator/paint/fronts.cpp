@@ -61,8 +61,8 @@ void add_goods(TexturePainter& painter, int x0, int x1, uint32_t shop) {
   }
 }
 
-/// Darkens the rim of an opening that lies 0.2 m back in its wall: its lintel and its left side throw a shadow,
-/// and its sill is dusty.
+/// Darkens the rim of an opening that lies 0.2 m back in its wall: its lintel and its left side throw a
+/// shadow, and its sill is dusty.
 void recess(TexturePainter& painter, int x0, int y0, int x1, int y1) {
   for (int k = 0; k < 9; ++k) {
     painter.shade(x0, y0 + k, x1, y0 + k + 1, -54 + 6 * k);

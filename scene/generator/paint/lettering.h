@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes capitals and digits into textures. A glyph is a few straight strokes on a grid of 5 by 7 points, with
-// round ends, so that it is legible at any size.
+// Writes capitals and digits into textures. A glyph is a few straight strokes on a grid of 5 by 7 points.
+// Their ends are round, so that it is legible at any size.
 #pragma once
 
 #include <functional>

@@ -161,12 +161,12 @@ void add_twig(int x, int y, int toward, int length, int depth, uint32_t seed, co
     for (int w = 0; w < thick; ++w) paint(x / 64 + w, y / 64, bark_color(tone + 14 * w));
     const uint32_t draw = hash(k, length + 31 * depth, seed + static_cast<uint32_t>(toward));
     if (draw % 11 == 0) toward = std::clamp(toward + (draw / 16 % 2 == 0 ? 1 : -1), 1, 15);
-    if (length < 8 || k < length / 6 || (k + static_cast<int>(seed)) % (7 - std::min(depth, 2)) != 0)
+    if (length < 8 || k < length / 6 || (k + static_cast<int>(seed)) % (10 - std::min(depth, 2)) != 0)
       continue;
     side = -side;
     const int out = std::clamp(toward + side * (2 + static_cast<int>(draw / 64 % 3)), 0, 16);
     const int reach = (length - k) * (46 + static_cast<int>(draw / 512 % 34)) / 100;
-    if (reach > 3) add_twig(x, y, out, reach, depth + 1, seed * 5 + static_cast<uint32_t>(k), paint);
+    if (reach > 5) add_twig(x, y, out, reach, depth + 1, seed * 5 + static_cast<uint32_t>(k), paint);
   }
 }
 
@@ -181,7 +181,7 @@ TextureMaps twigs() {
   constexpr int size = 256;
   TexturePainter painter(size, size, bark_color(96));
   painter.cut_all();
-  for (int i = 0; i < 26; ++i) {
+  for (int i = 0; i < 17; ++i) {
     const int x = static_cast<int>(hash(i, 0, 681) % size), y = static_cast<int>(hash(i, 1, 681) % size);
     const int toward = 5 + static_cast<int>(hash(i, 2, 681) % 7);
     add_twig(64 * x, 64 * y, toward, 70 + static_cast<int>(hash(i, 3, 681) % 40), 1,

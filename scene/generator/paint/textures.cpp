@@ -44,7 +44,7 @@ TextureMaps kerb() {
   return painter.maps();
 }
 
-/// Paints 1.6 m x 1.6 m of the bark of a plane tree: flakes of four tones, longer than wide, with uneven rims.
+/// Paints 1.6 m x 1.6 m of the bark of a plane tree: long flakes of four tones with uneven rims.
 TextureMaps bark_plane() {
   constexpr int size = 128, cell = 16;
   TexturePainter painter(size, size, {0, 0, 0});
@@ -200,8 +200,8 @@ TextureMaps brick() {
   return painter.maps();
 }
 
-/// Paints 1.2 m x 1.3 m of a cabinet's front: two doors that meet at u = 0, louvres, locks, a sticker, a scrawl
-/// that somebody has half wiped off, and dirt that splashed up from v = 0.
+/// Paints 1.2 m x 1.3 m of a cabinet's front: two doors that meet at u = 0, louvres, locks, a sticker, a
+/// scrawl that somebody has half wiped off, and dirt that splashed up from v = 0.
 TextureMaps cabinet() {
   TexturePainter painter(128, 128, {186, 190, 186});
   painter.blotches(64, 7, 791);

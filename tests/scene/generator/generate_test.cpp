@@ -63,12 +63,14 @@ TEST(Generate, RotationsAreFloats) {
 }
 
 TEST(Generate, EmptyVariantIsTheFirst) {
-  for (const std::string kind : {"car", "quadrotor"}) {
+  for (const std::string kind : {"car", "quadrotor", "city", "country"}) {
     const std::vector<std::string> variants = generator_variants(kind);
-    const auto first = generate_glb({.kind = kind, .variant = variants[0]});
-    EXPECT_EQ(generate_glb({.kind = kind}), first);
-    for (size_t i = 1; i < variants.size(); ++i)
-      EXPECT_NE(generate_glb({.kind = kind, .variant = variants[i]}), first);
+    const auto make = [&](const std::string& variant) {
+      return generate_glb({.kind = kind, .size_m = 160, .variant = variant});
+    };
+    const auto first = make(variants[0]);
+    EXPECT_EQ(make(""), first);
+    for (size_t i = 1; i < variants.size(); ++i) EXPECT_NE(make(variants[i]), first);
   }
 }
 
@@ -82,7 +84,9 @@ TEST(Generate, NamesWhatIsAllowed) {
   EXPECT_THAT(message_of({.kind = "car", .variant = "tank"}),
               AllOf(HasSubstr("hatchback, van"), HasSubstr("tank")));
   EXPECT_THAT(message_of({.kind = "quadrotor", .variant = "huge"}), HasSubstr("medium, small, large"));
-  EXPECT_THAT(message_of({.kind = "city", .variant = "x"}), HasSubstr("has none"));
+  EXPECT_THAT(message_of({.kind = "mast", .variant = "x"}), HasSubstr("has none"));
+  EXPECT_THAT(message_of({.kind = "city", .variant = "monsoon"}),
+              AllOf(HasSubstr("season of city"), HasSubstr("summer, spring, autumn, winter")));
   EXPECT_THAT(message_of({.kind = "city", .size_m = 99}), AllOf(HasSubstr("100 to 1000"), HasSubstr("99")));
   EXPECT_THAT(message_of({.kind = "city", .size_m = 1001}), HasSubstr("100 to 1000"));
   EXPECT_THAT(message_of({.kind = "country", .size_m = 2001}), HasSubstr("160 to 2000"));
