@@ -109,9 +109,9 @@ void CityStreet::furnish(const Block& block, const TakenPlaces& taken) {
         place(name, name, make_cabinet, spot, yaw);
       } else {
         // Drivers beside this pavement come from b, so that signs face along the edge.
-        static constexpr std::array<SignKind, 6> kinds{SignKind::no_parking, SignKind::parking,
-                                                       SignKind::priority,   SignKind::yield,
-                                                       SignKind::speed_30,   SignKind::one_way};
+        static constexpr std::array<SignKind, 5> kinds{SignKind::no_parking, SignKind::parking,
+                                                       SignKind::priority, SignKind::speed_30,
+                                                       SignKind::one_way};
         const SignKind kind = kinds[draw % kinds.size()];
         place(
             "traffic_sign", fmt::format("traffic_sign_{}", static_cast<int>(kind)),

@@ -221,6 +221,8 @@ std::vector<MaterialSpec> make_library() {
       {"shelter_glass", "", dvec2(1.0), 0, vec3(0.3f, 0.36f, 0.38f), 0.1f, 0.0f, vec3(0), pane},
       {"traffic_signs", "traffic_signs", dvec2(1.0), 0, vec3(1.0f), 0.5f, 0.0f, vec3(0), sheet_metal},
       {"bicycle", "bicycles", dvec2(1.0), 0, vec3(1.0f), 0.4f, 0.0f, vec3(0), unseen},
+      // Tubes of 5 cm.
+      {"scaffold_tube", "", dvec2(1.0), 0, vec3(0.5f, 0.51f, 0.52f), 0.5f, 0.6f, vec3(0), unseen},
       {"mesh_fence", "mesh_fence", dvec2(0.3), 0, vec3(1.0f), 0.5f, 0.0f, vec3(0), unseen},
       {"column_bills", "column_bills", dvec2(3.6, 2.5), 0, vec3(1.0f), 0.7f, 0.0f, vec3(0), concrete_wall},
       {"column_green", "", dvec2(1.0), 0, vec3(0.03f, 0.1f, 0.06f), 0.5f, 0.0f, vec3(0), sheet_metal},
