@@ -161,15 +161,15 @@ TakenPlaces furnish_pavement(const Block& block, uint64_t seed, CityFurniture& f
   TakenPlaces all;
   for (int edge = 0; edge < 4; ++edge) {
     if (!block.street[static_cast<size_t>(edge)]) continue;
-    const dvec2 a = block.edge_start(edge), b = block.edge_end(edge);
-    const double length = glm::length(b - a);
-    const dvec2 along = (b - a) / length, inwards(-along.y, along.x);
-    const bool avenue = block.pavement_m[static_cast<size_t>(edge)] >= 4.0;
+    const Kerb kerb(block, edge);
+    const double length = kerb.length;
+    const dvec2 along = kerb.along, inwards = kerb.inwards;
+    const bool avenue = kerb.avenue;
     std::vector<double>& taken = all[static_cast<size_t>(edge)];
     const auto free = [&](double at, double room) {
       return std::all_of(taken.begin(), taken.end(), [&](double t) { return std::abs(t - at) > room; });
     };
-    const auto spot = [&](double at, double depth) { return a + along * at + inwards * depth; };
+    const auto spot = [&](double at, double depth) { return kerb.spot(at, depth); };
     if (avenue || edge == 0 || edge == 3) {
       const int lamps = std::max(1, static_cast<int>(std::lround(length / (avenue ? 34.0 : 30.0))));
       const double phase = avenue && (edge == 1 || edge == 2) ? 0.85 : 0.35;

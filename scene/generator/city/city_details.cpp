@@ -159,7 +159,7 @@ std::vector<std::pair<dvec2, dvec2>> add_scaffold(MeshBuilder& mesh, const Walls
     for (const double far : {inner, outer}) {
       const std::vector<dvec2> corners{wall.point(at - 0.03, far - 0.02), wall.point(at, far + 0.03),
                                        wall.point(at + 0.03, far - 0.02)};
-      mesh.prism(tube, tube, corners, -0.02, snap(top_z + (far == outer ? 1.1 : 0.3)));
+      mesh.prism(tube, tube, corners, -0.02, snap(top_z + (far == outer ? 1.1 : 0.12)));
     }
   }
   for (double z = 2.5; z < top_z; z += 2.0) {
@@ -169,9 +169,9 @@ std::vector<std::pair<dvec2, dvec2>> add_scaffold(MeshBuilder& mesh, const Walls
               snap(z + 0.98), snap(z + 1.02));
   }
   std::vector<std::pair<dvec2, dvec2>> fences;
-  const int elements = static_cast<int>((to - from) / 3.5);
+  const int elements = static_cast<int>((to - from) / 3.7);
   for (int i = 0; i < std::min(elements, 4); ++i)
-    fences.emplace_back(wall.point(from + 1.8 + 3.5 * i, 0.8), wall.out);
+    fences.emplace_back(wall.point(from + 1.85 + 3.7 * i, 0.8), wall.out);
   return fences;
 }
 

@@ -293,7 +293,8 @@ void Country::add_fallen(const dvec2& where, int kind) {
     std::array<dvec3, 4> corners;
     for (size_t i = 0; i < 4; ++i) {
       const dvec2 p = snap(where + middle + 1.4 * dvec2(i == 0 || i == 3 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0));
-      corners[i] = dvec3(p, terrain_.height(p) + 0.03 + 0.01 * (draw % 3));
+      corners[i] = dvec3(p, terrain_.height(p) + 0.02 +
+                                0.003 * ((7u * static_cast<uint32_t>(tree_count_) + 5u * draw) % 17u));
     }
     add_fallen_leaves(mesh, kind, corners, draw++);
   }

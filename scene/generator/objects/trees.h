@@ -54,6 +54,16 @@ void add_leaf_body(MeshBuilder& mesh, int material, const LeafBody& body);
 /// Adds sprays around a body, which are open faces. Their normals are those of the round crown as well.
 void add_sprays(MeshBuilder& mesh, int material, const LeafBody& body, const Sprays& sprays, uint32_t seed);
 
+/// Returns a number from -1 to 1 that depends on (i, k, seed) alone.
+double uneven(int i, int k, uint32_t seed);
+/// The corners of a spray, counter-clockwise from its front, and their places in its picture.
+struct SprayCorners {
+  std::array<dvec3, 4> p;
+  std::array<dvec2, 4> uv;
+};
+/// Returns the corners of a spray with its middle at `at`, in the plane of `across` and `up` (half its width
+/// and height). `draw` picks one of the picture's four quarters.
+SprayCorners spray_corners(const dvec3& at, const dvec3& across, const dvec3& up, uint32_t draw);
 /// Adds one spray with its middle at `at`, in the plane of `across` and `up` (half its width and height).
 /// `normal` lights it, as far as it is on the spray's outside. `draw` picks its picture.
 void add_spray(MeshBuilder& mesh, int material, const dvec3& normal, const dvec3& at, const dvec3& across,

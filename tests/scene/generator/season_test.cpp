@@ -121,13 +121,13 @@ TEST(Seasons, CrownsAreBareInWinterAndConifersGreen) {
   EXPECT_EQ(texture_of(soup, "sprays_olive"), "twig_sprays");
   EXPECT_EQ(texture_of(soup, "needles"), "leaves");
   EXPECT_EQ(texture_of(load_season("country", "autumn"), "leaves_olive"), "leaves_pale");
-  // One sees through a bare crown: between an eighth and a half of the pictures is wood.
+  // One sees through a bare crown: between a twelfth and a third of the pictures is wood.
   for (const char* name : {"twigs", "twig_sprays"}) {
     const std::vector<uint8_t> alpha = generator::make_texture(name).alpha;
     const double wood =
         static_cast<double>(std::ranges::count(alpha, 255)) / static_cast<double>(alpha.size());
-    EXPECT_GT(wood, 0.125) << name;
-    EXPECT_LT(wood, 0.5) << name;
+    EXPECT_GT(wood, 1.0 / 12.0) << name;
+    EXPECT_LT(wood, 1.0 / 3.0) << name;
   }
 }
 
