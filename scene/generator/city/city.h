@@ -5,9 +5,11 @@
 #include <cstdint>
 
 #include "scene/generator/mesh/scene_writer.h"
+#include "scene/generator/mesh/seasons.h"
 
 namespace greatx::scene::generator {
 
-void write_city(SceneWriter& writer, double size_m, uint64_t seed);
+/// `writer` has the materials of the season (seasonal_library).
+void write_city(SceneWriter& writer, double size_m, uint64_t seed, Season season = Season::summer);
 
 }  // namespace greatx::scene::generator
