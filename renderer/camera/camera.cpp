@@ -58,6 +58,7 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
     throw_user_error(
         "camera {}: distortion: expected a pinhole picture of at most {} pixels along a side, found {} x {}",
         desc_.name, most, pinhole_->width, pinhole_->height);
+  if (effects_.shadow_cascades && shaded) near_shadows_ = std::make_unique<NearShadows>(lighting_->shadows());
   bound_primitives();
   sort_primitives();
   build_pipelines();
@@ -193,6 +194,7 @@ void CameraPass::build_pipelines() {
   shade.shader = multisampled() ? "camera/shade_multisampled.comp" : "camera/shade.comp";
   shade.bindings = SceneLighting::surface_bindings();
   for (const gpu::Binding& binding : SceneLighting::bindings()) shade.bindings.push_back(binding);
+  for (const gpu::Binding& binding : NearShadows::bindings()) shade.bindings.push_back(binding);
   shade.bindings.push_back({shared::lights_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   shade.bindings.push_back({shared::lens_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
   shade.bindings.push_back({shared::face_pixels_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
@@ -213,10 +215,14 @@ void CameraPass::build_pipelines() {
   shade.specialization[shared::spec_sky] = effects_.sky;
   shade.specialization[shared::spec_static_shadows] = effects_.static_shadows;
   shade.specialization[shared::spec_moving_shadows] = effects_.moving_shadows;
+  shade.specialization[shared::spec_shadow_cascades] = near_shadows_ ? near_shadows_->cascades() : 0;
   shade.specialization[shared::spec_textures] = effects_.textures && textured_;
   shade.specialization[shared::spec_normal_maps] = effects_.normal_maps && normal_mapped_;
   shade.specialization[shared::spec_emissive] = effects_.emissive && emissive_;
   shade.specialization[shared::spec_lights] = effects_.punctual_lights && !scene_->scene().lights.empty();
+  shade.specialization[shared::spec_beams] = std::ranges::any_of(
+      scene_->scene().lights,
+      [](const scene::PunctualLight& light) { return light.beam == scene::PunctualLight::Beam::passing; });
   shade.specialization[shared::spec_specular] = effects_.specular;
   shade.specialization[shared::spec_haze] = effects_.haze;
   shade.specialization[shared::spec_night_sky] = effects_.night_sky;
@@ -444,8 +450,9 @@ void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {
   cmd.end_rendering();
 }
 
-void CameraPass::draw_shadows(gpu::TickSlot& slot, const CameraView& view) const {
+void CameraPass::draw_shadows(gpu::TickSlot& slot, const CameraView& view) {
   if (!desc_.outputs.color() && !desc_.outputs.luminance) return;
+  if (near_shadows_) near_shadows_->record(slot, view.eye);
   lighting_->draw_shadows(slot, [&](const dvec3& from, const dvec3& to, double radius) {
     return view.outside(from - view.eye, to - view.eye, radius);
   });
@@ -494,6 +501,9 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view, con
   const PictureBuffers& picture = edges_ ? shaded_ : picture_;
   std::vector<gpu::Descriptor> descriptors = lighting_->surface_descriptors();
   for (const gpu::Descriptor& descriptor : lighting_->descriptors()) descriptors.push_back(descriptor);
+  for (const gpu::Descriptor& descriptor :
+       near_shadows_ ? near_shadows_->descriptors() : NearShadows::no_descriptors(lighting_->shadows()))
+    descriptors.push_back(descriptor);
   descriptors.push_back(gpu::Descriptor::buffer(shared::lights_binding, upload_lamps(slot, view)));
   descriptors.push_back(gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_));
   descriptors.push_back(gpu::Descriptor::buffer(shared::face_pixels_binding, pixels));
