@@ -41,7 +41,7 @@ const uint mark_map_binding = 31u;  // sampled: the share of the ground under ma
 const uint near_shadows_binding = 18u;
 const uint fine_shadow_binding = 19u;
 const uint middle_shadow_binding = 32u;
-const uint stars_binding = 20u;     // storage: GpuStar [star_cells, star_cells]
+const uint stars_binding = 20u;  // storage: GpuStar [star_cells, star_cells]
 // Weather and night (shaders/shared/weather.h).
 const uint weather_binding = 24u;      // uniform: GpuWeather
 const uint rain_cover_binding = 25u;   // sampled with comparison: what lies under the open sky
@@ -95,7 +95,7 @@ const uint spec_contact_occlusion = 37u;
 const uint spec_bounced_light = 38u;
 const uint spec_glass = 39u;
 const uint spec_shadow_cascades = 40u;  // their number
-const uint spec_beams = 41u;  // some lamp has a passing beam
+const uint spec_beams = 41u;            // some lamp has a passing beam
 const uint shade_spec_count = 42u;
 // These constants belong to the shadow maps.
 const uint shadow_spec_base_color_arrays = 0u;
