@@ -61,6 +61,7 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
         desc_.name, most, pinhole_->width, pinhole_->height);
   draws_ = std::make_unique<DrawList>(scene_->scene(), lighting_->surfaces().closed(), desc_.excluded_body,
                                       effects_.alpha_mask);
+  if (effects_.shadow_cascades && shaded) near_shadows_ = std::make_unique<NearShadows>(lighting_->shadows());
   build_pipelines();
   create_images();
   create_pictures();
@@ -146,6 +147,7 @@ void CameraPass::build_pipelines() {
   shade.shader = multisampled() ? "camera/shade_multisampled.comp" : "camera/shade.comp";
   shade.bindings = SceneLighting::surface_bindings();
   for (const gpu::Binding& binding : SceneLighting::bindings()) shade.bindings.push_back(binding);
+  for (const gpu::Binding& binding : NearShadows::bindings()) shade.bindings.push_back(binding);
   shade.bindings.push_back({shared::lights_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   shade.bindings.push_back({shared::lens_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
   shade.bindings.push_back({shared::face_pixels_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
@@ -166,10 +168,14 @@ void CameraPass::build_pipelines() {
   shade.specialization[shared::spec_sky] = effects_.sky;
   shade.specialization[shared::spec_static_shadows] = effects_.static_shadows;
   shade.specialization[shared::spec_moving_shadows] = effects_.moving_shadows;
+  shade.specialization[shared::spec_shadow_cascades] = near_shadows_ ? near_shadows_->cascades() : 0;
   shade.specialization[shared::spec_textures] = effects_.textures && draws_->textured();
   shade.specialization[shared::spec_normal_maps] = effects_.normal_maps && draws_->normal_mapped();
   shade.specialization[shared::spec_emissive] = effects_.emissive && draws_->emissive();
   shade.specialization[shared::spec_lights] = effects_.punctual_lights && !scene_->scene().lights.empty();
+  shade.specialization[shared::spec_beams] = std::ranges::any_of(
+      scene_->scene().lights,
+      [](const scene::PunctualLight& light) { return light.beam == scene::PunctualLight::Beam::passing; });
   shade.specialization[shared::spec_specular] = effects_.specular;
   shade.specialization[shared::spec_haze] = effects_.haze;
   shade.specialization[shared::spec_night_sky] = effects_.night_sky;
@@ -377,8 +383,9 @@ void CameraPass::draw_pieces(gpu::Cmd& cmd, const CameraView& view, const gpu::G
     cmd.draw_range(pieces[i].first_index, pieces[i].index_count, pieces[i].primitive);
 }
 
-void CameraPass::draw_shadows(gpu::TickSlot& slot, const CameraView& view) const {
+void CameraPass::draw_shadows(gpu::TickSlot& slot, const CameraView& view) {
   if (!desc_.outputs.color() && !desc_.outputs.luminance) return;
+  if (near_shadows_) near_shadows_->record(slot, view.eye);
   lighting_->draw_shadows(slot, [&](const dvec3& from, const dvec3& to, double radius) {
     return view.outside(from - view.eye, to - view.eye, radius);
   });
@@ -411,6 +418,9 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view, con
   const PictureBuffers& picture = edges_ ? shaded_ : picture_;
   std::vector<gpu::Descriptor> descriptors = lighting_->surface_descriptors();
   for (const gpu::Descriptor& descriptor : lighting_->descriptors()) descriptors.push_back(descriptor);
+  for (const gpu::Descriptor& descriptor :
+       near_shadows_ ? near_shadows_->descriptors() : NearShadows::no_descriptors(lighting_->shadows()))
+    descriptors.push_back(descriptor);
   descriptors.push_back(gpu::Descriptor::buffer(shared::lights_binding, upload_lamps(slot, view)));
   descriptors.push_back(gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_));
   descriptors.push_back(gpu::Descriptor::buffer(shared::face_pixels_binding, pixels));

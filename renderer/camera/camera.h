@@ -20,6 +20,7 @@
 #include "renderer/camera/picture.h"
 #include "renderer/lens/lens.h"
 #include "renderer/light/lighting.h"
+#include "renderer/light/near_shadow.h"
 #include "scene/device/gpu_scene.h"
 
 namespace greatx::render {
@@ -189,6 +190,8 @@ class CameraPass {
   /// view.
   uint32_t drawn() const { return drawn_; }
   uint32_t culled() const { return culled_; }
+  /// The cascades of static shadows around this camera; null without them.
+  const NearShadows* near_shadows() const { return near_shadows_.get(); }
   /// The lamps of the last record().
   const LampCounts& lamps() const { return lamps_; }
 
@@ -206,7 +209,7 @@ class CameraPass {
   gpu::Slice upload_lamps(gpu::TickSlot& slot, const CameraView& view);
   void build_faces();
   void record_faces(gpu::TickSlot& slot, const Pose& local_from_sensor, const ExposurePart& part);
-  void draw_shadows(gpu::TickSlot& slot, const CameraView& view) const;
+  void draw_shadows(gpu::TickSlot& slot, const CameraView& view);
   void record_visibility(gpu::Cmd& cmd, const CameraView& view);
   void draw_moving(gpu::Cmd& cmd, const CameraView& view);
   /// `pixels` lists those that look through this view. Without a FaceTable all do.
@@ -229,12 +232,13 @@ class CameraPass {
   gpu::Buffer mirrors_;    ///< MirrorPass: what the surfaces mirror; one element if nothing
   PictureBuffers picture_;
   gpu::Buffer seen_;
-  std::unique_ptr<EdgePass> edges_;       ///< null if not wanted
-  std::unique_ptr<MirrorPass> mirror_;    ///< null without water
-  std::unique_ptr<StreakPass> streaks_;   ///< null without rain
-  std::unique_ptr<GlarePass> glare_;      ///< null if not wanted
-  std::unique_ptr<CellPass> cells_;       ///< null if not wanted
-  std::unique_ptr<DevelopPass> develop_;  ///< null if no array is wanted
+  std::unique_ptr<NearShadows> near_shadows_;  ///< null without the effect
+  std::unique_ptr<EdgePass> edges_;            ///< null if not wanted
+  std::unique_ptr<MirrorPass> mirror_;         ///< null without water
+  std::unique_ptr<StreakPass> streaks_;        ///< null without rain
+  std::unique_ptr<GlarePass> glare_;           ///< null if not wanted
+  std::unique_ptr<CellPass> cells_;            ///< null if not wanted
+  std::unique_ptr<DevelopPass> develop_;       ///< null if no array is wanted
   std::string visibility_scope_, shade_scope_;
   uint32_t drawn_ = 0, culled_ = 0;
   LampCounts lamps_;

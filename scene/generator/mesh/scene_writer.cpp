@@ -86,7 +86,8 @@ int SceneWriter::add_light(const LightSpec& light) {
                           .intensity_cd = micro(light.intensity_cd * peak),
                           .range_m = light.range_m,
                           .inner_cone = micro(light.inner_cone),
-                          .outer_cone = micro(light.outer_cone)});
+                          .outer_cone = micro(light.outer_cone),
+                          .passing_beam = light.passing_beam});
 }
 
 const TextureMaps& SceneWriter::maps(const std::string& name) {
