@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The check of a receiver's ranges against each other, weights by strength, and how honest its covariance is in
-// the open and between walls.
+// The check of a receiver's ranges against each other, weights by strength, and how honest its covariance is
+// in the open and between walls.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -218,8 +218,8 @@ TEST(Reflections, LoseWhatFresnelsCoefficientsSay) {
   EXPECT_NEAR(weakness_factor(12.0), 10.0, 1e-12);
 }
 
-/// A street along y between walls at x = +- 8 m, of this height without end, and an antenna in it: what is hidden
-/// comes over the other wall, if its mirror image is on the wall and the wall sees the satellite.
+/// A street along y between walls at x = +- 8 m, of this height without end, and an antenna in it: what is
+/// hidden comes over the other wall, if its mirror image is on the wall and the wall sees the satellite.
 Sky walled_street(double height_m, const dvec3& at, const dvec3& velocity) {
   constexpr double half_m = 8.0;
   return [=](const dvec3& direction) {
