@@ -93,8 +93,8 @@ Gnss::Gnss(const GnssReceiver& receiver, const LocalFrame& frame, uint64_t seed,
   }
 }
 
-/// Adds the errors of one satellite, and tells the receiver their standard deviations in view, but not whether
-/// the signal came by a reflection: of that it has the strength alone.
+/// Adds the errors of one satellite, and tells the receiver their standard deviations in view, but not
+/// whether the signal came by a reflection: of that it has the strength alone.
 void Gnss::disturb(SatelliteView& view, RangeMeasurement& measurement, size_t satellite, int64_t sample) {
   const GnssErrors& e = receiver_.errors;
   Processes& p = processes_[satellite];
@@ -121,8 +121,8 @@ void Gnss::disturb(SatelliteView& view, RangeMeasurement& measurement, size_t sa
 }
 
 /// Widens the deviations of a signal that is too weak for its elevation. A wall in any direction changes the
-/// rate of a reflection by 2 v cos(a) cos(b), of mean square v^2; the receiver knows its speed well enough for
-/// that from the epochs before.
+/// rate of a reflection by 2 v cos(a) cos(b), of mean square v^2; the receiver knows its speed well enough
+/// for that from the epochs before.
 void Gnss::weigh(const SatelliteView& view, double speed, RangeMeasurement& measurement) const {
   const double factor = weakness_factor(nominal_cn0(view.elevation) - view.cn0);
   measurement.range_std_m *= factor;

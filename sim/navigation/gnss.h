@@ -4,8 +4,8 @@
 // Makes the measurements of a GNSS receiver: ranges to satellites with the errors of orbits, atmosphere,
 // multipath and receiver, and the position that follows from them.
 //
-//   constellation -> directions -> what stands in the way (Sky) -> ranges with errors, strengths -> weights ->
-//   least squares, checked by their residuals
+//   constellation -> directions -> what stands in the way (Sky) -> ranges with errors, strengths ->
+//   weights -> least squares, checked by their residuals
 #pragma once
 
 #include <array>
@@ -62,18 +62,19 @@ struct SignalPath {
   double loss_db = 0.0;      ///< of strength against the signal in view
 };
 
-/// Returns the loss in dB of a GPS signal (L1, right-hand circular) by a reflection at a wall of concrete, at an
-/// angle of incidence with this cosine, for an antenna that receives the other sense of rotation 6 dB weaker:
-/// Fresnel's coefficients for ITU-R P.2040-4's concrete (5.24, 0.0462 f^0.7822 S/m), and powers of both senses
-/// added. From 14 dB at right angles to none at grazing incidence.
+/// Returns the loss in dB of a GPS signal (L1, right-hand circular) by a reflection at a wall of concrete, at
+/// an angle of incidence with this cosine, for an antenna that receives the other sense of rotation 6 dB
+/// weaker: Fresnel's coefficients for ITU-R P.2040-4's concrete (5.24, 0.0462 f^0.7822 S/m), and powers of
+/// both senses added. From 14 dB at right angles to none at grazing incidence.
 double reflection_loss_db(double cosine);
-/// Returns the carrier-to-noise density of a satellite in view, dB-Hz: 37 + 8 sin(e), for an ordinary receiver
-/// with a patch antenna (our setting; Kaplan and Hegarty's budget, 2nd ed., section 6.2, gives 38 to 45).
+/// Returns the carrier-to-noise density of a satellite in view, dB-Hz: 37 + 8 sin(e), for an ordinary
+/// receiver with a patch antenna (our setting; Kaplan and Hegarty's budget, 2nd ed., section 6.2, gives 38 to
+/// 45).
 double nominal_cn0(double elevation);
 /// Returns the factor by which a receiver multiplies the standard deviation of a signal that is `deficit_db`
-/// weaker than nominal: 10^(a D / 20) with D = deficit - 2 dB where that is positive, and a = 2 (F. K. Brunner, H.
-/// Hartinger and L. Troyer, GPS signal diffraction modelling: the stochastic SIGMA-D model, J. Geodesy 73
-/// (1999), for the form and a; 2 dB is twice the deviation of a measured strength).
+/// weaker than nominal: 10^(a D / 20) with D = deficit - 2 dB where that is positive, and a = 2 (F. K.
+/// Brunner, H. Hartinger and L. Troyer, GPS signal diffraction modelling: the stochastic SIGMA-D model, J.
+/// Geodesy 73 (1999), for the form and a; 2 dB is twice the deviation of a measured strength).
 double weakness_factor(double deficit_db);
 
 /// Returns the extra length of the path over one plane mirror, and its derivative: 2 d (n . s) for a mirror
