@@ -18,8 +18,8 @@ std::vector<dvec2> turn_line(const dvec2& from, const dvec2& from_direction, con
                              const dvec2& to_direction);
 
 /// Returns the points of a loop with which one who leaves a street at `from` in the unit direction `out`
-/// comes back at `to`, on the left: a swerve to the right, a quarter turn and another one to the left, and straight
-/// back. Its bends have radii of 0.85 `reach_m` or more. It ends reach_m + 20 m beyond the street.
+/// comes back at `to`, on the left: a swerve to the right, a quarter turn and another one to the left, and
+/// straight back. Its bends have radii of 0.85 `reach_m` or more. It ends reach_m + 20 m beyond the street.
 std::vector<dvec2> loop_line(const dvec2& from, const dvec2& to, const dvec2& out, double reach_m);
 
 }  // namespace greatx::scene
