@@ -115,7 +115,8 @@ TEST(Traffic, BodiesReachBesideTheirWays) {
     }
     const Extent bus{9.0, 3.0, 2.75};
     const double expected = std::hypot(radius + 0.5 * bus.width_m, bus.front_m) - radius;
-    EXPECT_NEAR(reach_beside(Curve(circle), bus), expected, 0.05 / radius + 0.005) << radius;
+    const Curve curve(circle, dvec2(1.0, 0.0), dvec2(0.0, -1.0));
+    EXPECT_NEAR(reach_beside(curve, bus), expected, 0.05 / radius) << radius;
   }
   EXPECT_NEAR(reach_beside(Curve({{0, 0, 0}, {50, 20, 0}}), {9.0, 3.0, 2.75}), 1.375, 1e-9);
 }

@@ -101,7 +101,7 @@ TEST(PlaceStreets, KeepPeopleOffTheCarriageways) {
     for (size_t i = 0; i < walk.line.size(); ++i) {
       const dvec3 &a = walk.line[i], &b = walk.line[(i + 1) % walk.line.size()];
       area += 0.5 * (a.x * b.y - a.y * b.x);
-      EXPECT_GT(std::abs(a.y), 3.25 + 0.7) << "off way 1, but for half the band and the side of people";
+      EXPECT_GT(std::abs(a.y), 3.25 + 0.6) << "off way 1, but for half the band and the side of people";
     }
     EXPECT_GT(area, 0.0) << "counter-clockwise: the carriageway is on the right";
   }
