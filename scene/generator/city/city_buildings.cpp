@@ -207,7 +207,7 @@ struct Site {
   dvec2 along;
 };
 
-constexpr double scaffold_odds = 0.08;  ///< of a house without shops
+constexpr double scaffold_odds = 0.04;  ///< of a house without shops
 constexpr double ledge_m = 0.2;         ///< height of the ledge above shops
 constexpr double plinth_m = 0.75;       ///< height of the plinth, below the windows
 
