@@ -110,6 +110,7 @@ std::vector<std::byte> generate_glb(const GenerateOptions& options) {
     throw_user_error("scene generator: size of \"{}\": expected {} to {} m, found {}", kind.name,
                      kind.min_size_m, kind.max_size_m, size);
   SceneWriter writer;
+  writer.set_quick(options.quick);
   if (options.kind == "city") {
     write_city(writer, size, options.seed);
   } else if (options.kind == "country") {

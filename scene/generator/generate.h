@@ -21,6 +21,8 @@ struct GenerateOptions {
   /// the other kinds ignore it.
   double size_m = 300;
   std::string variant;  ///< one of generator_variants(kind); empty: the first of them
+  /// Packs the pictures in a hurry, for bytes that are read back at once. The model is the same.
+  bool quick = false;
 };
 
 /// Returns the bytes of a .glb in metres. The ground is at z = 0. The origin is the centre of a scene, the

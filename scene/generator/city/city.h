@@ -3,10 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "scene/generator/mesh/scene_writer.h"
 
 namespace greatx::scene::generator {
+
+/// Returns the names of the textures that every large city shows.
+std::span<const char* const> city_textures();
 
 void write_city(SceneWriter& writer, double size_m, uint64_t seed);
 
