@@ -133,8 +133,8 @@ class ContactArea {
     }
   }
   /// Whether some point of a disc may lie in it. The shader's window is 0 at all others.
-  bool meets(const dvec2& middle, double radius) const {
-    const dvec2 apart = middle - dvec2(center_);
+  bool meets(const dvec2& place, double radius) const {
+    const dvec2 apart = place - dvec2(center_);
     const dvec2 beside(glm::dot(apart, along_), apart.y * along_.x - apart.x * along_.y);
     return glm::length(glm::max(glm::abs(beside) - half_, dvec2(0.0))) <= reach_ + radius;
   }
