@@ -360,6 +360,11 @@ void add_bench(CLI::App& app) {
   command->add_option("--block", options->rig_options.block, "of --rig: ticks of a round")
       ->capture_default_str()
       ->check(integer_of(1, 1'000'000));
+  command
+      ->add_option("--bodies", options->rig_options.bodies,
+                   "of --rig: rows with so many moving cars more instead, such as 10,100 [none]")
+      ->delimiter(',')
+      ->check(integer_of(1, 1000));
   add_sight_options(*command, *options);
   add_view_options(*command, *options);
   add_suite_options(*command, *options);

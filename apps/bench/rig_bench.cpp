@@ -48,11 +48,15 @@ class Row {
     cpu_.push_back((cpu_milliseconds() - cpu_before) / double(ticks));
   }
 
+  /// The row has more than the first one, and not less.
+  void adds() { adds_ = true; }
+
   nlohmann::json result(const Row& whole) const {
     nlohmann::json row{{"name", name_}, {"wall_ms", distribution(wall_)}, {"cpu_ms", distribution(cpu_)}};
     if (this == &whole) return row;
-    row["cost_wall_ms"] = median_difference(whole.wall_, wall_);
-    row["cost_cpu_ms"] = median_difference(whole.cpu_, cpu_);
+    const double sign = adds_ ? -1.0 : 1.0;
+    row["cost_wall_ms"] = sign * median_difference(whole.wall_, wall_);
+    row["cost_cpu_ms"] = sign * median_difference(whole.cpu_, cpu_);
     return row;
   }
 
@@ -69,8 +73,26 @@ class Row {
   std::unique_ptr<io::DatasetWriter> writer_;
   Discard discard_;
   int64_t begin_ = 0;
+  bool adds_ = false;
   std::vector<double> wall_, cpu_;
 };
+
+/// Returns nodes of so many cars. They stand in rows of ten, 12 m apart, around the origin, and each drives
+/// along a curve of its own, so that its shadow changes at every tick.
+std::vector<sim::NodeConfig> moving_cars(uint32_t count, const sim::Scenario& scenario) {
+  const double seconds = double(scenario.ticks) / scenario.tick_rate_hz.value();
+  std::string text = "greatx: 1\nname: cars\nticks: 1\ntick_rate_hz: 1\nnodes:\n";
+  for (uint32_t i = 0; i < count; ++i) {
+    const double x = 12.0 * (i / 10) - 60.0, y = 12.0 * (i % 10) - 54.0, aside = i % 2 == 0 ? 2.0 : -2.0;
+    text += fmt::format(
+        "  - name: bench_car_{}\n    model: {{generate: {{kind: car}}}}\n    class: vehicle\n"
+        "    trajectory: {{type: waypoints, interpolation: smooth, points: [{{t_s: 0, position_m: [{}, {}, "
+        "0]}},"
+        " {{t_s: {}, position_m: [{}, {}, 0]}}, {{t_s: {}, position_m: [{}, {}, 0]}}]}}\n",
+        i, x, y, 0.5 * seconds, x + 8.0, y + aside, seconds, x + 16.0, y - aside);
+  }
+  return sim::parse_scenario(text, "bench --bodies", ".").nodes;
+}
 
 class Bench {
  public:
@@ -89,6 +111,7 @@ class Bench {
   }
 
   void add_rows() {
+    if (!options_.bodies.empty()) return add_bodies();
     add("all, written", scenario_, true);
     add("nothing written", scenario_, false);
     for (size_t n = 0; n < scenario_.nodes.size(); ++n)
@@ -132,11 +155,22 @@ class Bench {
   }
 
  private:
-  void add(std::string name, sim::Scenario scenario, bool written) {
+  void add(std::string name, sim::Scenario scenario, bool written,
+           std::shared_ptr<const sim::World> world = nullptr) {
     const std::filesystem::path folder =
         written ? scratch_.path() / std::to_string(rows_.size()) : std::filesystem::path();
-    rows_.push_back(std::make_unique<Row>(device_, std::move(name),
-                                          sim::make_experiment(std::move(scenario), world_), folder));
+    rows_.push_back(std::make_unique<Row>(
+        device_, std::move(name), sim::make_experiment(std::move(scenario), world ? world : world_), folder));
+  }
+
+  void add_bodies() {
+    for (const uint32_t count : options_.bodies) {
+      sim::Scenario with = scenario_;
+      for (sim::NodeConfig& car : moving_cars(count, scenario_)) with.nodes.push_back(std::move(car));
+      auto world = std::make_shared<const sim::World>(sim::load_world(with));
+      add(fmt::format("{} moving cars more", count), std::move(with), true, std::move(world));
+      if (rows_.size() > 1) rows_.back()->adds();
+    }
   }
 
   RigBenchOptions options_;

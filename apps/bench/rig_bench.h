@@ -5,7 +5,9 @@
 // each sensor and channel in it.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -17,6 +19,8 @@ struct RigBenchOptions {
   int64_t warm_up = 5;  ///< first ticks of each row, not measured
   uint32_t rounds = 4;  ///< measured rounds of each row
   int64_t block = 8;    ///< ticks of a round
+  /// Numbers of moving cars that are added to the scenario, a row each. Empty: rows without each sensor.
+  std::vector<uint32_t> bodies;
 };
 
 /// Returns one JSON object with scenario, device, driver, cores of the host, block, rounds and `rows`. A row
@@ -24,6 +28,8 @@ struct RigBenchOptions {
 /// commands until its files are on disk. The first row is the whole scenario. The second one writes nothing.
 /// Each further row leaves out one sensor or channel. All rows but the first have `cost_wall_ms` and
 /// `cost_cpu_ms`: the median over the rounds of how much more time the whole scenario took in the same round.
+/// With `bodies` the rows are the scenario with so many cars that drive and turn around the origin of the
+/// world, and the costs are how much more time a row took than the first one.
 ///
 /// The rows take turns, a block of ticks at a time, in an order that is reversed every second round. Between
 /// blocks no tick is in flight, so the time of a block includes one tick that overlaps with no other. The

@@ -206,8 +206,9 @@ bool quantise(std::span<const uint8_t> rgb, int bits, Palette& palette) {
 }
 
 /// Encodes RGB by libpng's simplified interface, with a palette if 256 colours suffice after dropping at most
-/// `most_dropped_bits` bits per channel.
-Bytes encode_small(const Layout& layout, std::span<const uint8_t> rgb, int most_dropped_bits) {
+/// `most_dropped_bits` bits per channel. `flags` are those of png_image.
+Bytes encode_small(const Layout& layout, std::span<const uint8_t> rgb, int most_dropped_bits,
+                   uint32_t flags) {
   Palette palette;
   bool indexed = false;
   for (int bits = 0; bits <= most_dropped_bits && !indexed; ++bits) indexed = quantise(rgb, bits, palette);
@@ -217,6 +218,7 @@ Bytes encode_small(const Layout& layout, std::span<const uint8_t> rgb, int most_
   image.width = layout.width;
   image.height = layout.height;
   image.format = indexed ? PNG_FORMAT_RGB_COLORMAP : PNG_FORMAT_RGB;
+  image.flags = flags;
   image.colormap_entries = static_cast<uint32_t>(palette.colors.size() / 3);
   const uint8_t* const pixels = indexed ? palette.indices.data() : rgb.data();
   const auto row_stride = static_cast<png_int_32>(indexed ? layout.width : 3 * layout.width);
@@ -231,7 +233,7 @@ Bytes encode_small(const Layout& layout, std::span<const uint8_t> rgb, int most_
 
 /// Encodes RGB with alpha by libpng's simplified interface, after dropping so many bits of red, green and
 /// blue.
-Bytes encode_small_alpha(const Array& image, int dropped_bits) {
+Bytes encode_small_alpha(const Array& image, int dropped_bits, uint32_t flags) {
   GREATX_CHECK(image.shape[0] > 0 && image.shape[1] > 0 && image.shape[0] <= largest_side &&
                    image.shape[1] <= largest_side,
                "image of {} x {} pixels", image.shape[1], image.shape[0]);
@@ -245,6 +247,7 @@ Bytes encode_small_alpha(const Array& image, int dropped_bits) {
   out_image.width = static_cast<uint32_t>(image.shape[1]);
   out_image.height = static_cast<uint32_t>(image.shape[0]);
   out_image.format = PNG_FORMAT_RGBA;
+  out_image.flags = flags;
   Bytes out(PNG_IMAGE_PNG_SIZE_MAX(out_image));
   size_t size = out.size();
   const int written = png_image_write_to_memory(&out_image, out.data(), &size, 0, pixels.data(), 0, nullptr);
@@ -271,14 +274,16 @@ void depth24_codes(const float* metres, size_t count, uint32_t* codes) {
 
 Bytes encode_png(const Array& image, PngCoding coding) {
   const bool rgb = image.shape.size() == 3;
-  if (coding == PngCoding::small || coding == PngCoding::small_inexact) {
+  const bool quick = coding == PngCoding::quick || coding == PngCoding::quick_inexact;
+  const bool inexact = coding == PngCoding::small_inexact || coding == PngCoding::quick_inexact;
+  if (quick || inexact || coding == PngCoding::small) {
     GREATX_CHECK(rgb && image.dtype == DType::u8, "{} of {} axes", numpy_name(image.dtype),
                  image.shape.size());
-    constexpr int most_dropped_bits = 3;
-    if (image.shape[2] == 4)
-      return encode_small_alpha(image, coding == PngCoding::small_inexact ? most_dropped_bits : 0);
-    return encode_small(layout_of(image, 8, PNG_COLOR_TYPE_RGB), image.as<uint8_t>(),
-                        coding == PngCoding::small_inexact ? most_dropped_bits : 0);
+    const int most_dropped_bits = inexact ? 3 : 0;
+    const uint32_t flags = quick ? PNG_IMAGE_FLAG_FAST : 0;
+    if (image.shape[2] == 4) return encode_small_alpha(image, most_dropped_bits, flags);
+    return encode_small(layout_of(image, 8, PNG_COLOR_TYPE_RGB), image.as<uint8_t>(), most_dropped_bits,
+                        flags);
   }
   const int level = coding == PngCoding::matched ? matched_level : 0;
   switch (image.dtype) {

@@ -20,11 +20,13 @@ enum class PngCoding {
   /// As `small`, but drops up to 3 of the lowest bits of each channel if the picture has more than 256
   /// colours. It drops as few bits as possible. If 3 bits are not enough, the picture stays exact.
   small_inexact,
+  quick,          ///< as `small`, but packed in a hurry: for a file that is read back at once
+  quick_inexact,  ///< as `small_inexact`, with the same pixels, packed in a hurry
 };
 
 /// Encodes u8 [h, w, 3] as 8-bit RGB, u8 [h, w] as 8-bit grey, and u16 [h, w] or u32 [h, w] as 16-bit grey.
-/// Throws UserError if a u32 value does not fit into 16 bits. `small` and `small_inexact` accept RGB, and u8
-/// [h, w, 4] as 8-bit RGB with alpha, which has no palette and of which `small_inexact` drops 3 bits.
+/// Throws UserError if a u32 value does not fit into 16 bits. `small` and those below it accept RGB, and u8
+/// [h, w, 4] as 8-bit RGB with alpha, which has no palette and of which the inexact ones drop 3 bits.
 Bytes encode_png(const Array& image, PngCoding coding = PngCoding::fast);
 /// Decodes 8-bit RGB, 8-bit grey and 16-bit grey without interlacing. `name` is the file's name in messages.
 /// Throws UserError for every other file, for everything that libpng reports as an error or a warning, and

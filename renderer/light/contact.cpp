@@ -116,6 +116,52 @@ ContactGrid grid_around(std::span<const dvec3> centers, std::span<const double> 
   return grid;
 }
 
+/// The part of the level plane above and below which a box may hide anything: a rectangle around the box and
+/// what is within its reach of it.
+class ContactArea {
+ public:
+  ContactArea(const ContactBox& box, const Pose& pose, const dvec3& center)
+      : center_(center), reach_(box.reach + slack_m) {
+    const dvec2 level(pose.rotate({1.0, 0.0, 0.0}));
+    const double length = glm::length(level);
+    if (length > 1e-6) along_ = level / length;
+    for (int axis = 0; axis < 3; ++axis) {
+      dvec3 side(0.0);
+      side[axis] = box.half_size[axis];
+      const dvec2 turned(pose.rotate(side));
+      half_ += glm::abs(dvec2(glm::dot(turned, along_), turned.y * along_.x - turned.x * along_.y));
+    }
+  }
+  /// Whether some point of a disc may lie in it. The shader's window is 0 at all others.
+  bool meets(const dvec2& place, double radius) const {
+    const dvec2 apart = place - dvec2(center_);
+    const dvec2 beside(glm::dot(apart, along_), apart.y * along_.x - apart.x * along_.y);
+    return glm::length(glm::max(glm::abs(beside) - half_, dvec2(0.0))) <= reach_ + radius;
+  }
+
+ private:
+  static constexpr double slack_m = 0.02;  ///< for the shader's roundings
+  dvec3 center_;
+  double reach_;
+  dvec2 along_{1.0, 0.0}, half_{0.0};
+};
+
+/// Calls visit(index) for the cells in which a box may hide something.
+template <typename Visit>
+void over_cells(const ContactGrid& grid, const ContactArea& area, const dvec3& center, double radius,
+                const Visit& visit) {
+  const dvec2 low = (dvec2(center) - radius - grid.corner) / grid.cell_m,
+              high = (dvec2(center) + radius - grid.corner) / grid.cell_m;
+  const auto last = [](double x, uint32_t count) {
+    return std::min(static_cast<uint32_t>(std::max(x, 0.0)), count - 1);
+  };
+  const double half_diagonal = std::sqrt(0.5) * grid.cell_m;
+  for (uint32_t row = last(low.y, grid.rows); row <= last(high.y, grid.rows); ++row)
+    for (uint32_t column = last(low.x, grid.columns); column <= last(high.x, grid.columns); ++column)
+      if (area.meets(grid.corner + grid.cell_m * dvec2(column + 0.5, row + 0.5), half_diagonal))
+        visit(size_t{row} * grid.columns + column);
+}
+
 void put_contact_box(std::vector<uint32_t>& words, const ContactBox& box, const Pose& pose,
                      const dvec3& center, double radius) {
   const auto put = [&](const dvec3& value, double fourth) {
@@ -161,41 +207,38 @@ std::vector<ContactBox> contact_boxes(const scene::Scene& scene) {
 std::vector<uint32_t> contact_words(std::span<const ContactBox> boxes, std::span<const Pose> body_poses) {
   std::vector<dvec3> centers;
   std::vector<double> radii;
+  std::vector<ContactArea> areas;
   for (const ContactBox& box : boxes) {
-    centers.push_back(body_poses[box.body].apply(box.center));
+    const Pose& pose = body_poses[box.body];
+    centers.push_back(pose.apply(box.center));
     radii.push_back(glm::length(box.half_size) + box.reach);
+    areas.emplace_back(box, pose, centers.back());
   }
   const ContactGrid grid = grid_around(centers, radii);
-  std::vector<std::vector<uint32_t>> cells(size_t{grid.columns} * grid.rows);
-  for (uint32_t i = 0; i < boxes.size(); ++i) {
-    const dvec2 low = (dvec2(centers[i]) - radii[i] - grid.corner) / grid.cell_m,
-                high = (dvec2(centers[i]) + radii[i] - grid.corner) / grid.cell_m;
-    const auto last = [](double x, uint32_t count) {
-      return std::min(static_cast<uint32_t>(std::max(x, 0.0)), count - 1);
-    };
-    for (uint32_t row = last(low.y, grid.rows); row <= last(high.y, grid.rows); ++row)
-      for (uint32_t column = last(low.x, grid.columns); column <= last(high.x, grid.columns); ++column)
-        cells[size_t{row} * grid.columns + column].push_back(i);
-  }
-  size_t entries = 0;
-  for (const std::vector<uint32_t>& cell : cells) entries += cell.size();
-  const size_t lists = shared::contact_header_words + 2 * cells.size();
-  const auto first_box = static_cast<uint32_t>((lists + entries + 3) / 4);  // quadruples
-  std::vector<uint32_t> words(shared::contact_header_words);
+  // Counts the boxes of each cell, and then puts them in their places.
+  std::vector<uint32_t> counts(size_t{grid.columns} * grid.rows, 0);
+  for (size_t i = 0; i < boxes.size(); ++i)
+    over_cells(grid, areas[i], centers[i], radii[i], [&](size_t cell) { ++counts[cell]; });
+  const size_t lists = shared::contact_header_words + 2 * counts.size();
+  std::vector<uint32_t> words(lists);
   words[shared::contact_corner_word] = std::bit_cast<uint32_t>(float(grid.corner.x));
   words[shared::contact_corner_word + 1] = std::bit_cast<uint32_t>(float(grid.corner.y));
   words[shared::contact_inverse_word] = std::bit_cast<uint32_t>(float(1.0 / grid.cell_m));
   words[shared::contact_columns_word] = grid.columns;
   words[shared::contact_rows_word] = grid.rows;
   size_t entry = lists;
-  for (const std::vector<uint32_t>& cell : cells) {
-    words.push_back(static_cast<uint32_t>(entry));
-    words.push_back(static_cast<uint32_t>(cell.size()));
-    entry += cell.size();
+  for (size_t cell = 0; cell < counts.size(); ++cell) {
+    words[shared::contact_header_words + 2 * cell] = static_cast<uint32_t>(entry);
+    entry += counts[cell];
   }
-  for (const std::vector<uint32_t>& cell : cells)
-    for (const uint32_t i : cell) words.push_back(first_box + shared::contact_box_quads * i);
+  const auto first_box = static_cast<uint32_t>((entry + 3) / 4);  // quadruples
   words.resize(size_t{4} * first_box);
+  words.reserve(words.size() + size_t{4} * shared::contact_box_quads * boxes.size());
+  for (uint32_t i = 0; i < boxes.size(); ++i)
+    over_cells(grid, areas[i], centers[i], radii[i], [&](size_t cell) {
+      const size_t at = shared::contact_header_words + 2 * cell;
+      words[words[at] + words[at + 1]++] = first_box + shared::contact_box_quads * i;
+    });
   for (uint32_t i = 0; i < boxes.size(); ++i)
     put_contact_box(words, boxes[i], body_poses[boxes[i].body], centers[i], radii[i]);
   return words;

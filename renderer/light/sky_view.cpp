@@ -73,19 +73,22 @@ class Raiser {
   HeightField& field_;
 };
 
-/// Holds the places where a horizon is looked up, from a cell's middle. They are the same for all cells of a
-/// field.
+/// Holds the places where a horizon is looked up, from a cell's middle and in cells. They are the same for
+/// all cells of a field.
 struct Looks {
-  explicit Looks(double cell_m) {
-    for (double distance = cell_m; distance < farthest_m; distance = distance * step_growth + 0.1)
+  explicit Looks(const HeightField& field) {
+    for (double distance = field.cell_m; distance < farthest_m; distance = distance * step_growth + 0.1)
       distances.push_back(distance);
     for (int k = 0; k < azimuths; ++k) {
       const double azimuth = (k + 0.5) * 2.0 * pi / azimuths;
-      along[k] = {std::cos(azimuth), std::sin(azimuth)};
+      const dvec2 along(std::cos(azimuth), std::sin(azimuth));
+      for (const double distance : distances) steps[k].push_back(along * (distance / field.cell_m));
     }
+    for (const float height : field.heights) highest = std::max(highest, height);
   }
   std::vector<double> distances;
-  std::array<dvec2, azimuths> along;
+  std::array<std::vector<dvec2>, azimuths> steps;
+  float highest = 0.0f;  ///< of the whole field
 };
 
 /// Returns the shares of the sky at several heights above a cell's floor: 1 - mean of sin^2 of the horizon.
@@ -93,11 +96,18 @@ template <size_t N>
 std::array<double, N> shares(const HeightField& field, const Looks& looks, uint32_t column, uint32_t row,
                              const std::array<double, N>& above) {
   const double floor = field.heights[size_t{row} * field.width + column];
+  const double most_rise = looks.highest - floor;
   std::array<double, N> hidden{};
-  for (const dvec2& along : looks.along) {
+  for (const std::vector<dvec2>& steps : looks.steps) {
     std::array<double, N> steepest{};  // tangent of the horizon
-    for (const double distance : looks.distances) {
-      const dvec2 cell = dvec2(column + 0.5, row + 0.5) + along * (distance / field.cell_m);
+    for (size_t step = 0; step < steps.size(); ++step) {
+      const double distance = looks.distances[step];
+      // The highest cell that there is, here or farther off, would not raise any of the horizons.
+      const auto raises = [&](size_t n) { return (most_rise - above[n]) / distance > steepest[n]; };
+      bool any = false;
+      for (size_t n = 0; n < N; ++n) any = any || raises(n);
+      if (!any) break;
+      const dvec2 cell = dvec2(column + 0.5, row + 0.5) + steps[step];
       if (cell.x < 0.0 || cell.y < 0.0 || cell.x >= field.width || cell.y >= field.height) break;
       const double rise =
           field.heights[static_cast<size_t>(cell.y) * field.width + static_cast<size_t>(cell.x)] - floor;
@@ -139,11 +149,11 @@ HeightField height_field(const scene::Scene& scene, uint32_t edge) {
 }
 
 double sky_share(const HeightField& field, uint32_t column, uint32_t row, double above) {
-  return shares<1>(field, Looks(field.cell_m), column, row, {above})[0];
+  return shares<1>(field, Looks(field), column, row, {above})[0];
 }
 
 std::vector<uint16_t> sky_view_texels(const HeightField& field) {
-  const Looks looks(field.cell_m);
+  const Looks looks(field);
   std::vector<uint16_t> texels(4 * field.heights.size());
   parallel_for(field.height, 0, [&](size_t row) {
     for (uint32_t column = 0; column < field.width; ++column) {

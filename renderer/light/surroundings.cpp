@@ -152,30 +152,91 @@ double lamp_lux(const scene::PunctualLight& lamp, const dvec3& apart) {
 
 constexpr int gather_azimuths = 16, gather_bands = 24;
 
-/// Light from bands of equal sine of elevation in one azimuth. What comes first along the azimuth hides what
-/// comes later.
+/// Returns the sine of elevation at a place among the bands, which have equal steps of it.
+double sine_of(double band) { return 2.0 * band / gather_bands - 1.0; }
+
+/// Returns the band in which the tangent of an elevation lies.
+int band_of(double slope) {
+  const double sine = slope / std::sqrt(1.0 + slope * slope), place = 0.5 * (sine + 1.0) * gather_bands;
+  // This is std::lround of a number that is not negative.
+  const int whole = static_cast<int>(place);
+  return whole + static_cast<int>(place - whole >= 0.5);
+}
+
+/// Returns what a band's radiance counts in the sum: Y00^2 = 1 / 4 pi, Y1m^2 = 3 / 4 pi; the cosine lobe's
+/// factors over pi are 1 and 2/3.
+dvec3 weighted(const dvec3& radiance) {
+  return radiance * (4.0 * pi / (gather_azimuths * gather_bands)) / (4.0 * pi);
+}
+
+/// Light from the bands of one azimuth, weighted. What comes first along the azimuth hides what comes later.
 class Bands {
  public:
-  /// Fills the free bands between two slopes (tangents of elevation).
-  void fill(double low, double high, const dvec3& radiance) {
-    const int first = band_of(low), last = band_of(high);
-    for (int i = first; i < last; ++i) {
-      if (filled_[i]) continue;
-      filled_[i] = true;
-      radiance_[i] = radiance;
-    }
+  /// Fills the free bands between two slopes with the radiance that `radiance` returns. It is not called if
+  /// no such band is free.
+  template <typename Radiance>
+  void fill(double low, double high, const Radiance& radiance) {
+    const uint32_t below_low = below(low), below_high = below(high),
+                   fresh = below_high & ~below_low & ~filled_;
+    if (fresh == 0) return;
+    filled_ |= fresh;
+    const dvec3 light = weighted(radiance());
+    for (uint32_t left = fresh; left != 0; left &= left - 1)
+      light_[static_cast<size_t>(std::countr_zero(left))] = light;
   }
-  bool filled(int i) const { return filled_[i]; }
-  const dvec3& radiance(int i) const { return radiance_[i]; }
-  static double sine_of(double band) { return 2.0 * band / gather_bands - 1.0; }
+  bool filled(int band) const { return (filled_ >> band & 1u) != 0; }
+  const dvec3& light(int band) const { return light_[static_cast<size_t>(band)]; }
+  /// Whether no band below a slope, which is not negative, is free.
+  bool full_below(double slope) {
+    constexpr uint32_t below_horizon = (1u << gather_bands / 2) - 1u;
+    return (below_horizon & ~filled_) == 0 && (below(slope) & ~filled_) == 0;
+  }
 
  private:
-  static int band_of(double slope) {
-    const double sine = slope / std::sqrt(1.0 + slope * slope);
-    return static_cast<int>(std::lround(0.5 * (sine + 1.0) * gather_bands));
+  /// Returns the bands below that of a slope, a bit each. The two slopes that were asked for last are known:
+  /// level ground ends at the slope at which it goes on in the next cell, and the parts of a wall meet.
+  uint32_t below(double slope) {
+    for (const Known& known : known_)
+      if (known.slope == slope) return known.below;
+    Known& known = known_[next_ ^= 1u];
+    known = {slope, (1u << band_of(slope)) - 1u};
+    return known.below;
   }
-  std::array<bool, gather_bands> filled_{};
-  std::array<dvec3, gather_bands> radiance_{};
+  struct Known {
+    double slope = 1e300;
+    uint32_t below = (1u << gather_bands) - 1u;
+  };
+  std::array<Known, 2> known_;
+  uint32_t next_ = 0, filled_ = 0;
+  std::array<dvec3, gather_bands> light_;
+};
+
+/// The places at which a gathering looks, from the place's own, in cells. They are the same for all places of
+/// a field.
+struct GatherLooks {
+  explicit GatherLooks(double cell_m) {
+    for (double distance = 0.6 * cell_m; distance < 150.0; distance = distance * 1.2 + 0.1)
+      distances.push_back(distance);
+    for (int k = 0; k < gather_azimuths; ++k) {
+      const double azimuth = (k + 0.5) * 2.0 * pi / gather_azimuths;
+      along[k] = {std::cos(azimuth), std::sin(azimuth)};
+      for (const double distance : distances) steps[k].push_back(along[k] * (distance / cell_m));
+    }
+  }
+  std::vector<double> distances;
+  std::array<dvec2, gather_azimuths> along;
+  std::array<std::vector<dvec2>, gather_azimuths> steps;
+};
+
+/// The directions of the middles of bands.
+struct BandDirections {
+  BandDirections() {
+    for (int i = 0; i < gather_bands; ++i) {
+      sine[i] = sine_of(i + 0.5);
+      level[i] = std::sqrt(1.0 - sine[i] * sine[i]);
+    }
+  }
+  std::array<double, gather_bands> sine, level;
 };
 
 }  // namespace
@@ -184,6 +245,10 @@ Surroundings::Surroundings(const scene::Scene& scene, const HeightField& field, 
                            std::span<const scene::PunctualLight> lamps)
     : field_(&field), light_(light), cells_(field.heights.size()) {
   paint(scene);
+  for (const SurroundingCell& cell : cells_) {
+    columns_.push_back({cell.top, cell.bottom, cell.ground});
+    most_top_ = std::max(most_top_, cell.top);
+  }
   cast_shadows();
   for (int round = 0; round < 4; ++round) thicken_walls();
   shine(lamps);
@@ -263,15 +328,13 @@ void Surroundings::thicken_walls() {
 void Surroundings::cast_shadows() {
   const dvec2 level(light_.key_direction);
   const double across = glm::length(level);
-  float most = 0.0f;
-  for (const SurroundingCell& cell : cells_) most = std::max(most, cell.top);
   const double rise = light_.key_direction.z / std::max(across, 1e-6);
   const dvec2 step = across > 1e-6 ? level / across : dvec2(1.0, 0.0);
   parallel_for(field_->height, 0, [&](size_t row) {
     for (uint32_t column = 0; column < field_->width; ++column) {
       SurroundingCell& cell = cells_[row * field_->width + column];
       cell.shadow = -1e4f;
-      for (double away = 1.0; away * field_->cell_m * rise < most; away += 1.0) {
+      for (double away = 1.0; away * field_->cell_m * rise < most_top_; away += 1.0) {
         const dvec2 at = dvec2(column + 0.5, double(row) + 0.5) + step * away;
         if (at.x < 0.0 || at.y < 0.0 || at.x >= field_->width || at.y >= field_->height) break;
         const float top = cells_[static_cast<size_t>(at.y) * field_->width + static_cast<size_t>(at.x)].top;
@@ -318,44 +381,62 @@ dvec3 Surroundings::wall_radiance(const SurroundingCell& cell, double height) co
   return cell.wall_albedo / pi * (light_.key_lux * facing * lit + light_.sky_lux * (0.5 * wall_sky_share));
 }
 
+/// Fills the bands of one azimuth with what a point sees.
+template <typename Bands, typename Looks>
+void Surroundings::look_along(const dvec2& middle, double height, const Looks& looks, int azimuth,
+                              Bands& bands) const {
+  const dvec2& along = looks.along[azimuth];
+  double nearer = 1e-3;  // m
+  for (size_t step = 0; step < looks.distances.size(); ++step) {
+    const double distance = looks.distances[step];
+    const dvec2 at = middle + looks.steps[azimuth][step];
+    if (at.x < 0.0 || at.y < 0.0 || at.x >= field_->width || at.y >= field_->height) break;
+    const size_t i = static_cast<size_t>(at.y) * field_->width + static_cast<size_t>(at.x);
+    const CellColumn& column = columns_[i];
+    // From above, the ground fills the slopes between its nearer and its farther rim.
+    const double ground = column.ground - height;
+    if (ground < 0.0) bands.fill(ground / nearer, ground / distance, [&] { return ground_radiance_[i]; });
+    if (column.top > column.ground + low_m) {
+      const double middle_height = 0.5 * (std::max<double>(column.bottom, column.ground) + column.top);
+      const double low = (column.bottom - height) / distance, high = (column.top - height) / distance;
+      const SurroundingCell& cell = cells_[i];
+      // The lower and the upper half of a wall may lie in shadow and in light.
+      const auto half = [&](double at_height) {
+        const bool faces = glm::dot(cell.wall_normal, along) < 0.0 || cell.wall_normal == dvec2(0.0);
+        return faces ? wall_radiance(cell, at_height) : dvec3(0.0);
+      };
+      bands.fill(low, (middle_height - height) / distance,
+                 [&] { return half(0.5 * (cell.bottom + middle_height)); });
+      bands.fill((middle_height - height) / distance, high,
+                 [&] { return half(0.5 * (middle_height + cell.top)); });
+      if (high < 0.0)
+        bands.fill(high, (cell.top - height) / (distance * 1.2 + 0.1), [&] { return top_radiance_[i]; });
+    }
+    // What comes farther on is below the horizon, or below the slope of the highest top at this distance.
+    if (bands.full_below(std::max(most_top_ - height, 0.0) / distance)) break;
+    nearer = distance;
+  }
+}
+
 BouncedLight Surroundings::gather(const dvec2& place, double height) const {
+  return gather_with(GatherLooks(field_->cell_m), place, height);
+}
+
+template <typename Looks>
+BouncedLight Surroundings::gather_with(const Looks& looks, const dvec2& place, double height) const {
+  static const BandDirections directions;
+  const dvec3 beyond = weighted(light_.beyond);
   BouncedLight result;
   const dvec2 middle = (place - field_->corner) / field_->cell_m;
   for (int k = 0; k < gather_azimuths; ++k) {
-    const double azimuth = (k + 0.5) * 2.0 * pi / gather_azimuths;
-    const dvec2 along(std::cos(azimuth), std::sin(azimuth));
     Bands bands;
-    double nearer = 1e-3;  // m
-    for (double distance = 0.6 * field_->cell_m; distance < 150.0; distance = distance * 1.2 + 0.1) {
-      const dvec2 at = middle + along * (distance / field_->cell_m);
-      if (at.x < 0.0 || at.y < 0.0 || at.x >= field_->width || at.y >= field_->height) break;
-      const size_t i = static_cast<size_t>(at.y) * field_->width + static_cast<size_t>(at.x);
-      const SurroundingCell& cell = cells_[i];
-      // From above, the ground fills the slopes between its nearer and its farther rim.
-      const double ground = cell.ground - height;
-      if (ground < 0.0) bands.fill(ground / nearer, ground / distance, ground_radiance_[i]);
-      if (cell.top > cell.ground + low_m) {
-        const double middle_height = 0.5 * (std::max<double>(cell.bottom, cell.ground) + cell.top);
-        const double low = (cell.bottom - height) / distance, high = (cell.top - height) / distance;
-        const bool faces = glm::dot(cell.wall_normal, along) < 0.0 || cell.wall_normal == dvec2(0.0);
-        // The lower and the upper half of a wall may lie in shadow and in light.
-        const dvec3 lower = faces ? wall_radiance(cell, 0.5 * (cell.bottom + middle_height)) : dvec3(0.0),
-                    upper = faces ? wall_radiance(cell, 0.5 * (middle_height + cell.top)) : dvec3(0.0);
-        bands.fill(low, (middle_height - height) / distance, lower);
-        bands.fill((middle_height - height) / distance, high, upper);
-        if (high < 0.0) bands.fill(high, (cell.top - height) / (distance * 1.2 + 0.1), top_radiance_[i]);
-      }
-      nearer = distance;
-    }
+    look_along(middle, height, looks, k, bands);
     for (int i = 0; i < gather_bands; ++i) {
-      const double sine = Bands::sine_of(i + 0.5), level = std::sqrt(1.0 - sine * sine);
-      if (!bands.filled(i) && sine > 0.0) continue;
-      const dvec3 radiance = bands.filled(i) ? bands.radiance(i) : light_.beyond;
-      // Y00^2 = 1 / 4 pi, Y1m^2 = 3 / 4 pi; the cosine lobe's factors over pi are 1 and 2/3.
-      const dvec3 weighted = radiance * (4.0 * pi / (gather_azimuths * gather_bands)) / (4.0 * pi);
-      const dvec3 direction(along * level, sine);
-      result.constant += weighted;
-      for (int axis = 0; axis < 3; ++axis) result.along[axis] += weighted * (2.0 * direction[axis]);
+      if (!bands.filled(i) && directions.sine[i] > 0.0) continue;
+      const dvec3& light = bands.filled(i) ? bands.light(i) : beyond;
+      const dvec3 direction(looks.along[k] * directions.level[i], directions.sine[i]);
+      result.constant += light;
+      for (int axis = 0; axis < 3; ++axis) result.along[axis] += light * (2.0 * direction[axis]);
     }
   }
   return result;
@@ -399,7 +480,7 @@ std::vector<uint32_t> Surroundings::words() const {
   header.place_rows = std::max(2u, field_->height / shared::surroundings_place_cells);
   header.first_place = static_cast<uint32_t>(shared::surroundings_header_pairs +
                                              shared::surroundings_cell_pairs * cells_.size());
-  for (const SurroundingCell& cell : cells_) header.most_top = std::max(header.most_top, cell.top);
+  header.most_top = most_top_;
   header.key_direction = vec3(light_.key_direction);
   header.key_over_pi = vec3(light_.key_lux / pi);
   header.wall_sky = vec3(light_.sky_lux * (0.5 * wall_sky_share / pi));
@@ -480,6 +561,7 @@ void put_place(std::vector<uint32_t>& words, const BouncedPlace& place) {
 
 void Surroundings::put_places(std::vector<uint32_t>& words, uint32_t columns, uint32_t rows) const {
   std::vector<BouncedPlace> places(size_t{columns} * rows);
+  const GatherLooks looks(field_->cell_m);
   parallel_for(rows, 0, [&](size_t row) {
     for (uint32_t column = 0; column < columns; ++column) {
       const dvec2 at = (dvec2(column, double(row)) + 0.5) * double(shared::surroundings_place_cells);
@@ -490,8 +572,8 @@ void Surroundings::put_places(std::vector<uint32_t>& words, uint32_t columns, ui
       place.free = !cells_[i].stands() || cells_[i].bottom > cells_[i].ground;
       if (!place.free) continue;
       const dvec2 middle = field_->corner + at * field_->cell_m;
-      place.low = gather(middle, place.ground + double(shared::surroundings_low));
-      place.high = gather(middle, place.ground + double(shared::surroundings_high));
+      place.low = gather_with(looks, middle, place.ground + double(shared::surroundings_low));
+      place.high = gather_with(looks, middle, place.ground + double(shared::surroundings_high));
     }
   });
   // Surfaces at the rim of a house look up places behind it, too.

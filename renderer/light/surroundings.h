@@ -76,10 +76,21 @@ class Surroundings {
   void shine(std::span<const scene::PunctualLight> lamps);
   std::vector<uint16_t> distances() const;
   void put_places(std::vector<uint32_t>& words, uint32_t columns, uint32_t rows) const;
+  template <typename Bands, typename Looks>
+  void look_along(const dvec2& middle, double height, const Looks& looks, int azimuth, Bands& bands) const;
+  template <typename Looks>
+  BouncedLight gather_with(const Looks& looks, const dvec2& place, double height) const;
+
+  /// What a gathering reads of each cell at which it looks, apart from the rest so that it stays in caches.
+  struct CellColumn {
+    float top, bottom, ground;
+  };
 
   const HeightField* field_;
   SurroundingLight light_;
   std::vector<SurroundingCell> cells_;
+  std::vector<CellColumn> columns_;
+  float most_top_ = 0.0f;  ///< the highest top
   std::vector<dvec3> top_radiance_, ground_radiance_;
 };
 

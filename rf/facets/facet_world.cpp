@@ -27,6 +27,7 @@ FacetWorld::FacetWorld(const scene::Scene& scene) : motions_(std::max<size_t>(1,
   facets_.reserve(scene.facets.size());
   outlines->facets.reserve(scene.facets.size());
   outlines->triangles.reserve(scene.facet_triangles.size());
+  outlines->corners.reserve(scene.facet_triangles.size());
   for (const scene::Facet& facet : scene.facets) add(scene, facet, *outlines);
   for (uint32_t body = 0; body <= motions_.size(); ++body) {
     const auto first = std::ranges::lower_bound(facets_, body, {}, &PosedFacet::body);

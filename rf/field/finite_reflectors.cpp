@@ -8,22 +8,12 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "rf/edges/corners.h"
-#include "scene/description/wedges.h"
 
 namespace greatx::rf {
 namespace {
 
 /// Facets are taken as pieces of one surface up to this many around a reflection; more are left out.
 constexpr size_t most_neighbours = 256;
-
-/// Seams of less than 0.2 degrees are no edges. Those up to 2 degrees are edges here but do not diffract.
-scene::WedgeOptions edge_options() {
-  scene::WedgeOptions options;
-  options.free_edges = true;
-  options.flat_angle_rad = 0.0035;
-  options.min_length_m = 2e-4;
-  return options;
-}
 
 bool hard(FacetKind kind) { return kind == FacetKind::opaque || kind == FacetKind::wall; }
 
@@ -51,7 +41,7 @@ auto distance_of(const PosedFacet& facet, const V& point) {
 
 /// Tells whether a surface ends, or bends away from where the normal of its facet points.
 bool has_outer_edge(const scene::Scene& scene) {
-  return scene::any_wedge(scene, edge_options(), [&](const scene::Wedge& wedge) {
+  return scene::any_wedge(scene, FiniteReflectors::edge_options(), [&](const scene::Wedge& wedge) {
     return wedge.facet_n == scene::no_facet ||
            glm::dot(scene.facets[wedge.facet_0].normal, wedge.normal_0) > 0.0;
   });
@@ -110,14 +100,23 @@ struct FiniteReflectors::Neighbours {
   }
 };
 
+scene::WedgeOptions FiniteReflectors::edge_options() {
+  scene::WedgeOptions options;
+  options.free_edges = true;
+  options.flat_angle_rad = 0.0035;
+  options.min_length_m = 2e-4;
+  return options;
+}
+
 FiniteReflectors::FiniteReflectors(const scene::Scene& scene, const FacetKinds& kinds,
-                                   const DiffractingEdges& diffracting) {
+                                   const DiffractingEdges& diffracting, const scene::EdgeSurvey* survey) {
   GREATX_CHECK(kinds.size() == scene.facets.size(), "{} kinds of {} facets", kinds.size(),
                scene.facets.size());
   const double diffracting_bend = scene::WedgeOptions{}.flat_angle_rad;
   const double diffracting_length = scene::WedgeOptions{}.min_length_m;
   std::vector<std::pair<uint32_t, Edge>> all;
-  const std::vector<scene::Wedge> wedges = scene::find_wedges(scene, edge_options());
+  const std::vector<scene::Wedge> wedges = scene::find_wedges(scene, edge_options(), nullptr, survey);
+  all.reserve(2 * wedges.size());
   const OpenCorners corners = diffracting.corners ? OpenCorners(scene, kinds, wedges) : OpenCorners();
   for (uint32_t index = 0; index < wedges.size(); ++index) {
     const scene::Wedge& wedge = wedges[index];
@@ -149,14 +148,13 @@ FiniteReflectors::FiniteReflectors(const scene::Scene& scene, const FacetKinds& 
     }
     if (hard(kinds[wedge.facet_0])) all.emplace_back(wedge.facet_0, edge);
   }
-  std::stable_sort(all.begin(), all.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+  // The edges of a facet stay in their order.
   offsets_.assign(scene.facets.size() + 1, 0);
-  edges_.reserve(all.size());
-  for (const auto& [facet, edge] : all) {
-    ++offsets_[facet + 1];
-    edges_.push_back(edge);
-  }
+  for (const auto& [facet, edge] : all) ++offsets_[facet + 1];
   for (size_t i = 1; i < offsets_.size(); ++i) offsets_[i] += offsets_[i - 1];
+  edges_.resize(all.size());
+  std::vector<uint32_t> next(offsets_.begin(), offsets_.end() - 1);
+  for (const auto& [facet, edge] : all) edges_[next[facet]++] = edge;
 }
 
 FiniteReflectors::Edge FiniteReflectors::posed(const Edge& edge, const FacetWorld& world, uint32_t facet) {

@@ -51,6 +51,7 @@
 #include "rf/facets/facet_kind.h"
 #include "rf/facets/facet_world.h"
 #include "rf/field/boundary_wave.h"
+#include "scene/description/wedges.h"
 
 namespace greatx::rf {
 
@@ -76,8 +77,12 @@ class FiniteReflectors {
   static constexpr double smooth_bend_rad = 1.1;
   static constexpr double full_phase = 20.0, no_phase = 60.0;
 
-  /// `kinds`: [facets of the scene].
-  FiniteReflectors(const scene::Scene& scene, const FacetKinds& kinds, const DiffractingEdges& diffracting);
+  /// `kinds`: [facets of the scene]. `survey`: null, or one of the scene.
+  FiniteReflectors(const scene::Scene& scene, const FacetKinds& kinds, const DiffractingEdges& diffracting,
+                   const scene::EdgeSurvey* survey = nullptr);
+  /// The options by which edges count. Seams of less than 0.2 degrees are no edges; those up to 2 degrees are
+  /// edges here but do not diffract.
+  static scene::WedgeOptions edge_options();
 
   /// Returns the weight of a reflection by `facet`. `edges_diffract`: the diffraction at the facet's edges is
   /// counted by paths of their own. Swapping the ends gives the same weight within 1e-12.

@@ -174,7 +174,9 @@ double ImageTree::room(const Node& node, double tolerance_m) {
 
 void ImageTree::build_filter() {
   filtered_.clear();
+  filtered_.reserve(nodes_.size());
   std::vector<ImageWindow> windows;
+  windows.reserve(nodes_.size());
   for (uint32_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
     if (!node.candidate) continue;

@@ -34,8 +34,9 @@ FacetKind kind_of(const scene::Material& material, const RadioEffects& effects) 
 }
 
 std::vector<scene::Wedge> wedges_of(const scene::Scene& scene, const FacetKinds& kinds,
-                                    const scene::WedgeOptions& options, uint64_t& too_short) {
-  std::vector<scene::Wedge> wedges = scene::find_wedges(scene, options, &too_short);
+                                    const scene::WedgeOptions& options, const scene::EdgeSurvey* survey,
+                                    uint64_t& too_short) {
+  std::vector<scene::Wedge> wedges = scene::find_wedges(scene, options, &too_short, survey);
   const auto hard = [&](uint32_t facet) {
     return facet == scene::no_facet || kinds[facet] == FacetKind::opaque || kinds[facet] == FacetKind::wall;
   };
@@ -89,7 +90,8 @@ FacetKinds facet_kinds(const scene::Scene& scene, const RadioEffects& effects) {
   return kinds;
 }
 
-RadioModel::RadioModel(const scene::Scene& radio_scene, double carrier_hz, const RadioEffects& which)
+RadioModel::RadioModel(const scene::Scene& radio_scene, double carrier_hz, const RadioEffects& which,
+                       const scene::EdgeSurvey* survey)
     : scene(&radio_scene),
       effects(which),
       facets(radio_scene),
@@ -100,10 +102,11 @@ RadioModel::RadioModel(const scene::Scene& radio_scene, double carrier_hz, const
   if (effects.field.finite_reflectors)
     reflectors.emplace(radio_scene, kinds,
                        DiffractingEdges{.free = effects.free_edges,
-                                        .corners = effects.diffraction && effects.corner_diffraction});
+                                        .corners = effects.diffraction && effects.corner_diffraction},
+                       survey);
   if (!effects.diffraction) return;
   const scene::WedgeOptions options{.free_edges = effects.free_edges};
-  wedges = wedges_of(radio_scene, kinds, options, short_wedges);
+  wedges = wedges_of(radio_scene, kinds, options, survey, short_wedges);
   if (effects.corner_diffraction) corners = OpenCorners(radio_scene, kinds, wedges);
   if (short_wedges > 0)
     spdlog::info("scene '{}': {} edges shorter than {} m do not diffract", radio_scene.name, short_wedges,

@@ -51,7 +51,9 @@ double wall_loss_db(const scene::Material& material, double frequency_hz);
 FacetKinds facet_kinds(const scene::Scene& scene, const RadioEffects& effects);
 
 struct RadioModel {
-  RadioModel(const scene::Scene& scene, double carrier_hz, const RadioEffects& effects);
+  /// `survey`: null, or one of the scene's edges, which spares work.
+  RadioModel(const scene::Scene& scene, double carrier_hz, const RadioEffects& effects,
+             const scene::EdgeSurvey* survey = nullptr);
 
   const scene::Scene* scene = nullptr;
   RadioEffects effects;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -82,15 +83,18 @@ class Tree {
 };
 
 void Tree::settle(const Beam& beam, uint32_t depth, uint32_t passed, Found& found) const {
-  BeamView view(scene_);
+  // A thread keeps the memory of its view and its cells from beam to beam.
+  thread_local std::optional<BeamView> view;
+  thread_local BeamCells cells;
+  if (!view || &view->scene() != &scene_) view.emplace(scene_);
+  const uint64_t cells_before = cells.cells(), pairs_before = cells.pairs();
   const uint32_t carrier = depth == 0 && options_.source_body != 0 ? options_.source_body : none;
-  view.look(beam, options_.clearance_m, carrier, wedges_ && depth < options_.wedge_depth);
-  BeamCells cells;
+  view->look(beam, options_.clearance_m, carrier, wedges_ && depth < options_.wedge_depth);
   const size_t first = found.hits.size();
-  cells.settle(view, static_cast<uint32_t>(walls_left(depth, passed)), found.hits, found.wedges);
+  cells.settle(*view, static_cast<uint32_t>(walls_left(depth, passed)), found.hits, found.wedges);
   for (size_t i = first; i < found.hits.size(); ++i) found.hits[i].walls += passed;
-  found.cells += cells.cells();
-  found.work += view.examined() + cells.pairs();
+  found.cells += cells.cells() - cells_before;
+  found.work += view->examined() + cells.pairs() - pairs_before;
 }
 
 Found Tree::expand_root(uint32_t face) const {

@@ -14,7 +14,20 @@
 #include "scene/description/triangle_tree.h"
 
 namespace greatx::scene {
+
+/// Describes a piece of an edge with the same facets from end to end. The exterior opens from facet_0 by the
+/// right hand about a to b.
+struct EdgePiece {
+  dvec3 a, b;
+  uint32_t facet_0 = no_facet, facet_n = no_facet;
+  dvec3 tangent_0{0.0}, tangent_n{0.0};
+  double gap = 2.0 * pi;  ///< the exterior angle
+  double length() const { return glm::distance(a, b); }
+};
+
 namespace {
+
+using Piece = EdgePiece;
 
 /// Facets whose directions around an edge differ by less than this are in the same place.
 constexpr double same_direction_rad = 1e-4;
@@ -99,15 +112,6 @@ struct Direction {
   dvec3 tangent;
 };
 
-/// Describes a piece of an edge with the same facets from end to end. The exterior opens from facet_0 by the
-/// right hand about a to b.
-struct Piece {
-  dvec3 a, b;
-  uint32_t facet_0 = no_facet, facet_n = no_facet;
-  dvec3 tangent_0{0.0}, tangent_n{0.0};
-  double length() const { return glm::distance(a, b); }
-};
-
 /// Returns the gap that is wider than pi, if there is one, with the facets beside it.
 std::optional<Piece> widest_gap(std::vector<Direction>& around, const dvec3& a, const dvec3& b, double flat) {
   std::sort(around.begin(), around.end(), [](const Direction& x, const Direction& y) {
@@ -134,10 +138,10 @@ std::optional<Piece> widest_gap(std::vector<Direction>& around, const dvec3& a, 
     if (std::abs(to_last) <= same_direction_rad && other.facet < before->facet) before = &other;
   }
   if (2.0 * pi - gap <= same_direction_rad)
-    return Piece{a, b, before->facet, no_facet, before->tangent, dvec3(0.0)};
+    return Piece{a, b, before->facet, no_facet, before->tangent, dvec3(0.0), gap};
   if (before->facet <= after->facet)
-    return Piece{a, b, before->facet, after->facet, before->tangent, after->tangent};
-  return Piece{b, a, after->facet, before->facet, after->tangent, before->tangent};
+    return Piece{a, b, before->facet, after->facet, before->tangent, after->tangent, gap};
+  return Piece{b, a, after->facet, before->facet, after->tangent, before->tangent, gap};
 }
 
 /// Finds the edges of one body.
@@ -360,35 +364,78 @@ void check(const WedgeOptions& options) {
                options.min_length_m);
 }
 
-/// Appends the wedges between facets of one body.
-void find_in_body(const Scene& scene, const WedgeOptions& options, const std::vector<uint32_t>& facets,
-                  Joiner& joiner, std::vector<Wedge>& wedges) {
+/// Returns the pieces of the edges of one body, by pairs of facets.
+std::vector<Piece> pieces_of_body(const Scene& scene, const WedgeOptions& options,
+                                  const std::vector<uint32_t>& facets) {
   std::vector<Piece> pieces = EdgeFinder(scene, options, facets).pieces();
-  const auto pair = [](const Piece& piece) { return std::tuple(piece.facet_0, piece.facet_n); };
-  std::stable_sort(pieces.begin(), pieces.end(),
-                   [&](const Piece& x, const Piece& y) { return pair(x) < pair(y); });
-  for (size_t begin = 0, end = 0; begin < pieces.size(); begin = end) {
-    while (end < pieces.size() && pair(pieces[end]) == pair(pieces[begin])) ++end;
-    joiner.join(
-        {pieces.begin() + static_cast<ptrdiff_t>(begin), pieces.begin() + static_cast<ptrdiff_t>(end)},
-        wedges);
+  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) {
+    return std::tuple(x.facet_0, x.facet_n) < std::tuple(y.facet_0, y.facet_n);
+  });
+  return pieces;
+}
+
+/// Appends the wedges that the wanted ones of `pieces` make.
+template <typename Wanted>
+void join_pieces(const std::vector<Piece>& pieces, const Wanted& wanted, Joiner& joiner,
+                 std::vector<Wedge>& wedges) {
+  std::vector<Piece> of_pair;
+  const auto end_pair = [&] {
+    if (!of_pair.empty()) joiner.join(std::move(of_pair), wedges);
+    of_pair.clear();
+  };
+  for (const Piece& piece : pieces) {
+    if (!wanted(piece)) continue;
+    if (!of_pair.empty() &&
+        (of_pair.front().facet_0 != piece.facet_0 || of_pair.front().facet_n != piece.facet_n))
+      end_pair();
+    of_pair.push_back(piece);
   }
+  end_pair();
 }
 
 }  // namespace
 
-std::vector<Wedge> find_wedges(const Scene& scene, const WedgeOptions& options, uint64_t* too_short) {
-  check(options);
-  std::vector<Wedge> wedges;
-  Joiner joiner(scene, options);
+struct EdgeSurvey::Pieces {
+  std::vector<std::vector<EdgePiece>> of_bodies;
+};
+
+EdgeSurvey::EdgeSurvey(const Scene& scene, const WedgeOptions& least)
+    : scene_(&scene), least_(least), pieces_(std::make_unique<Pieces>()) {
+  check(least);
   for (const std::vector<uint32_t>& facets : facets_of_bodies(scene))
-    find_in_body(scene, options, facets, joiner, wedges);
+    pieces_->of_bodies.push_back(pieces_of_body(scene, least, facets));
+}
+
+EdgeSurvey::~EdgeSurvey() = default;
+
+bool EdgeSurvey::covers(const WedgeOptions& options) const {
+  return (least_.free_edges || !options.free_edges) && options.flat_angle_rad >= least_.flat_angle_rad &&
+         options.weld_distance_m == least_.weld_distance_m;
+}
+
+std::vector<Wedge> EdgeSurvey::wedges(const WedgeOptions& options, uint64_t* too_short) const {
+  check(options);
+  GREATX_CHECK(
+      covers(options), "wedges with a flat angle of {} rad and a weld of {} m of a survey with {}, {}",
+      options.flat_angle_rad, options.weld_distance_m, least_.flat_angle_rad, least_.weld_distance_m);
+  const auto wanted = [&](const Piece& piece) {
+    return piece.gap > pi + options.flat_angle_rad && (options.free_edges || piece.facet_n != no_facet);
+  };
+  std::vector<Wedge> wedges;
+  Joiner joiner(*scene_, options);
+  for (const std::vector<Piece>& pieces : pieces_->of_bodies) join_pieces(pieces, wanted, joiner, wedges);
   std::sort(wedges.begin(), wedges.end(), [](const Wedge& x, const Wedge& y) {
     return std::tuple(x.body, x.facet_0, x.facet_n, key(x.a), key(x.b)) <
            std::tuple(y.body, y.facet_0, y.facet_n, key(y.a), key(y.b));
   });
   if (too_short) *too_short = joiner.too_short();
   return wedges;
+}
+
+std::vector<Wedge> find_wedges(const Scene& scene, const WedgeOptions& options, uint64_t* too_short,
+                               const EdgeSurvey* known) {
+  if (known != nullptr && known->covers(options)) return known->wedges(options, too_short);
+  return EdgeSurvey(scene, options).wedges(options, too_short);
 }
 
 bool any_wedge(const Scene& scene, const WedgeOptions& options,
@@ -399,7 +446,8 @@ bool any_wedge(const Scene& scene, const WedgeOptions& options,
   Joiner joiner(scene, options);
   return std::ranges::any_of(bodies, [&](const std::vector<uint32_t>& facets) {
     std::vector<Wedge> wedges;
-    find_in_body(scene, options, facets, joiner, wedges);
+    join_pieces(
+        pieces_of_body(scene, options, facets), [](const Piece&) { return true; }, joiner, wedges);
     return std::ranges::any_of(wedges, wanted);
   });
 }

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "core/vec.h"
@@ -43,6 +44,29 @@ struct WedgeOptions {
   double weld_distance_m = 1e-4;
 };
 
+/// Holds the straight pieces of all edges of a scene with the facets around them. Wedges by different options
+/// follow from it, for those who need several kinds of them: to look for pieces takes nearly all of the time.
+class EdgeSurvey {
+ public:
+  /// The scene outlives the survey and stays as it is.
+  EdgeSurvey(const Scene& scene, const WedgeOptions& least);
+  ~EdgeSurvey();
+  EdgeSurvey(const EdgeSurvey&) = delete;
+  EdgeSurvey& operator=(const EdgeSurvey&) = delete;
+
+  /// Whether wedges() answers: the options have the survey's weld distance, at least its flat angle, and free
+  /// edges only if it has them.
+  bool covers(const WedgeOptions& options) const;
+  /// Returns what find_wedges() returns. Threads may call it at once.
+  std::vector<Wedge> wedges(const WedgeOptions& options, uint64_t* too_short = nullptr) const;
+
+ private:
+  struct Pieces;
+  const Scene* scene_;
+  WedgeOptions least_;
+  std::unique_ptr<Pieces> pieces_;
+};
+
 /// Finds every wedge of the scene, in a canonical order (body, facets, position). The facets of one body
 /// around an edge decide as follows:
 /// - A facet that ends at the edge goes off in one direction, and one that contains the edge goes off in two.
@@ -55,9 +79,10 @@ struct WedgeOptions {
 /// - A single direction makes a free edge.
 /// Edges need no common vertices. Pieces are compared where they overlap, however each side is split, and are
 /// joined again into one wedge per straight run between the same two facets. Facets of different bodies make
-/// no wedge. `too_short` receives the number of wedges that are left out because they are too short.
+/// no wedge. `too_short` receives the number of wedges that are left out because they are too short. `known`
+/// spares work if it is a survey of the scene that covers the options.
 std::vector<Wedge> find_wedges(const Scene& scene, const WedgeOptions& options = {},
-                               uint64_t* too_short = nullptr);
+                               uint64_t* too_short = nullptr, const EdgeSurvey* known = nullptr);
 
 /// Tells whether find_wedges() finds one that `wanted` accepts. It looks at small bodies first and ends with
 /// the first such wedge, so that a scene with a car costs a car's time.

@@ -120,6 +120,7 @@ std::vector<std::byte> generate_glb(const GenerateOptions& options) {
                      kind.min_size_m, kind.max_size_m, size);
   const Season season = season_of(variant);
   SceneWriter writer(seasonal_library(season));
+  writer.set_quick(options.quick);
   if (options.kind == "city") {
     write_city(writer, size, options.seed, season);
   } else if (options.kind == "country") {

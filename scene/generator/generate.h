@@ -23,6 +23,8 @@ struct GenerateOptions {
   /// One of generator_variants(kind); empty: the first of them. The variants of "city" and "country" are the
   /// seasons of their plants: "summer", "spring", "autumn", "winter".
   std::string variant;
+  /// Packs the pictures in a hurry, for bytes that are read back at once. The model is the same.
+  bool quick = false;
 };
 
 /// Returns the bytes of a .glb in metres. The ground is at z = 0. The origin is the centre of a scene, the

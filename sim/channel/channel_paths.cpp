@@ -36,8 +36,9 @@ rf::RadioEffects radio_effects(const Experiment& experiment) {
   return effects;
 }
 
-RadioWorld::RadioWorld(const Experiment& experiment, uint32_t channel)
-    : model_(experiment.scene(), experiment.scenario.channels[channel].carrier_hz, radio_effects(experiment)),
+RadioWorld::RadioWorld(const Experiment& experiment, uint32_t channel, const scene::EdgeSurvey* survey)
+    : model_(experiment.scene(), experiment.scenario.channels[channel].carrier_hz, radio_effects(experiment),
+             survey),
       surroundings_(experiment.scene(), model_.kinds) {}
 
 void RadioWorld::move_on(const TickContext& context) {

@@ -34,7 +34,8 @@ rf::RadioEffects radio_effects(const Experiment& experiment);
 /// held.
 class RadioWorld {
  public:
-  RadioWorld(const Experiment& experiment, uint32_t channel);
+  /// `survey`: null, or one of the scene's edges, which spares work.
+  RadioWorld(const Experiment& experiment, uint32_t channel, const scene::EdgeSurvey* survey = nullptr);
   /// Returns the model. Its facets are in the poses that move_on() set last.
   const rf::RadioModel& model() const { return model_; }
   const rf::Surroundings& surroundings() const { return surroundings_; }

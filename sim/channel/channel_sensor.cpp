@@ -33,14 +33,15 @@ std::vector<rf::AntennaArray> arrays_called(const std::vector<std::string>& name
 }  // namespace
 
 ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings,
-                             const Experiment& experiment, uint32_t channel)
+                             const Experiment& experiment, uint32_t channel,
+                             std::shared_ptr<RadioWorld> radio)
     : gpu_scene_(gpu_scene),
       crossings_(crossings),
       experiment_(experiment),
       channel_(channel),
       config_(experiment.scenario.channels[channel]),
       doppler_(experiment.plan.doppler.on),
-      radio_(std::make_shared<RadioWorld>(experiment, channel)),
+      radio_(std::move(radio)),
       transmitter_arrays_(arrays_called(config_.transmitters, "tx", experiment.scenario, config_)),
       receiver_arrays_(arrays_called(config_.receivers, "rx", experiment.scenario, config_)) {
   for (uint32_t t = 0; t < config_.transmitters.size(); ++t)

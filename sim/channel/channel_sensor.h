@@ -28,9 +28,9 @@ namespace greatx::sim {
 class ChannelSensor : public Sensor {
  public:
   /// Throws UserError like ChannelPaths, and if the transmitters or the receivers differ in their number of
-  /// ports. All arguments but `channel` outlive this.
+  /// ports. `radio` is the channel's world. All arguments but `channel` outlive this.
   ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
-                uint32_t channel);
+                uint32_t channel, std::shared_ptr<RadioWorld> radio);
 
   const SensorSpec& spec() const override { return spec_; }
   void start(const TickContext& context) override;

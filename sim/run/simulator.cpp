@@ -71,10 +71,12 @@ Simulator::Simulator(gpu::Device& device, const Experiment& experiment)
       ring_(device, slots_in_flight, first_upload_bytes, first_readback_bytes),
       clock_(scenario_.tick_rate_hz),
       schedule_(scenario_.tick_rate_hz),
+      radio_(std::make_unique<RadioAhead>(gpu_scene_, experiment)),
       passes_(gpu_scene_, experiment),
-      sensors_(make_sensors({gpu_scene_, passes_, experiment})),
+      sensors_(make_sensors({gpu_scene_, passes_, experiment, *radio_})),
       comparer_(world_, experiment.plan.consistency.on),
       places_(scenario_, world_) {
+  radio_.reset();
   statistics_.warnings = scenario_.warnings;
   for (const RunSensor& run : sensors_) {
     schedule_.add(run.rate_hz);

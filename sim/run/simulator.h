@@ -108,6 +108,7 @@ class Simulator {
   gpu::TickRing ring_;
   Clock clock_;
   Schedule schedule_;
+  std::unique_ptr<RadioAhead> radio_;  ///< exists while the sensors are made
   SharedPasses passes_;
   std::vector<RunSensor> sensors_;
   std::vector<SensorSpec> specs_;  ///< [sensor]

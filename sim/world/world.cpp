@@ -25,7 +25,11 @@ scene::Model load(const ModelSource& source, const SceneConfig& config) {
     return scene::load_model(*file, options);
   const Generated& made = std::get<Generated>(source.source);
   try {
-    const std::vector<std::byte> glb = scene::generate_glb({made.kind, made.seed, made.size_m, made.variant});
+    const std::vector<std::byte> glb = scene::generate_glb({.kind = made.kind,
+                                                            .seed = made.seed,
+                                                            .size_m = made.size_m,
+                                                            .variant = made.variant,
+                                                            .quick = true});
     return scene::load_model(made.kind + ".glb", glb, options);
   } catch (const UserError& error) {
     throw_user_error_at(source.where, "{}", error.what());

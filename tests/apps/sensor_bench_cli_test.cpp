@@ -164,6 +164,18 @@ TEST_F(SensorBench, TheRigTellsWhatEachSensorCosts) {
                                             "without radar drone/radar", "without channel csi"));
 }
 
+TEST_F(SensorBench, TheRigTellsWhatMovingBodiesCost) {
+  const nlohmann::json result =
+      json(std::string(lidar) + camera, "--rig --bodies 1,12 --rounds 2 --block 2 --warm-up 1");
+  expect_head(result);
+  ASSERT_EQ(result["rows"].size(), 2u);
+  EXPECT_EQ(result["rows"][0]["name"], "1 moving cars more");
+  EXPECT_EQ(result["rows"][1]["name"], "12 moving cars more");
+  EXPECT_FALSE(result["rows"][0].contains("cost_cpu_ms"));
+  EXPECT_TRUE(std::isfinite(result["rows"][1]["cost_cpu_ms"].get<double>()));
+  for (const nlohmann::json& row : result["rows"]) expect_distribution(row["wall_ms"], 2);
+}
+
 TEST_F(SensorBench, TheRigPrintsATable) {
   const Outcome text = bench(lidar, "--rig --rounds 1 --block 1 --warm-up 0");
   EXPECT_EQ(text.code, 0) << text.err;

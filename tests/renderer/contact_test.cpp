@@ -4,10 +4,14 @@
 // Holds contact occlusion against the share of the hemisphere that a box hides.
 #include "renderer/light/contact.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/random.h"
 #include "shaders/shared/contact.h"
 #include "tests/renderer/camera_rig.h"
 
@@ -121,6 +125,64 @@ TEST(Contact, GroundBesideABodyIsAsDarkAsTheFormFactorSays) {
       ++compared;
     }
   EXPECT_GT(compared, 40);
+}
+
+/// Returns the boxes that the shader looks at from a place, by their numbers.
+std::vector<uint32_t> boxes_at(const std::vector<uint32_t>& words, const dvec2& place) {
+  const auto real = [&](uint32_t at) { return double(std::bit_cast<float>(words[at])); };
+  const dvec2 corner(real(shared::contact_corner_word), real(shared::contact_corner_word + 1));
+  const dvec2 cell = (place - corner) * real(shared::contact_inverse_word);
+  const uint32_t columns = words[shared::contact_columns_word], rows = words[shared::contact_rows_word];
+  if (cell.x < 0.0 || cell.y < 0.0 || cell.x >= columns || cell.y >= rows) return {};
+  const size_t at = shared::contact_header_words +
+                    2 * (static_cast<size_t>(cell.y) * columns + static_cast<size_t>(cell.x));
+  // The boxes stand behind all lists.
+  uint32_t entries = 0;
+  for (size_t i = 0; i < size_t{columns} * rows; ++i)
+    entries += words[shared::contact_header_words + 2 * i + 1];
+  const uint32_t lists = shared::contact_header_words + 2 * columns * rows;
+  const uint32_t first = (lists + entries + 3) / 4;
+  std::vector<uint32_t> found;
+  for (uint32_t k = 0; k < words[at + 1]; ++k)
+    found.push_back((words[words[at] + k] - first) / shared::contact_box_quads);
+  return found;
+}
+
+TEST(Contact, ACellListsEveryBoxThatMayHideSomethingThereAndFewOthers) {
+  RandomStream random(3, 7);
+  std::vector<render::ContactBox> boxes(60);
+  std::vector<Pose> poses(boxes.size() + 1);
+  for (uint32_t i = 0; i < boxes.size(); ++i) {
+    boxes[i].body = boxes[i].last_part = i + 1;
+    boxes[i].half_size = {random.uniform(0.1, 6.0), random.uniform(0.1, 1.5), random.uniform(0.1, 2.0)};
+    boxes[i].center = {random.uniform(-1, 1), 0.2, 0.5};
+    boxes[i].reach = random.uniform(0.5, 8.0);
+    // Every third one is turned about all axes.
+    const double tilt = i % 3 == 0 ? 1.5 : 0.0;
+    poses[i + 1] = {{random.uniform(-60, 60), random.uniform(-60, 60), random.uniform(0, 3)},
+                    orientation_from_yaw_pitch_roll(random.uniform(-3, 3), random.uniform(-1, 1) * tilt,
+                                                    random.uniform(-1, 1) * tilt)};
+  }
+  const std::vector<uint32_t> words = render::contact_words(boxes, poses);
+  size_t listed = 0, near = 0, inside_square = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const dvec3 p(random.uniform(-70, 70), random.uniform(-70, 70), random.uniform(-1, 6));
+    const std::vector<uint32_t> found = boxes_at(words, dvec2(p));
+    EXPECT_TRUE(std::ranges::is_sorted(found));
+    listed += found.size();
+    for (uint32_t i = 0; i < boxes.size(); ++i) {
+      const dvec3 q = poses[i + 1].inverse().apply(p) - boxes[i].center;
+      const bool counts =
+          shared::contact_window(vec3(q), vec3(boxes[i].half_size), float(boxes[i].reach)) > 0.0f;
+      if (counts) EXPECT_TRUE(std::ranges::binary_search(found, i)) << i;
+      near += counts;
+      const dvec2 away = glm::abs(dvec2(p - poses[i + 1].apply(boxes[i].center)));
+      inside_square += std::max(away.x, away.y) < glm::length(boxes[i].half_size) + boxes[i].reach;
+    }
+  }
+  EXPECT_GT(near, 10000u);
+  // Cells of 4 m widen the areas, yet they hold less than the squares around the boxes' balls do.
+  EXPECT_LT(listed, inside_square);
 }
 
 TEST(Contact, FarFromEveryBodyNoByteChanges) {

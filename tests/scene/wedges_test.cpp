@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "core/error.h"
 #include "core/random.h"
 #include "core/units.h"
 #include "scene/build/build.h"
@@ -336,6 +338,45 @@ TEST(FindWedges, AnyWedgeLooksAtSmallBodiesFirst) {
   for (const Wedge& wanted : all)
     EXPECT_TRUE(any_wedge(hand.scene, options,
                           [&](const Wedge& wedge) { return wedge.a == wanted.a && wedge.b == wanted.b; }));
+}
+
+TEST(FindWedges, ASurveyGivesTheSameWedgesByEveryOption) {
+  // A prism of 40 sides has bends of 9 degrees; the plates have free edges, and one of them is cut short.
+  Hand hand;
+  hand.box({0, 0, 0}, {4, 5, 6});
+  hand.box({4, 5, 0}, {3, 3, 3});
+  hand.plate({-50, -50, 0}, {100, 0, 0}, {0, 100, 0});
+  for (int side = 0; side < 40; ++side) {
+    const auto rim = [](int k) {
+      return dvec3(20 + 3 * std::cos(k * pi / 20), 3 * std::sin(k * pi / 20), 0);
+    };
+    hand.plate(rim(side), rim(side + 1) - rim(side), {0, 0, side == 7 ? 3.0 : 4.0});
+  }
+  hand.box({30, 0, 0}, {4, 5, 5e-4});
+  const EdgeSurvey survey(hand.scene, {.free_edges = true, .flat_angle_rad = 0.0035});
+  EXPECT_FALSE(survey.covers({.flat_angle_rad = 0.001}));
+  EXPECT_FALSE(survey.covers({.weld_distance_m = 1e-3}));
+  EXPECT_FALSE(EdgeSurvey(hand.scene, {}).covers({.free_edges = true}));
+  EXPECT_THROW(survey.wedges({.flat_angle_rad = 0.001}), ContractError);
+  const auto bytes = [](const std::vector<Wedge>& wedges) {
+    std::vector<double> numbers;
+    for (const Wedge& w : wedges)
+      for (const dvec3& v : {w.a, w.b, w.tangent_0, w.normal_0, dvec3(w.n, w.facet_0, w.facet_n)})
+        numbers.insert(numbers.end(), {v.x, v.y, v.z});
+    return numbers;
+  };
+  std::set<size_t> counts;
+  for (const bool free_edges : {false, true})
+    for (const double flat : {0.0035, 0.035, 0.1, 0.5}) {
+      const WedgeOptions options{.free_edges = free_edges, .flat_angle_rad = flat};
+      uint64_t too_short = 0, expected_too_short = 0;
+      const std::vector<Wedge> expected = find_wedges(hand.scene, options, &expected_too_short);
+      EXPECT_EQ(bytes(survey.wedges(options, &too_short)), bytes(expected)) << flat;
+      EXPECT_EQ(too_short, expected_too_short);
+      EXPECT_EQ(bytes(find_wedges(hand.scene, options, nullptr, &survey)), bytes(expected));
+      counts.insert(expected.size());
+    }
+  EXPECT_GE(counts.size(), 4u) << "the options make a difference";
 }
 
 TEST(FindWedges, RoundingOfAFileMovesNothing) {

@@ -48,8 +48,9 @@ channels:
 TEST(Registry, EverySensorIsMadeInTheScenariosOrderByTheMakerOfItsKind) {
   const Experiment experiment = make_experiment(parse_scenario(all_kinds, "kinds.yaml", "."));
   scene::GpuScene gpu_scene(test::device(), experiment.world->scene, gpu_scene_options(experiment.plan));
+  RadioAhead radio(gpu_scene, experiment);
   SharedPasses passes(gpu_scene, experiment);
-  const std::vector<RunSensor> sensors = make_sensors({gpu_scene, passes, experiment});
+  const std::vector<RunSensor> sensors = make_sensors({gpu_scene, passes, experiment, radio});
   std::vector<std::string> made;
   for (const RunSensor& run : sensors) {
     const SensorSpec& spec = run.sensor->spec();

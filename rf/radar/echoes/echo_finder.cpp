@@ -214,7 +214,8 @@ void add_tracks(const Movers& movers, const RawEchoes& raw, std::span<const Merg
 }  // namespace
 
 EchoFinder::EchoFinder(scene::GpuScene& scene, const RadioSurfaces& surfaces, const EchoEnd& transmitter,
-                       const std::optional<EchoEnd>& receiver, const EchoOptions& options)
+                       const std::optional<EchoEnd>& receiver, const EchoOptions& options,
+                       const scene::EdgeSurvey* survey)
     : scene_(&scene),
       surfaces_(surfaces),
       transmitter_(transmitter),
@@ -228,19 +229,22 @@ EchoFinder::EchoFinder(scene::GpuScene& scene, const RadioSurfaces& surfaces, co
                 return !scene::is_lossless(world.materials[world.facets[facet].material]);
               }),
       traced_(options.max_bounces + (monostatic_ && options.max_bounces >= mirror_bounces ? 1 : 0)) {
-  const bool on_cpu = scene.device().info().type == "cpu";
-  const bool on_host =
-      options.tracing == EchoTracing::host || (options.tracing == EchoTracing::automatic && on_cpu);
+  const bool on_host = traces_on_host(scene.device(), options);
   const bool over_mirrors = traced_ > options.max_bounces;
   if (!on_host) pass_.emplace(scene, traced_, monostatic_, transmitter.own_body != 0);
   if (over_mirrors) mirrors_.emplace(scene.scene(), world_, surfaces_);
-  if (options_.edges) edges_.emplace(scene.scene());
+  if (options_.edges) edges_.emplace(scene.scene(), survey);
   if (options_.transmission) {
     veils_.emplace(scene.scene(), trees_, world_, surfaces_);
     if (veils_->none()) veils_.reset();
   }
   if (options_.diffuse)
     clutter_.emplace(scene.scene(), surfaces_, options_, transmitter_, monostatic_ ? nullptr : &receiver_);
+}
+
+bool EchoFinder::traces_on_host(const gpu::Device& device, const EchoOptions& options) {
+  return options.tracing == EchoTracing::host ||
+         (options.tracing == EchoTracing::automatic && device.info().type == "cpu");
 }
 
 std::vector<TargetBox> EchoFinder::targets(std::span<const Pose> body_poses) const {

@@ -41,9 +41,14 @@ namespace greatx::rf {
 class EchoFinder {
  public:
   /// `receiver` is absent for a monostatic radar, whose receiver is the transmitter. `surfaces` are those at
-  /// the carrier. Throws UserError if an option is out of its range.
+  /// the carrier. `survey` is null, or one of the scene's edges, which spares work. Throws UserError if an
+  /// option is out of its range.
   EchoFinder(scene::GpuScene& scene, const RadioSurfaces& surfaces, const EchoEnd& transmitter,
-             const std::optional<EchoEnd>& receiver, const EchoOptions& options);
+             const std::optional<EchoEnd>& receiver, const EchoOptions& options,
+             const scene::EdgeSurvey* survey = nullptr);
+  /// Whether the host traces the rays of a finder with these options. Such a finder records nothing on the
+  /// device, and a thread beside others that do may make it.
+  static bool traces_on_host(const gpu::Device& device, const EchoOptions& options);
 
   /// Holds a search that is under way. The slices are valid until the slot begins again.
   struct Pending {

@@ -59,8 +59,8 @@ struct EdgeEchoes::Look {
   EchoTracer::View out, home;
 };
 
-EdgeEchoes::EdgeEchoes(const scene::Scene& scene)
-    : wedges_(scene::find_wedges(scene, {.free_edges = true, .flat_angle_rad = seam_rad})) {}
+EdgeEchoes::EdgeEchoes(const scene::Scene& scene, const scene::EdgeSurvey* survey)
+    : wedges_(scene::find_wedges(scene, {.free_edges = true, .flat_angle_rad = seam_rad}, nullptr, survey)) {}
 
 RawEchoes EdgeEchoes::find(const FacetWorld& world, const EchoTracer& tracer, const EchoField& field,
                            const EchoSender& sender, const Ends& ends, uint32_t threads) const {

@@ -16,7 +16,8 @@ namespace greatx::rf {
 class EdgeEchoes {
  public:
   /// Finds the edges. Those that are nearly flat (within 0.5 rad) are seams of curved surfaces and left out.
-  explicit EdgeEchoes(const scene::Scene& scene);
+  /// `survey`: null, or one of the scene's edges, which spares work.
+  explicit EdgeEchoes(const scene::Scene& scene, const scene::EdgeSurvey* survey = nullptr);
 
   /// Describes the ends of a search. The bodies are not seen; 0: none.
   struct Ends {

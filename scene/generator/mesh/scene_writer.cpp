@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/units.h"
 #include "io/formats/png.h"
 #include "scene/generator/mesh/materials.h"
@@ -90,6 +91,14 @@ int SceneWriter::add_light(const LightSpec& light) {
                           .passing_beam = light.passing_beam});
 }
 
+void SceneWriter::paint_ahead(std::span<const char* const> names) {
+  std::vector<TextureMaps> painted(names.size());
+  parallel_for(names.size(), 0, [&](size_t i) {
+    if (!maps_.contains(names[i])) painted[i] = make_texture(names[i]);
+  });
+  for (size_t i = 0; i < names.size(); ++i) maps_.try_emplace(names[i], std::move(painted[i]));
+}
+
 const TextureMaps& SceneWriter::maps(const std::string& name) {
   const auto found = maps_.find(name);
   return found != maps_.end() ? found->second : maps_[name] = make_texture(name);
@@ -98,7 +107,8 @@ const TextureMaps& SceneWriter::maps(const std::string& name) {
 int SceneWriter::texture(int& index, const std::string& name, const Raster& raster, bool exact,
                          const std::vector<uint8_t>& alpha) {
   if (index >= 0 || raster.empty()) return index;
-  const io::PngCoding coding = exact ? io::PngCoding::small : io::PngCoding::small_inexact;
+  const io::PngCoding coding = quick_ ? (exact ? io::PngCoding::quick : io::PngCoding::quick_inexact)
+                                      : (exact ? io::PngCoding::small : io::PngCoding::small_inexact);
   if (!alpha.empty()) {
     std::vector<uint8_t> rgba;
     for (size_t i = 0; i < alpha.size(); ++i)

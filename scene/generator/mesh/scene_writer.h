@@ -57,6 +57,11 @@ class SceneWriter {
   int add_mesh(const std::string& name, std::span<const PrimitiveData> primitives);
   int add_node(const NodeSpec& node);
   int add_light(const LightSpec& light);
+  /// Packs pictures in a hurry from now on: for a file that is read back at once.
+  void set_quick(bool quick) { quick_ = quick; }
+  /// Paints textures that make_texture knows on all cores. Without it they are painted one by one, when a
+  /// mesh first shows them. The file is the same.
+  void paint_ahead(std::span<const char* const> names);
   /// Sets the extras of the scene for a finish() that gives none: JSON, or empty.
   void set_scene_extras(std::string json) { scene_extras_ = std::move(json); }
   /// Returns the bytes of the whole file.
@@ -82,6 +87,7 @@ class SceneWriter {
   std::map<std::string, TextureMaps> maps_;
   std::map<std::string, Textures> textures_;
   std::string scene_extras_;
+  bool quick_ = false;
 };
 
 }  // namespace greatx::scene::generator

@@ -77,7 +77,7 @@ uint32_t instance_called(const scene::Scene& scene, const std::string& radar, co
 }  // namespace
 
 RadarSensor::RadarSensor(scene::GpuScene& gpu_scene, const Experiment& experiment, uint32_t node,
-                         uint32_t sensor)
+                         uint32_t sensor, const scene::EdgeSurvey* survey)
     : gpu_scene_(gpu_scene),
       world_(*experiment.world),
       config_(planned(std::get<RadarConfig>(experiment.scenario.nodes[node].sensors[sensor].config),
@@ -93,7 +93,7 @@ RadarSensor::RadarSensor(scene::GpuScene& gpu_scene, const Experiment& experimen
               config_.signal.bistatic || !same_element(transmit_end(), receive_end())
                   ? std::optional(receive_end())
                   : std::nullopt,
-              echo_options(experiment)),
+              echo_options(experiment), survey),
       neighbours_(experiment, config_, name_),
       processor_(name_, config_.signal, gain_of(transmit_end()), gain_of(receive_end())) {
   describe(experiment.scenario.nodes[node].sensors[sensor]);

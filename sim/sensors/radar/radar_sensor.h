@@ -19,8 +19,9 @@ namespace greatx::sim {
 class RadarSensor : public Sensor {
  public:
   /// Throws UserError if a target is not an instance of the scene, or if a material is unknown at the
-  /// carrier.
-  RadarSensor(scene::GpuScene& gpu_scene, const Experiment& experiment, uint32_t node, uint32_t sensor);
+  /// carrier. `survey`: null, or one of the scene's edges, which spares work.
+  RadarSensor(scene::GpuScene& gpu_scene, const Experiment& experiment, uint32_t node, uint32_t sensor,
+              const scene::EdgeSurvey* survey = nullptr);
 
   const SensorSpec& spec() const override { return spec_; }
   void record(gpu::TickSlot& slot, const TickContext& context) override;

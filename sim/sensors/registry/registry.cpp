@@ -59,7 +59,8 @@ std::unique_ptr<Sensor> make_lidar(Workshop& shop, SensorPlace at) {
 
 std::unique_ptr<Sensor> make_radar(Workshop& shop, SensorPlace at) {
   const SensorParts& p = shop.parts;
-  return std::make_unique<RadarSensor>(p.gpu_scene, p.experiment, at.node, at.sensor);
+  if (std::unique_ptr<Sensor> made = p.radio.radar(at)) return made;
+  return std::make_unique<RadarSensor>(p.gpu_scene, p.experiment, at.node, at.sensor, p.radio.survey());
 }
 
 /// Makes a sensor that measures on the host.
@@ -69,7 +70,8 @@ std::unique_ptr<Sensor> make_on_host(Workshop& shop, SensorPlace at) {
 }
 
 std::unique_ptr<Sensor> make_channel(const SensorParts& p, uint32_t channel) {
-  return std::make_unique<ChannelSensor>(p.gpu_scene, *p.passes.crossings, p.experiment, channel);
+  return std::make_unique<ChannelSensor>(p.gpu_scene, *p.passes.crossings, p.experiment, channel,
+                                         p.radio.world(channel));
 }
 
 /// A row of the table of kinds.

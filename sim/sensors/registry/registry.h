@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "scene/device/gpu_scene.h"
 #include "sim/experiment/experiment.h"
+#include "sim/sensors/registry/radio_ahead.h"
 #include "sim/sensors/registry/shared_passes.h"
 #include "sim/sensors/sensor.h"
 
@@ -24,11 +25,12 @@ struct RunSensor {
   SourceLocation where;             ///< the place in the scenario; line 0: the scenario does not name it
 };
 
-/// Holds everything from which sensors are made. All of it outlives them.
+/// Holds everything from which sensors are made. All but `radio` outlives them.
 struct SensorParts {
   scene::GpuScene& gpu_scene;
   SharedPasses& passes;
   const Experiment& experiment;
+  RadioAhead& radio;
 };
 
 /// Makes all sensors of a scenario in the order of their records: the poses, the sensors of the nodes in the

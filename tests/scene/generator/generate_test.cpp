@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "scene/build/build.h"
+#include "scene/generator/city/city.h"
 #include "scene/generator/mesh/materials.h"
 #include "scene/generator/mesh/mesh_builder.h"
 #include "scene/generator/paint/lettering.h"
@@ -135,6 +136,31 @@ TEST(Generate, CityStaysWithinItsBudget) {
     }
     EXPECT_EQ(road_facets, 1u);
   }
+}
+
+TEST(Generate, PicturesPackedInAHurryAreTheSame) {
+  const auto model_of = [](bool quick) {
+    return load_model("city.glb", generate_glb({.kind = "city", .seed = 4, .size_m = 120, .quick = quick}),
+                      {});
+  };
+  const Model slow = model_of(false), quick = model_of(true);
+  ASSERT_EQ(slow.textures.size(), quick.textures.size());
+  ASSERT_GT(slow.textures.size(), 20u);
+  for (size_t i = 0; i < slow.textures.size(); ++i) {
+    EXPECT_EQ(slow.textures[i].width, quick.textures[i].width);
+    EXPECT_TRUE(slow.textures[i].rgba == quick.textures[i].rgba) << i;
+  }
+}
+
+TEST(Generate, TexturesPaintedAheadAreThoseOfACity) {
+  std::set<std::string> shown;
+  const auto glb = generate_glb({.kind = "city", .seed = 7, .size_m = 300});
+  uint32_t json_bytes = 0;
+  std::memcpy(&json_bytes, glb.data() + 12, 4);
+  const char* const text = reinterpret_cast<const char*>(glb.data()) + 20;
+  for (const auto& image : nlohmann::json::parse(text, text + json_bytes)["images"])
+    shown.insert(image["name"].get<std::string>());
+  for (const char* const name : generator::city_textures()) EXPECT_TRUE(shown.contains(name)) << name;
 }
 
 TEST(Generate, EveryMaterialHoldsFrom1To40GHz) {
