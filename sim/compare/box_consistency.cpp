@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/compare/consistency.h"
 #include "sim/compare/record_reading.h"
@@ -19,12 +20,15 @@ class SeenBoxes {
     const Pose from_sensor =
         nodes.at_tick(node_of(sensor.spec.name)) * pose_of(metadata_of(sensor).at("body_from_sensor"));
     for (size_t i = 0; i < boxes.size(); ++i)
-      if (boxes[i].node && !boxes[i].box.empty())
+      if (boxes[i].node && !boxes[i].box.empty()) {
         box_from_sensor_[i] = nodes.at_tick(*boxes[i].node).inverse() * from_sensor;
+        first_ = std::min(first_, static_cast<uint32_t>(i + 1));
+      }
   }
   /// Returns whether a node carries the instance.
   bool holds(uint32_t instance) const {
-    return instance != 0 && instance <= boxes_.size() && box_from_sensor_[instance - 1];
+    // Most pixels see static instances, which come first.
+    return instance >= first_ && instance <= boxes_.size() && box_from_sensor_[instance - 1];
   }
   /// Returns the distance from a point in the sensor's frame to the box of an instance that it holds.
   double distance(uint32_t instance, const dvec3& point) const {
@@ -35,7 +39,8 @@ class SeenBoxes {
 
  private:
   std::span<const InstanceBox> boxes_;
-  std::vector<std::optional<Pose>> box_from_sensor_;  ///< [instances]
+  std::vector<std::optional<Pose>> box_from_sensor_;       ///< [instances]
+  uint32_t first_ = std::numeric_limits<uint32_t>::max();  ///< instance that a node carries
 };
 
 }  // namespace
@@ -44,17 +49,26 @@ ErrorStatistics compare_depth_boxes(const RecordView& camera, const RecordView& 
                                     std::span<const InstanceBox> boxes) {
   const render::CameraDesc desc = camera_of(metadata_of(camera));
   const size_t pixels = size_t{desc.width} * desc.height;
-  const std::vector<uint32_t> instances = expect_ids(camera, "instance", pixels);
-  const Array depth = expect_array(camera, "depth", DType::f32, pixels);
+  const Array instance = camera.array("instance"), depth = expect_array(camera, "depth", DType::f32, pixels);
   const SeenBoxes seen(camera, poses, boxes);
   ErrorStatistics errors;
-  for (size_t i = 0; i < pixels; ++i) {
-    const auto z = static_cast<double>(depth.as<float>()[i]);
-    if (!seen.holds(instances[i]) || !std::isfinite(z)) continue;
-    const auto column = static_cast<double>(i % desc.width), row = static_cast<double>(i / desc.width);
-    const dvec3 point = z * pixel_ray(desc, column + 0.5, row + 0.5);
-    errors.add(seen.distance(instances[i], point) / glm::length(point));
-  }
+  const auto compare = [&](const auto& instances) {
+    if (instances.size() != pixels)
+      throw_user_error("{}: instance: expected {} pixels, found {}", camera.spec.name, pixels,
+                       instances.size());
+    for (size_t i = 0; i < pixels; ++i) {
+      if (!seen.holds(instances[i])) continue;
+      const auto z = static_cast<double>(depth.as<float>()[i]);
+      if (!std::isfinite(z)) continue;
+      const auto column = static_cast<double>(i % desc.width), row = static_cast<double>(i / desc.width);
+      const dvec3 point = z * pixel_ray(desc, column + 0.5, row + 0.5);
+      errors.add(seen.distance(instances[i], point) / glm::length(point));
+    }
+  };
+  if (instance.dtype == DType::u16)
+    compare(instance.as<uint16_t>());
+  else
+    compare(instance.as<uint32_t>());
   return errors;
 }
 

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/camera/draw_list.h"
+
+#include <algorithm>
+
+namespace greatx::render {
+
+namespace {
+
+// A piece is seen as a whole or not at all, so one that is much larger than its parts draws in vain.
+constexpr double free_radius_m = 4.0, most_growth = 1.2;
+
+void bound(const scene::Scene& scene, DrawPiece& piece) {
+  scene::Bounds bounds;
+  for (uint32_t i = 0; i < piece.index_count; ++i)
+    bounds.add(dvec3(scene.positions[scene.indices[piece.first_index + i]]));
+  piece.center = bounds.center();
+  piece.radius = 0.5 * glm::length(bounds.size());
+}
+
+}  // namespace
+
+DrawList::DrawList(const scene::Scene& scene, const std::vector<bool>& closed,
+                   std::optional<uint32_t> excluded, bool alpha_mask)
+    : scene_(&scene) {
+  for (uint32_t i = 0; i < scene.primitives.size(); ++i) {
+    const scene::Primitive& primitive = scene.primitives[i];
+    const uint32_t body = scene.instances[primitive.instance].body;
+    if (excluded && scene.owner_of(body) == *excluded) continue;
+    DrawPiece piece{primitive.first_index, primitive.index_count, body, i};
+    bound(scene, piece);
+    if (alpha_mask && scene.has_holes(i)) {
+      masked_.push_back(piece);
+    } else {
+      piece.closed = closed[body];
+      add(body == 0 ? still_ : moving_, piece, body != 0);
+    }
+    const scene::PbrMaterial& pbr = scene.materials[primitive.material].pbr;
+    textured_ |=
+        pbr.base_color_texture >= 0 || pbr.metallic_roughness_texture >= 0 || pbr.emissive_texture >= 0;
+    normal_mapped_ |= pbr.normal_texture >= 0;
+    emissive_ |= pbr.emissive != vec3(0.0f);
+  }
+}
+
+/// Adds a piece to the last one if it follows it and both have one body. Without `any_size`, the sphere
+/// limits this.
+void DrawList::add(std::vector<DrawPiece>& pieces, const DrawPiece& next, bool any_size) {
+  if (!pieces.empty()) {
+    DrawPiece& last = pieces.back();
+    const bool follows = last.body == next.body && last.first_index + last.index_count == next.first_index;
+    DrawPiece both = last;
+    both.index_count += next.index_count;
+    if (follows) bound(*scene_, both);
+    const double most = std::max(free_radius_m, most_growth * std::max(last.radius, next.radius));
+    if (follows && (any_size || both.radius <= most)) {
+      last = both;
+      return;
+    }
+  }
+  pieces.push_back(next);
+}
+
+bool DrawList::any_closed() const { return std::ranges::any_of(moving_, &DrawPiece::closed); }
+
+std::vector<uint32_t> visible_pieces(std::span<const DrawPiece> pieces, std::span<const Pose> poses,
+                                     const CameraView& view) {
+  struct Drawn {
+    double nearest;
+    uint32_t piece;
+  };
+  std::vector<Drawn> drawn;
+  drawn.reserve(pieces.size());
+  for (uint32_t i = 0; i < pieces.size(); ++i) {
+    const dvec3 center = poses[pieces[i].body].apply(pieces[i].center) - view.eye;
+    if (view.outside(center, pieces[i].radius)) continue;
+    drawn.push_back({glm::dot(view.forward, center) - pieces[i].radius, i});
+  }
+  // The order is front to back, so that hidden triangles cost only a depth test. It is total, so that ties
+  // come out the same every time.
+  std::ranges::sort(drawn, [](const Drawn& a, const Drawn& b) {
+    return a.nearest != b.nearest ? a.nearest < b.nearest : a.piece < b.piece;
+  });
+  std::vector<uint32_t> order;
+  order.reserve(drawn.size());
+  for (const Drawn& d : drawn) order.push_back(d.piece);
+  return order;
+}
+
+}  // namespace greatx::render
