@@ -59,7 +59,8 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
     throw_user_error(
         "camera {}: distortion: expected a pinhole picture of at most {} pixels along a side, found {} x {}",
         desc_.name, most, pinhole_->width, pinhole_->height);
-  draws_ = std::make_unique<DrawList>(scene_->scene(), lighting_->surfaces().closed(), desc_.excluded_body,
+  draws_ = std::make_unique<DrawList>(scene_->scene(), lighting_->surfaces().closed(),
+                                      lighting_->surfaces().closed_instances(), desc_.excluded_body,
                                       effects_.alpha_mask);
   if (effects_.shadow_cascades && shaded) near_shadows_ = std::make_unique<NearShadows>(lighting_->shadows());
   build_pipelines();
@@ -124,12 +125,18 @@ void CameraPass::build_pipelines() {
   draw.fragment_shader = "camera/visibility.frag";
   if (!draws_->still().empty())
     visibility_still_ = gpu::GraphicsPipeline(device, draw, desc_.name + " visibility");
+  if (draws_->any_closed_still()) {
+    gpu::GraphicsDesc closed = draw;
+    // The picture's y points down, as in clip space: what faces the camera winds counter-clockwise.
+    closed.cull = VK_CULL_MODE_BACK_BIT;
+    visibility_still_closed_ =
+        gpu::GraphicsPipeline(device, closed, desc_.name + " visibility of closed things");
+  }
   if (!draws_->moving().empty()) {
     gpu::GraphicsDesc bodies = draw;
     bodies.vertex_shader = "camera/visibility_moving.vert";
     bodies.push_constant_bytes = sizeof(shared::BodyView);
     visibility_moving_ = gpu::GraphicsPipeline(device, bodies, desc_.name + " visibility of bodies");
-    // The picture's y points down, as in clip space: what faces the camera winds counter-clockwise.
     bodies.cull = VK_CULL_MODE_BACK_BIT;
     if (draws_->any_closed())
       visibility_closed_ = gpu::GraphicsPipeline(device, bodies, desc_.name + " visibility of closed bodies");
@@ -359,9 +366,9 @@ void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {
   targets.width = view.pinhole.width;
   targets.height = view.pinhole.height;
   cmd.begin_rendering(targets);
-  draw_pieces(cmd, view, visibility_still_, draws_->still());
+  draw_still(cmd, view);
   draw_moving(cmd, view);
-  draw_pieces(cmd, view, visibility_masked_, draws_->masked());
+  draw_pieces(cmd, view, visibility_masked_, draws_->masked(), visible(draws_->masked(), view));
   cmd.end_rendering();
 }
 
@@ -373,14 +380,23 @@ std::vector<uint32_t> CameraPass::visible(std::span<const DrawPiece> pieces, con
 }
 
 void CameraPass::draw_pieces(gpu::Cmd& cmd, const CameraView& view, const gpu::GraphicsPipeline& with,
-                             std::span<const DrawPiece> pieces) {
-  const std::vector<uint32_t> order = visible(pieces, view);
+                             std::span<const DrawPiece> pieces, std::span<const uint32_t> order) {
   if (order.empty()) return;
   cmd.bind(with);
   cmd.push(scene_->raster_descriptors());
   cmd.constants(view.constants);
   for (const uint32_t i : order)
     cmd.draw_range(pieces[i].first_index, pieces[i].index_count, pieces[i].primitive);
+}
+
+/// Draws what is seen from outside without its back faces, and then the rest, most of which is ground.
+void CameraPass::draw_still(gpu::Cmd& cmd, const CameraView& view) {
+  std::vector<uint32_t> order = visible(draws_->still(), view);
+  const auto rest = std::ranges::stable_partition(
+      order, [&](uint32_t i) { return sees_from_outside(draws_->still()[i], view); });
+  const auto closed = static_cast<size_t>(rest.begin() - order.begin());
+  draw_pieces(cmd, view, visibility_still_closed_, draws_->still(), std::span(order).first(closed));
+  draw_pieces(cmd, view, visibility_still_, draws_->still(), std::span(order).subspan(closed));
 }
 
 void CameraPass::draw_shadows(gpu::TickSlot& slot, const CameraView& view) {

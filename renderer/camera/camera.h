@@ -204,7 +204,8 @@ class CameraPass {
   /// Returns the pieces to draw, front to back, and counts them.
   std::vector<uint32_t> visible(std::span<const DrawPiece> pieces, const CameraView& view);
   void draw_pieces(gpu::Cmd& cmd, const CameraView& view, const gpu::GraphicsPipeline& with,
-                   std::span<const DrawPiece> pieces);
+                   std::span<const DrawPiece> pieces, std::span<const uint32_t> order);
+  void draw_still(gpu::Cmd& cmd, const CameraView& view);
   void upload_lens();
   gpu::Slice upload_lamps(gpu::TickSlot& slot, const CameraView& view);
   void build_faces();
@@ -220,7 +221,8 @@ class CameraPass {
   CameraDesc desc_;
   CameraEffects effects_;
   std::unique_ptr<DrawList> draws_;
-  gpu::GraphicsPipeline visibility_still_, visibility_moving_, visibility_closed_, visibility_masked_;
+  gpu::GraphicsPipeline visibility_still_, visibility_still_closed_, visibility_moving_, visibility_closed_,
+      visibility_masked_;
   gpu::ComputePipeline shade_;
   gpu::Image visibility_, depth_;  ///< multisampled if msaa is
   gpu::Sampler texel_sampler_;

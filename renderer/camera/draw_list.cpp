@@ -3,6 +3,7 @@
 #include "renderer/camera/draw_list.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/description/index_bounds.h"
 
@@ -22,7 +23,8 @@ void bound(const scene::Scene& scene, DrawPiece& piece) {
 }  // namespace
 
 DrawList::DrawList(const scene::Scene& scene, const std::vector<bool>& closed,
-                   std::optional<uint32_t> excluded, bool alpha_mask)
+                   const std::vector<bool>& closed_instances, std::optional<uint32_t> excluded,
+                   bool alpha_mask)
     : scene_(&scene) {
   for (uint32_t i = 0; i < scene.primitives.size(); ++i) {
     const scene::Primitive& primitive = scene.primitives[i];
@@ -33,7 +35,8 @@ DrawList::DrawList(const scene::Scene& scene, const std::vector<bool>& closed,
     if (alpha_mask && scene.has_holes(i)) {
       masked_.push_back(piece);
     } else {
-      piece.closed = closed[body];
+      piece.closed = body != 0 ? closed[body] : closed_instances[primitive.instance] && !scene.has_holes(i);
+      piece.hull = scene.instances[primitive.instance].bounds;
       add(body == 0 ? still_ : moving_, piece, body != 0);
     }
     const scene::PbrMaterial& pbr = scene.materials[primitive.material].pbr;
@@ -44,13 +47,15 @@ DrawList::DrawList(const scene::Scene& scene, const std::vector<bool>& closed,
   }
 }
 
-/// Adds a piece to the last one if it follows it and both have one body. Without `any_size`, the sphere
-/// limits this.
-void DrawList::add(std::vector<DrawPiece>& pieces, const DrawPiece& next, bool any_size) {
+/// Adds a piece to the last one if it follows it, both have one body, and both are closed or both open.
+/// Without `any_size`, the sphere limits this.
+void DrawList::add(std::vector<DrawPiece>& pieces, DrawPiece next, bool any_size) {
   if (!pieces.empty()) {
     DrawPiece& last = pieces.back();
-    const bool follows = last.body == next.body && last.first_index + last.index_count == next.first_index;
+    const bool follows = last.body == next.body && last.closed == next.closed &&
+                         last.first_index + last.index_count == next.first_index;
     DrawPiece both = last;
+    both.hull.add(next.hull);
     both.index_count += next.index_count;
     if (follows) bound(*scene_, both);
     const double most = std::max(free_radius_m, most_growth * std::max(last.radius, next.radius));
@@ -63,6 +68,18 @@ void DrawList::add(std::vector<DrawPiece>& pieces, const DrawPiece& next, bool a
 }
 
 bool DrawList::any_closed() const { return std::ranges::any_of(moving_, &DrawPiece::closed); }
+bool DrawList::any_closed_still() const { return std::ranges::any_of(still_, &DrawPiece::closed); }
+
+bool sees_from_outside(const DrawPiece& piece, const CameraView& view) {
+  if (!piece.closed) return false;
+  // The corners of the picture see the farthest from the eye at the nearest depth.
+  const PinholeView& p = view.pinhole;
+  const double x = std::max(std::abs(p.cx), std::abs(p.width - p.cx)) / p.fx,
+               y = std::max(std::abs(p.cy), std::abs(p.height - p.cy)) / p.fy;
+  const double room = 1e-3 + double(view.constants.near_m) * std::sqrt(1.0 + x * x + y * y);
+  const dvec3 nearest = glm::clamp(view.eye, piece.hull.min, piece.hull.max);
+  return glm::distance(nearest, view.eye) > room;
+}
 
 std::vector<uint32_t> visible_pieces(std::span<const DrawPiece> pieces, std::span<const Pose> poses,
                                      const CameraView& view) {

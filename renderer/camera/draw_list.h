@@ -21,24 +21,28 @@ struct DrawPiece {
   uint32_t first_index = 0, index_count = 0;
   uint32_t body = 0;
   uint32_t primitive = 0;  ///< the first of them
-  bool closed = false;     ///< the body is closed, and the piece is opaque
-  dvec3 center{0.0};       ///< of the bounding sphere, in the body's frame
+  /// The piece belongs to closed surfaces (renderer/surface/closed_bodies.h). Seen from outside of them, its
+  /// back faces need not be drawn.
+  bool closed = false;
+  scene::Bounds hull;  ///< of these surfaces, if they stand still
+  dvec3 center{0.0};   ///< of the bounding sphere, in the body's frame
   double radius = 0.0;
 };
 
 class DrawList {
  public:
-  /// `closed` has a value for each body. The body `excluded` and its parts are left out. With `alpha_mask`,
-  /// primitives with holes are listed apart.
-  DrawList(const scene::Scene& scene, const std::vector<bool>& closed, std::optional<uint32_t> excluded,
-           bool alpha_mask);
+  /// `closed` has a value for each body, `closed_instances` for each instance of the static world. The body
+  /// `excluded` and its parts are left out. With `alpha_mask`, primitives with holes are listed apart.
+  DrawList(const scene::Scene& scene, const std::vector<bool>& closed,
+           const std::vector<bool>& closed_instances, std::optional<uint32_t> excluded, bool alpha_mask);
 
   /// Opaque pieces of the static world. Primitives share a piece if its sphere stays small, or hardly larger
   /// than the largest of theirs.
   std::span<const DrawPiece> still() const { return still_; }
   std::span<const DrawPiece> moving() const { return moving_; }  ///< opaque
   std::span<const DrawPiece> masked() const { return masked_; }  ///< one primitive each
-  bool any_closed() const;
+  bool any_closed() const;                                       ///< of those that move
+  bool any_closed_still() const;                                 ///< of the static world
 
   /// What the materials of the listed primitives need.
   bool textured() const { return textured_; }
@@ -46,12 +50,16 @@ class DrawList {
   bool emissive() const { return emissive_; }
 
  private:
-  void add(std::vector<DrawPiece>& pieces, const DrawPiece& next, bool any_size);
+  void add(std::vector<DrawPiece>& pieces, DrawPiece next, bool any_size);
 
   const scene::Scene* scene_;
   std::vector<DrawPiece> still_, moving_, masked_;
   bool textured_ = false, normal_mapped_ = false, emissive_ = false;
 };
+
+/// Returns whether a view sees a closed piece of the static world from outside, so that front faces hide its
+/// back faces, and the nearest visible depth cuts no front face off.
+bool sees_from_outside(const DrawPiece& piece, const CameraView& view);
 
 /// Returns the numbers of the pieces that the view may see, front to back. `poses` has one for each body.
 std::vector<uint32_t> visible_pieces(std::span<const DrawPiece> pieces, std::span<const Pose> poses,

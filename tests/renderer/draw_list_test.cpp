@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "renderer/surface/closed_bodies.h"
 #include "tests/support/tiny_scene.h"
 
 namespace greatx::render {
@@ -20,7 +21,7 @@ void add_box(TinyScene& scene, const std::string& name, const dvec3& at, double 
 }
 
 DrawList list_of(const scene::Scene& scene, std::optional<uint32_t> excluded = {}) {
-  return {scene, std::vector<bool>(scene.bodies.size(), true), excluded, true};
+  return {scene, std::vector<bool>(scene.bodies.size(), true), closed_instances(scene), excluded, true};
 }
 
 TEST(DrawList, WhatStandsTogetherSharesADraw) {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Plants overlaps, junctions, wrong sides, sizes and materials, and expects each, and nothing else, in its place.
+// Plants overlaps, junctions, wrong sides, sizes and materials, and expects each, and nothing else, in its
+// place.
 #include <limits>
 
 #include "core/units.h"
