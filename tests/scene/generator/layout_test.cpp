@@ -168,7 +168,7 @@ TEST(City, ItsExtrasKeepTheirBudgets) {
       fences += fence;
       if (scaffold || fence || name.starts_with("grass_")) extra += count;
     }
-    EXPECT_GT(triangles["grass_000"], 300u) << "seed " << seed;
+    EXPECT_GT(triangles["grass_000"], 200u) << "seed " << seed;
     EXPECT_LE(triangles["grass_000"], 600u) << "seed " << seed;
     EXPECT_LE(extra, 3500u) << "seed " << seed;
   }
