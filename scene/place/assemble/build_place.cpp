@@ -183,8 +183,7 @@ class Assembly {
         [&](const dvec2& p) { return built.at(p) != Cover::base; },
         [&](const dvec2& p) { return terrain_->height_at(p); }, out_.report.findings);
     streets_ = place_streets(
-        input_, out_.ground, box, config_.ground.margin_m,
-        [&](const dvec2& p) { return terrain_->height_at(p); },
+        input_, out_.ground, box, [&](const dvec2& p) { return terrain_->height_at(p); },
         [&](const dvec2& p) { return built.at(p) != Cover::base; });
   }
 

@@ -103,14 +103,10 @@ struct Arm {
 
 class PlaceStreets {
  public:
-  PlaceStreets(const PlaceInput& input, const GroundPlan& ground, const Box& rectangle, double margin_m,
+  PlaceStreets(const PlaceInput& input, const GroundPlan& ground, const Box& rectangle,
                const std::function<double(const dvec2&)>& height,
                const std::function<bool(const dvec2&)>& built)
-      : ground_(ground),
-        rectangle_(rectangle),
-        border_(rectangle.grown(-margin_m - 8.0)),
-        height_(height),
-        built_(built) {
+      : ground_(ground), rectangle_(rectangle), height_(height), built_(built) {
     for (const Feature& feature : input.features) features_[{feature.source, feature.id}] = &feature;
   }
 
@@ -355,17 +351,20 @@ class PlaceStreets {
     network_.lanes.push_back(std::move(turn));
   }
 
-  /// Where a road leaves the place, a loop leads back. Dead ends within the place have no room for one.
+  /// Where a road ends, a loop leads back, unless houses stand in its way.
   void make_loop(const Arm& arm) {
     const Edge& edge = edges_[arm.edge];
     const std::vector<uint32_t>& from = edge.made[arm.end == 1 ? 0 : 1];
     const std::vector<uint32_t>& to = edge.made[arm.end == 1 ? 1 : 0];
-    if (from.empty() || to.empty() || border_.holds(end(from[0]))) return;
+    if (from.empty() || to.empty()) return;
+    const std::vector<dvec2> line =
+        loop_line(end(from[0]), start(to[0]), end_direction(from[0]), loop_reach_m);
+    if (std::ranges::any_of(sampled(line), built_)) return;
     StreetLane loop;
     loop.width_m = network_.lanes[from[0]].width_m;
     loop.speed_mps = network_.lanes[from[0]].speed_mps;
     loop.next = {to[0]};
-    loop.line = on_ground(loop_line(end(from[0]), start(to[0]), end_direction(from[0]), loop_reach_m));
+    loop.line = on_ground(line);
     network_.lanes[from[0]].next.push_back(static_cast<uint32_t>(network_.lanes.size()));
     network_.lanes[from[0]].stop_m = 0.0;
     network_.lanes.push_back(std::move(loop));
@@ -481,7 +480,7 @@ class PlaceStreets {
   }
 
   const GroundPlan& ground_;
-  Box rectangle_, border_;
+  Box rectangle_;
   const std::function<double(const dvec2&)>& height_;
   const std::function<bool(const dvec2&)>& built_;
   std::map<std::pair<std::string, std::string>, const Feature*> features_;
@@ -496,9 +495,9 @@ class PlaceStreets {
 }  // namespace
 
 StreetNetwork place_streets(const PlaceInput& input, const GroundPlan& ground, const Box& rectangle,
-                            double margin_m, const std::function<double(const dvec2&)>& height,
+                            const std::function<double(const dvec2&)>& height,
                             const std::function<bool(const dvec2&)>& built) {
-  return PlaceStreets(input, ground, rectangle, margin_m, height, built).make();
+  return PlaceStreets(input, ground, rectangle, height, built).make();
 }
 
 }  // namespace greatx::scene::place

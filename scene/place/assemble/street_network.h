@@ -22,7 +22,7 @@ namespace greatx::scene::place {
 /// rules are those of docs/traffic.md: vehicles drive on the right, junctions have no signals, and bridges,
 /// tunnels and private ways carry no traffic. Without any way the network is empty.
 StreetNetwork place_streets(const PlaceInput& input, const GroundPlan& ground, const Box& rectangle,
-                            double margin_m, const std::function<double(const dvec2&)>& height,
+                            const std::function<double(const dvec2&)>& height,
                             const std::function<bool(const dvec2&)>& built);
 
 }  // namespace greatx::scene::place

@@ -46,8 +46,7 @@ double slope(const dvec2& p) { return 0.05 * p.x; }
 StreetNetwork network_of(const PlaceInput& input) {
   std::vector<Finding> findings;
   const GroundPlan ground = ground_plan(input, {}, findings);
-  return place_streets(input, ground, {{-170, -170}, {170, 170}}, 20.0, slope,
-                       [](const dvec2&) { return false; });
+  return place_streets(input, ground, {{-170, -170}, {170, 170}}, slope, [](const dvec2&) { return false; });
 }
 
 TEST(PlaceStreets, HaveLanesByTags) {
