@@ -174,7 +174,9 @@ TEST(Contact, ACellListsEveryBoxThatMayHideSomethingThereAndFewOthers) {
       const dvec3 q = poses[i + 1].inverse().apply(p) - boxes[i].center;
       const bool counts =
           shared::contact_window(vec3(q), vec3(boxes[i].half_size), float(boxes[i].reach)) > 0.0f;
-      if (counts) EXPECT_TRUE(std::ranges::binary_search(found, i)) << i;
+      if (counts) {
+        EXPECT_TRUE(std::ranges::binary_search(found, i)) << i;
+      }
       near += counts;
       const dvec2 away = glm::abs(dvec2(p - poses[i + 1].apply(boxes[i].center)));
       inside_square += std::max(away.x, away.y) < glm::length(boxes[i].half_size) + boxes[i].reach;
