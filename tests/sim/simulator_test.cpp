@@ -213,10 +213,10 @@ TEST(Plan, ForcingWhatIsNotNeededChangesNothingBeyondItsBound) {
 
 TEST(Plan, NamesThatAreNoneAndSwitchesThatCannotBe) {
   try {
-    keep_run(head + city + "nodes:\n" + uav(camera) + "effects: {shadow: on}\n");
+    keep_run(head + city + "nodes:\n" + uav(camera) + "effects: {dust: on}\n");
     FAIL();
   } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("'shadow' is no effect; expected one of"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("'dust' is no effect; expected one of"));
     EXPECT_THAT(error.what(), ::testing::HasSubstr("static_shadows"));
   }
   EXPECT_THROW(keep_run(head + city + "nodes:\n" + uav(camera) + "effects: {camera: off}\n"), UserError);

@@ -40,7 +40,9 @@ std::string city() {
                          "      type: waypoints\n"
                          "      points:\n"
                          "        - {t_s: 0, position_m: [-45, -3.2, 0]}\n"
-                         "        - {t_s: 10, position_m: [75, -3.2, 0]}\n");
+                         "        - {t_s: 10, position_m: [75, -3.2, 0]}\n"
+                         "    model: {generate: {kind: car, variant: hatchback}}\n"
+                         "    class: vehicle\n");
     }
   return {};
 }
