@@ -153,8 +153,8 @@ TEST(Generate, TexturesPaintedAheadAreThoseOfACity) {
   uint32_t json_bytes = 0;
   std::memcpy(&json_bytes, glb.data() + 12, 4);
   const char* const text = reinterpret_cast<const char*>(glb.data()) + 20;
-  for (const auto& image : nlohmann::json::parse(text, text + json_bytes)["images"])
-    shown.insert(image["name"].get<std::string>());
+  const auto document = nlohmann::json::parse(text, text + json_bytes);
+  for (const auto& image : document["images"]) shown.insert(image["name"].get<std::string>());
   for (const char* const name : generator::city_textures()) EXPECT_TRUE(shown.contains(name)) << name;
 }
 
