@@ -68,8 +68,9 @@ rf::PosedTarget posed(const scene::Scene& scene, uint32_t body) {
   rf::PosedTarget target;
   for (uint32_t i = 0; i < scene.bodies.size(); ++i) {
     const auto& joint = scene.bodies[i].joint;
-    const Pose world = i == 0 ? Pose{} : scene.to_local(Pose{});
-    target.bodies.push_back(joint ? world * joint->pose(0.0) : world);
+    // A part may hang on a part, as a shank on a thigh; its carrier comes before it.
+    const Pose carrier = joint ? target.bodies[joint->owner] : i == 0 ? Pose{} : scene.to_local(Pose{});
+    target.bodies.push_back(joint ? carrier * joint->pose(0.0) : carrier);
   }
   target.centre = scene.to_local(scene.reach_of(body).center());
   target.size_m = glm::length(scene.reach_of(body).size());

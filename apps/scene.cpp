@@ -171,7 +171,7 @@ void add_scene(CLI::App& app) {
           ->capture_default_str()
           ->check(number_of(kind.least_size_m, kind.most_size_m));
     if (const std::vector<std::string> variants = scene::generator_variants(kind.name); !variants.empty())
-      maker->add_option("--variant", options->options.variant, "which one")
+      maker->add_option("--" + kind.variant_word, options->options.variant, "which one")
           ->default_str(variants.front())
           ->check(one_of(variants));
     maker->add_option("-o,--output", options->output, "file to write")->capture_default_str();

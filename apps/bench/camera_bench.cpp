@@ -213,6 +213,7 @@ class CameraBench {
     without("textures", &render::CameraEffects::textures);
     without("static shadows", &render::CameraEffects::static_shadows);
     without("moving shadows", &render::CameraEffects::moving_shadows);
+    without("shadow cascades", &render::CameraEffects::shadow_cascades);
     without("ambient occlusion", &render::CameraEffects::ambient_occlusion);
     without("specular", &render::CameraEffects::specular);
     add_fog();

@@ -235,6 +235,7 @@ int GlbWriter::add_light(const GlbLight& light) {
             {"intensity", light.intensity_cd},
             {"range", light.range_m}};
   if (spot) json["spot"] = {{"innerConeAngle", light.inner_cone}, {"outerConeAngle", light.outer_cone}};
+  if (light.passing_beam) json["extras"] = {{"greatx_beam", "passing"}};
   document_->extensions.insert(lights_extension);
   document_->lights.push_back(std::move(json));
   return static_cast<int>(document_->lights.size()) - 1;

@@ -51,6 +51,7 @@ struct GlbLight {
   double intensity_cd = 0.0;
   double range_m = 0.0;
   double inner_cone = 0.0, outer_cone = 0.0;  ///< rad from the axis; a point light has outer_cone = 0
+  bool passing_beam = false;                  ///< extras.greatx_beam: "passing"
 };
 
 struct GlbNode {

@@ -126,10 +126,14 @@ class _Reading(torch.utils.data.Dataset):
 
 
 class _Works(torch.utils.data.Sampler):
-    """Gives the work of an epoch, each with a slot, when the DataLoader asks for it."""
+    """Gives the work of an epoch, each with a slot, when the DataLoader asks for it.
+
+    It refers to its Batches weakly, so that there is no cycle and an unused loader goes at once. When the
+    collector of cycles ends workers, their queues are gone before them, and torch waits 5 s for each worker.
+    """
 
     def __init__(self, batches: "Batches"):
-        self._batches = batches
+        self._batches = weakref.proxy(batches)
         self.given: Dict[int, Tuple[Slot, np.ndarray]] = {}
 
     def __iter__(self) -> Iterator[Work]:
@@ -214,11 +218,11 @@ class Batches:
         """Chooses the epoch of the next iteration."""
         self.epoch = epoch
 
-    def _numbers_of(self, epoch: int) -> Iterator[np.ndarray]:
+    def _numbers_of(self, epoch: int) -> List[np.ndarray]:
         """Returns the numbers of the items of each batch."""
         order = order_of(len(self.numbers), self.seed, epoch, self.shuffle, self.part)
         numbers = self.numbers[order]
-        return (numbers[i * self.batch : (i + 1) * self.batch] for i in range(len(self)))
+        return [numbers[i * self.batch : (i + 1) * self.batch] for i in range(len(self))]
 
     def __iter__(self) -> Iterator[Dict[str, Any]]:
         self._now, self.epoch = self.epoch, self.epoch + 1

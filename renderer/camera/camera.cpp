@@ -9,6 +9,7 @@
 #include "renderer/camera/camera_view.h"
 #include "renderer/camera/cells.h"
 #include "renderer/camera/develop.h"
+#include "renderer/camera/draw_list.h"
 #include "renderer/camera/edges.h"
 #include "renderer/camera/faces.h"
 #include "renderer/camera/glare.h"
@@ -58,8 +59,10 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
     throw_user_error(
         "camera {}: distortion: expected a pinhole picture of at most {} pixels along a side, found {} x {}",
         desc_.name, most, pinhole_->width, pinhole_->height);
-  bound_primitives();
-  sort_primitives();
+  draws_ = std::make_unique<DrawList>(scene_->scene(), lighting_->surfaces().closed(),
+                                      lighting_->surfaces().closed_instances(), desc_.excluded_body,
+                                      effects_.alpha_mask);
+  if (effects_.shadow_cascades && shaded) near_shadows_ = std::make_unique<NearShadows>(lighting_->shadows());
   build_pipelines();
   create_images();
   create_pictures();
@@ -109,55 +112,6 @@ void CameraPass::check() const {
           "a scene of at most 65534 materials", double(materials));
 }
 
-void CameraPass::bound_primitives() {
-  const scene::Scene& scene = scene_->scene();
-  spheres_.reserve(scene.primitives.size());
-  for (const scene::Primitive& primitive : scene.primitives) {
-    scene::Bounds bounds;
-    for (uint32_t i = 0; i < primitive.index_count; ++i)
-      bounds.add(dvec3(scene.positions[scene.indices[primitive.first_index + i]]));
-    spheres_.push_back({bounds.center(), 0.5 * glm::length(bounds.size())});
-  }
-}
-
-void CameraPass::sort_primitives() {
-  const scene::Scene& scene = scene_->scene();
-  for (uint32_t i = 0; i < scene.primitives.size(); ++i) {
-    const scene::Primitive& primitive = scene.primitives[i];
-    const uint32_t body = scene.instances[primitive.instance].body;
-    if (desc_.excluded_body && scene.owner_of(body) == *desc_.excluded_body) continue;
-    const scene::PbrMaterial& pbr = scene.materials[primitive.material].pbr;
-    const bool masked = effects_.alpha_mask && scene.has_holes(i);
-    if (!masked && body != 0)
-      add_moving(body, i);
-    else
-      (masked ? masked_ : still_).push_back(i);
-    textured_ |=
-        pbr.base_color_texture >= 0 || pbr.metallic_roughness_texture >= 0 || pbr.emissive_texture >= 0;
-    normal_mapped_ |= pbr.normal_texture >= 0;
-    emissive_ |= pbr.emissive != vec3(0.0f);
-  }
-}
-
-/// Adds a primitive to the last piece of its body if it follows it, so that one draw serves both.
-void CameraPass::add_moving(uint32_t body, uint32_t i) {
-  const scene::Scene& scene = scene_->scene();
-  const scene::Primitive& primitive = scene.primitives[i];
-  MovingPiece next{
-      primitive.first_index, primitive.index_count, body, lighting_->surfaces().closed()[body], {}};
-  if (!moving_.empty() && moving_.back().body == body &&
-      moving_.back().first_index + moving_.back().index_count == next.first_index) {
-    next.first_index = moving_.back().first_index;
-    next.index_count += moving_.back().index_count;
-    moving_.pop_back();
-  }
-  scene::Bounds bounds;
-  for (uint32_t k = 0; k < next.index_count; ++k)
-    bounds.add(dvec3(scene.positions[scene.indices[next.first_index + k]]));
-  next.sphere = {bounds.center(), 0.5 * glm::length(bounds.size())};
-  moving_.push_back(next);
-}
-
 void CameraPass::build_pipelines() {
   gpu::Device& device = scene_->device();
   gpu::GraphicsDesc draw;
@@ -169,18 +123,25 @@ void CameraPass::build_pipelines() {
   draw.specialization.resize(shared::shade_spec_count);
   draw.vertex_shader = "camera/visibility.vert";
   draw.fragment_shader = "camera/visibility.frag";
-  if (!still_.empty()) visibility_still_ = gpu::GraphicsPipeline(device, draw, desc_.name + " visibility");
-  if (!moving_.empty()) {
+  if (!draws_->still().empty())
+    visibility_still_ = gpu::GraphicsPipeline(device, draw, desc_.name + " visibility");
+  if (draws_->any_closed_still()) {
+    gpu::GraphicsDesc closed = draw;
+    // The picture's y points down, as in clip space: what faces the camera winds counter-clockwise.
+    closed.cull = VK_CULL_MODE_BACK_BIT;
+    visibility_still_closed_ =
+        gpu::GraphicsPipeline(device, closed, desc_.name + " visibility of closed things");
+  }
+  if (!draws_->moving().empty()) {
     gpu::GraphicsDesc bodies = draw;
     bodies.vertex_shader = "camera/visibility_moving.vert";
     bodies.push_constant_bytes = sizeof(shared::BodyView);
     visibility_moving_ = gpu::GraphicsPipeline(device, bodies, desc_.name + " visibility of bodies");
-    // The picture's y points down, as in clip space: what faces the camera winds counter-clockwise.
     bodies.cull = VK_CULL_MODE_BACK_BIT;
-    if (std::ranges::any_of(moving_, &MovingPiece::closed))
+    if (draws_->any_closed())
       visibility_closed_ = gpu::GraphicsPipeline(device, bodies, desc_.name + " visibility of closed bodies");
   }
-  if (!masked_.empty()) {
+  if (!draws_->masked().empty()) {
     draw.vertex_shader = "camera/visibility_masked.vert";
     draw.fragment_shader = "camera/visibility_masked.frag";
     draw.textures = &scene_->textures().table();
@@ -193,6 +154,7 @@ void CameraPass::build_pipelines() {
   shade.shader = multisampled() ? "camera/shade_multisampled.comp" : "camera/shade.comp";
   shade.bindings = SceneLighting::surface_bindings();
   for (const gpu::Binding& binding : SceneLighting::bindings()) shade.bindings.push_back(binding);
+  for (const gpu::Binding& binding : NearShadows::bindings()) shade.bindings.push_back(binding);
   shade.bindings.push_back({shared::lights_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   shade.bindings.push_back({shared::lens_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
   shade.bindings.push_back({shared::face_pixels_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
@@ -213,10 +175,14 @@ void CameraPass::build_pipelines() {
   shade.specialization[shared::spec_sky] = effects_.sky;
   shade.specialization[shared::spec_static_shadows] = effects_.static_shadows;
   shade.specialization[shared::spec_moving_shadows] = effects_.moving_shadows;
-  shade.specialization[shared::spec_textures] = effects_.textures && textured_;
-  shade.specialization[shared::spec_normal_maps] = effects_.normal_maps && normal_mapped_;
-  shade.specialization[shared::spec_emissive] = effects_.emissive && emissive_;
+  shade.specialization[shared::spec_shadow_cascades] = near_shadows_ ? near_shadows_->cascades() : 0;
+  shade.specialization[shared::spec_textures] = effects_.textures && draws_->textured();
+  shade.specialization[shared::spec_normal_maps] = effects_.normal_maps && draws_->normal_mapped();
+  shade.specialization[shared::spec_emissive] = effects_.emissive && draws_->emissive();
   shade.specialization[shared::spec_lights] = effects_.punctual_lights && !scene_->scene().lights.empty();
+  shade.specialization[shared::spec_beams] = std::ranges::any_of(
+      scene_->scene().lights,
+      [](const scene::PunctualLight& light) { return light.beam == scene::PunctualLight::Beam::passing; });
   shade.specialization[shared::spec_specular] = effects_.specular;
   shade.specialization[shared::spec_haze] = effects_.haze;
   shade.specialization[shared::spec_night_sky] = effects_.night_sky;
@@ -314,33 +280,6 @@ void CameraPass::upload_lens() {
 
 // These functions record one picture.
 
-std::vector<uint32_t> CameraPass::visible(std::span<const uint32_t> primitives, const CameraView& view) {
-  const scene::Scene& scene = scene_->scene();
-  struct Drawn {
-    double nearest;
-    uint32_t primitive;
-  };
-  std::vector<Drawn> drawn;
-  drawn.reserve(primitives.size());
-  for (const uint32_t i : primitives) {
-    const uint32_t body = scene.instances[scene.primitives[i].instance].body;
-    const dvec3 center = lighting_->body_poses()[body].apply(spheres_[i].center) - view.eye;
-    if (view.outside(center, spheres_[i].radius)) continue;
-    drawn.push_back({glm::dot(view.forward, center) - spheres_[i].radius, i});
-  }
-  culled_ += static_cast<uint32_t>(primitives.size() - drawn.size());
-  drawn_ += static_cast<uint32_t>(drawn.size());
-  // The order is front to back, so that hidden triangles cost only a depth test. It is total, so that ties
-  // come out the same every time.
-  std::ranges::sort(drawn, [](const Drawn& a, const Drawn& b) {
-    return a.nearest != b.nearest ? a.nearest < b.nearest : a.primitive < b.primitive;
-  });
-  std::vector<uint32_t> order;
-  order.reserve(drawn.size());
-  for (const Drawn& d : drawn) order.push_back(d.primitive);
-  return order;
-}
-
 gpu::Slice CameraPass::upload_lamps(gpu::TickSlot& slot, const CameraView& view) {
   std::vector<uint32_t> words(1);
   lamps_ = {};
@@ -427,61 +366,62 @@ void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {
   targets.width = view.pinhole.width;
   targets.height = view.pinhole.height;
   cmd.begin_rendering(targets);
-  const auto draw_all = [&](const gpu::GraphicsPipeline& with, std::span<const uint32_t> primitives) {
-    const std::vector<uint32_t> order = visible(primitives, view);
-    if (order.empty()) return;
-    cmd.bind(with);
-    cmd.push(scene_->raster_descriptors());
-    cmd.constants(view.constants);
-    for (const uint32_t i : order) {
-      const scene::Primitive& primitive = scene_->scene().primitives[i];
-      cmd.draw_range(primitive.first_index, primitive.index_count, i);
-    }
-  };
-  draw_all(visibility_still_, still_);
+  draw_still(cmd, view);
   draw_moving(cmd, view);
-  draw_all(visibility_masked_, masked_);
+  draw_pieces(cmd, view, visibility_masked_, draws_->masked(), visible(draws_->masked(), view));
   cmd.end_rendering();
 }
 
-void CameraPass::draw_shadows(gpu::TickSlot& slot, const CameraView& view) const {
+std::vector<uint32_t> CameraPass::visible(std::span<const DrawPiece> pieces, const CameraView& view) {
+  std::vector<uint32_t> order = visible_pieces(pieces, lighting_->body_poses(), view);
+  culled_ += static_cast<uint32_t>(pieces.size() - order.size());
+  drawn_ += static_cast<uint32_t>(order.size());
+  return order;
+}
+
+void CameraPass::draw_pieces(gpu::Cmd& cmd, const CameraView& view, const gpu::GraphicsPipeline& with,
+                             std::span<const DrawPiece> pieces, std::span<const uint32_t> order) {
+  if (order.empty()) return;
+  cmd.bind(with);
+  cmd.push(scene_->raster_descriptors());
+  cmd.constants(view.constants);
+  for (const uint32_t i : order)
+    cmd.draw_range(pieces[i].first_index, pieces[i].index_count, pieces[i].primitive);
+}
+
+/// Draws what is seen from outside without its back faces, and then the rest, most of which is ground.
+void CameraPass::draw_still(gpu::Cmd& cmd, const CameraView& view) {
+  std::vector<uint32_t> order = visible(draws_->still(), view);
+  const auto rest = std::ranges::stable_partition(
+      order, [&](uint32_t i) { return sees_from_outside(draws_->still()[i], view); });
+  const auto closed = static_cast<size_t>(rest.begin() - order.begin());
+  draw_pieces(cmd, view, visibility_still_closed_, draws_->still(), std::span(order).first(closed));
+  draw_pieces(cmd, view, visibility_still_, draws_->still(), std::span(order).subspan(closed));
+}
+
+void CameraPass::draw_shadows(gpu::TickSlot& slot, const CameraView& view) {
   if (!desc_.outputs.color() && !desc_.outputs.luminance) return;
+  if (near_shadows_) near_shadows_->record(slot, view.eye);
   lighting_->draw_shadows(slot, [&](const dvec3& from, const dvec3& to, double radius) {
     return view.outside(from - view.eye, to - view.eye, radius);
   });
 }
 
 void CameraPass::draw_moving(gpu::Cmd& cmd, const CameraView& view) {
-  struct Drawn {
-    double nearest;
-    uint32_t piece;
-    bool culled;  ///< the eye is outside of a closed body, so its back faces are left out
-  };
-  std::vector<Drawn> order;
-  for (uint32_t i = 0; i < moving_.size(); ++i) {
-    const MovingPiece& piece = moving_[i];
-    const dvec3 center = lighting_->body_poses()[piece.body].apply(piece.sphere.center) - view.eye;
-    const double room = piece.sphere.radius + 1e-3 + 2.0 * double(view.constants.near_m);
-    if (!view.outside(center, piece.sphere.radius))
-      order.push_back({glm::dot(view.forward, center) - piece.sphere.radius, i,
-                       piece.closed && glm::length(center) > room});
-  }
-  culled_ += static_cast<uint32_t>(moving_.size() - order.size());
-  drawn_ += static_cast<uint32_t>(order.size());
-  if (order.empty()) return;
-  std::ranges::sort(order, [](const Drawn& a, const Drawn& b) {
-    return a.nearest != b.nearest ? a.nearest < b.nearest : a.piece < b.piece;
-  });
   const gpu::GraphicsPipeline* bound = nullptr;
-  for (const Drawn& drawn : order) {
-    const MovingPiece& piece = moving_[drawn.piece];
-    const gpu::GraphicsPipeline& with = drawn.culled ? visibility_closed_ : visibility_moving_;
+  for (const uint32_t i : visible(draws_->moving(), view)) {
+    const DrawPiece& piece = draws_->moving()[i];
+    const Pose& pose = lighting_->body_poses()[piece.body];
+    // Where the eye is outside of a closed body, its back faces are left out.
+    const double room = piece.radius + 1e-3 + 2.0 * double(view.constants.near_m);
+    const bool culled = piece.closed && glm::distance(pose.apply(piece.center), view.eye) > room;
+    const gpu::GraphicsPipeline& with = culled ? visibility_closed_ : visibility_moving_;
     if (bound != &with) {
       cmd.bind(with);
       cmd.push(scene_->raster_descriptors());
       bound = &with;
     }
-    cmd.constants(view.of_body(lighting_->body_poses()[piece.body]));
+    cmd.constants(view.of_body(pose));
     cmd.draw_range(piece.first_index, piece.index_count, 0);
   }
 }
@@ -494,6 +434,9 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view, con
   const PictureBuffers& picture = edges_ ? shaded_ : picture_;
   std::vector<gpu::Descriptor> descriptors = lighting_->surface_descriptors();
   for (const gpu::Descriptor& descriptor : lighting_->descriptors()) descriptors.push_back(descriptor);
+  for (const gpu::Descriptor& descriptor :
+       near_shadows_ ? near_shadows_->descriptors() : NearShadows::no_descriptors(lighting_->shadows()))
+    descriptors.push_back(descriptor);
   descriptors.push_back(gpu::Descriptor::buffer(shared::lights_binding, upload_lamps(slot, view)));
   descriptors.push_back(gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_));
   descriptors.push_back(gpu::Descriptor::buffer(shared::face_pixels_binding, pixels));

@@ -20,6 +20,7 @@
 #include "renderer/camera/picture.h"
 #include "renderer/lens/lens.h"
 #include "renderer/light/lighting.h"
+#include "renderer/light/near_shadow.h"
 #include "scene/device/gpu_scene.h"
 
 namespace greatx::render {
@@ -141,6 +142,8 @@ struct LampCounts {
 struct CameraView;
 class CellPass;
 class DevelopPass;
+class DrawList;
+struct DrawPiece;
 class EdgePass;
 class FaceTable;
 class GlarePass;
@@ -183,32 +186,31 @@ class CameraPass {
   /// The view of the pixels' centres: uvec2 [height * width], the bits of planar depth (sky: +inf),
   /// triangle + 1 (0: nothing).
   const gpu::Buffer& seen() const { return seen_; }
-  /// The numbers of primitives that the last record() drew, and left out because they lie outside the view.
+  /// The numbers of pieces (DrawList) that the last record() drew, and left out because they lie outside the
+  /// view.
   uint32_t drawn() const { return drawn_; }
   uint32_t culled() const { return culled_; }
+  /// The cascades of static shadows around this camera; null without them.
+  const NearShadows* near_shadows() const { return near_shadows_.get(); }
   /// The lamps of the last record().
   const LampCounts& lamps() const { return lamps_; }
 
  private:
-  /// Holds the bounding sphere of a primitive in its body's frame.
-  struct Sphere {
-    dvec3 center{0.0};
-    double radius = 0.0;
-  };
   bool multisampled() const { return desc_.msaa > 1; }
   void check() const;
-  void bound_primitives();
-  void sort_primitives();
   void build_pipelines();
   void create_images();
   void create_pictures();
-  std::vector<uint32_t> visible(std::span<const uint32_t> primitives, const CameraView& view);
+  /// Returns the pieces to draw, front to back, and counts them.
+  std::vector<uint32_t> visible(std::span<const DrawPiece> pieces, const CameraView& view);
+  void draw_pieces(gpu::Cmd& cmd, const CameraView& view, const gpu::GraphicsPipeline& with,
+                   std::span<const DrawPiece> pieces, std::span<const uint32_t> order);
+  void draw_still(gpu::Cmd& cmd, const CameraView& view);
   void upload_lens();
   gpu::Slice upload_lamps(gpu::TickSlot& slot, const CameraView& view);
   void build_faces();
   void record_faces(gpu::TickSlot& slot, const Pose& local_from_sensor, const ExposurePart& part);
-  void add_moving(uint32_t body, uint32_t primitive);
-  void draw_shadows(gpu::TickSlot& slot, const CameraView& view) const;
+  void draw_shadows(gpu::TickSlot& slot, const CameraView& view);
   void record_visibility(gpu::Cmd& cmd, const CameraView& view);
   void draw_moving(gpu::Cmd& cmd, const CameraView& view);
   /// `pixels` lists those that look through this view. Without a FaceTable all do.
@@ -218,17 +220,9 @@ class CameraPass {
   const scene::GpuScene* scene_;
   CameraDesc desc_;
   CameraEffects effects_;
-  std::vector<Sphere> spheres_;
-  std::vector<uint32_t> still_, masked_;  ///< primitives; the first opaque
-  /// Opaque primitives of a moving body that follow one another.
-  struct MovingPiece {
-    uint32_t first_index = 0, index_count = 0, body = 0;
-    bool closed = false;  ///< it is the whole of a closed body
-    Sphere sphere;
-  };
-  std::vector<MovingPiece> moving_;
-  bool textured_ = false, normal_mapped_ = false, emissive_ = false;  ///< the needs of their materials
-  gpu::GraphicsPipeline visibility_still_, visibility_moving_, visibility_closed_, visibility_masked_;
+  std::unique_ptr<DrawList> draws_;
+  gpu::GraphicsPipeline visibility_still_, visibility_still_closed_, visibility_moving_, visibility_closed_,
+      visibility_masked_;
   gpu::ComputePipeline shade_;
   gpu::Image visibility_, depth_;  ///< multisampled if msaa is
   gpu::Sampler texel_sampler_;
@@ -240,12 +234,13 @@ class CameraPass {
   gpu::Buffer mirrors_;    ///< MirrorPass: what the surfaces mirror; one element if nothing
   PictureBuffers picture_;
   gpu::Buffer seen_;
-  std::unique_ptr<EdgePass> edges_;       ///< null if not wanted
-  std::unique_ptr<MirrorPass> mirror_;    ///< null without water
-  std::unique_ptr<StreakPass> streaks_;   ///< null without rain
-  std::unique_ptr<GlarePass> glare_;      ///< null if not wanted
-  std::unique_ptr<CellPass> cells_;       ///< null if not wanted
-  std::unique_ptr<DevelopPass> develop_;  ///< null if no array is wanted
+  std::unique_ptr<NearShadows> near_shadows_;  ///< null without the effect
+  std::unique_ptr<EdgePass> edges_;            ///< null if not wanted
+  std::unique_ptr<MirrorPass> mirror_;         ///< null without water
+  std::unique_ptr<StreakPass> streaks_;        ///< null without rain
+  std::unique_ptr<GlarePass> glare_;           ///< null if not wanted
+  std::unique_ptr<CellPass> cells_;            ///< null if not wanted
+  std::unique_ptr<DevelopPass> develop_;       ///< null if no array is wanted
   std::string visibility_scope_, shade_scope_;
   uint32_t drawn_ = 0, culled_ = 0;
   LampCounts lamps_;

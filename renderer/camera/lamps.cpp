@@ -136,7 +136,7 @@ class Clusters {
 };
 
 void put_lamp(std::vector<uint32_t>& words, const scene::PunctualLight& light, const vec3& position,
-              const vec3& direction, const LampTile& tile) {
+              const vec3& direction, const dvec3& up, const LampTile& tile) {
   const bool directional = light.type == scene::PunctualLight::Type::directional;
   float scale = 0.0f, offset = 1.0f;
   if (light.type == scene::PunctualLight::Type::spot) {
@@ -149,10 +149,13 @@ void put_lamp(std::vector<uint32_t>& words, const scene::PunctualLight& light, c
   // clusters.
   const double reach = lamp_reach(light);
   const float window = directional ? -1.0f : float(1.0 / std::max(reach * reach, 1e-12));
-  for (const vec4& quad :
-       {vec4(directional ? -direction : position, window), vec4(direction, scale),
-        vec4(light.color * light.intensity, offset),
-        vec4(vec3(tile.across), std::bit_cast<float>(glm::packUnorm2x16(vec2(tile.center))))})
+  vec4 last(vec3(tile.across), std::bit_cast<float>(glm::packUnorm2x16(vec2(tile.center))));
+  if (light.beam == scene::PunctualLight::Beam::passing) {
+    const dvec3 right = glm::normalize(glm::cross(dvec3(direction), up));
+    last = vec4(vec3(glm::cross(right, dvec3(direction))), std::bit_cast<float>(shared::lamp_of_beam));
+  }
+  for (const vec4& quad : {vec4(directional ? -direction : position, window), vec4(direction, scale),
+                           vec4(light.color * light.intensity, offset), last})
     for (int i = 0; i < 4; ++i) words.push_back(std::bit_cast<uint32_t>(quad[i]));
 }
 
@@ -180,7 +183,8 @@ std::vector<uint32_t> cluster_lamps(const CameraView& view, std::span<const scen
                      glm::dot(view.forward, ball.center)};
       if (!clusters.add(record, ball)) continue;
     }
-    put_lamp(lamps, light, vec3(position), vec3(direction), tiles.empty() ? LampTile{} : tiles[i]);
+    put_lamp(lamps, light, vec3(position), vec3(direction), pose.rotate({0.0, 0.0, 1.0}),
+             tiles.empty() ? LampTile{} : tiles[i]);
     // Directional light scatters everywhere: it makes no halo.
     brightness.push_back(light.type == scene::PunctualLight::Type::directional
                              ? 0.0

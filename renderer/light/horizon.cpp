@@ -64,10 +64,11 @@ double land_height(const scene::Scene& scene) {
       if (row == 0 || column == 0 || row + 1 == field.height || column + 1 == field.width)
         border.push_back(field.heights[size_t{row} * field.width + column]);
   if (border.empty()) return 0.0;
-  // Houses at the border do not count: the lower third of it is ground.
-  const auto third = border.begin() + std::ptrdiff_t(border.size() / 3);
-  std::nth_element(border.begin(), third, border.end());
-  return field.floor + double(*third);
+  // Houses, trees and masts at the border do not count. Streets leave a tenth of it free at least. Land that
+  // is higher than they are would stand across their ends as a wall.
+  const auto tenth = border.begin() + std::ptrdiff_t(border.size() / 10);
+  std::nth_element(border.begin(), tenth, border.end());
+  return field.floor + double(*tenth);
 }
 
 dvec3 ground_color(const scene::Scene& scene, double height) {

@@ -17,7 +17,7 @@ namespace greatx::render {
 /// and rooms.
 HorizonKind horizon_of(const scene::Scene& scene);
 
-/// Returns the height at which the land lies: that of most of the scene's border.
+/// Returns the height at which the land lies: that below which a tenth of the scene's border is.
 double land_height(const scene::Scene& scene);
 
 /// Returns the mean colour of what faces upwards in the static scene, below `height`, linear Rec. 709.

@@ -8,6 +8,8 @@
 
 #include "core/units.h"
 #include "renderer/light/shadow_raster.h"
+#include "scene/description/index_bounds.h"
+#include "shaders/shared/beam.h"
 
 namespace greatx::render {
 
@@ -27,10 +29,23 @@ struct CasterSphere {
   double radius = 0.0;
 };
 
+/// Returns the mean of a passing beam over the directions of a cone about its elbow.
+double mean_of_beam(double half_angle) {
+  constexpr int rings = 64, sectors = 64;
+  double sum = 0.0;
+  for (int i = 0; i < rings; ++i) {
+    const double cosine = 1.0 - (i + 0.5) / rings * (1.0 - std::cos(half_angle));  // equal solid angles
+    const double tangent = std::sqrt(1.0 - cosine * cosine) / cosine;
+    for (int k = 0; k < sectors; ++k) {
+      const double angle = 2.0 * pi * (k + 0.5) / sectors;
+      sum += double(shared::passing_beam(float(tangent * std::cos(angle)), float(tangent * std::sin(angle))));
+    }
+  }
+  return sum / (rings * sectors);
+}
+
 CasterSphere sphere_of(const scene::Scene& scene, const scene::Primitive& primitive) {
-  scene::Bounds bounds;
-  for (uint32_t i = 0; i < primitive.index_count; ++i)
-    bounds.add(dvec3(scene.positions[scene.indices[primitive.first_index + i]]));
+  const scene::Bounds bounds = scene::bounds_of_indices(scene, primitive.first_index, primitive.index_count);
   return {bounds.center(), 0.5 * glm::length(bounds.size())};
 }
 
@@ -48,7 +63,8 @@ dvec3 lamp_flux(const Light& light) {
   if (light.type == Light::Type::directional) return dvec3(0.0);
   if (light.type == Light::Type::point) return 4.0 * pi * peak;
   const double inner = std::cos(double(light.inner_cone)), outer = std::cos(double(light.outer_cone));
-  return 2.0 * pi * (1.0 - inner + (inner - outer) / 3.0) * peak;
+  const double mean = light.beam == Light::Beam::passing ? mean_of_beam(double(light.outer_cone)) : 1.0;
+  return 2.0 * pi * (1.0 - inner + (inner - outer) / 3.0) * mean * peak;
 }
 
 LampShadows::LampShadows(const scene::GpuScene& scene, const LampShadowOptions& options) : scene_(&scene) {
@@ -65,7 +81,8 @@ void LampShadows::place_lamps() {
   const std::vector<Light>& lights = scene_->scene().lights;
   std::vector<uint32_t> order;
   for (uint32_t i = 0; i < lights.size(); ++i) {
-    const bool still = lights[i].body == 0 && lights[i].type != Light::Type::directional;
+    const bool still = lights[i].body == 0 && lights[i].type != Light::Type::directional &&
+                       lights[i].beam == Light::Beam::cone;
     if (still && lamp_reach(lights[i]) > double(shared::lamp_shadow_near)) order.push_back(i);
   }
   std::ranges::stable_sort(order,

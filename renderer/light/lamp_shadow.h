@@ -5,9 +5,9 @@
 // its axis (of a point light: downwards) with a half-angle of 75 degrees at most. Static casters are drawn
 // once. Casters that move are drawn every tick into a copy.
 //
-// No shadows come from lamps that move, from directional lights, from lamps beyond the most_lamp_tiles that
-// light the largest areas, and from casters beside a tile (more than 75 degrees from its axis) or nearer to
-// the lamp than lamp_shadow_near. What lies beside a tile is lit.
+// No shadows come from lamps that move, from passing beams, from directional lights, from lamps beyond the
+// most_lamp_tiles that light the largest areas, and from casters beside a tile (more than 75 degrees from its
+// axis) or nearer to the lamp than lamp_shadow_near. What lies beside a tile is lit.
 #pragma once
 
 #include <span>
@@ -28,7 +28,8 @@ inline constexpr double lamp_least_lux = 1e-3;
 double lamp_reach(const scene::PunctualLight& light);
 
 /// Returns the luminous flux of a lamp, lm per channel; 0 for a directional one. Between the cones of a spot
-/// the intensity falls with the square of a ramp in the cosine (KHR_lights_punctual).
+/// the intensity falls with the square of a ramp in the cosine (KHR_lights_punctual). Of a passing beam it is
+/// that of its cone at the beam's mean intensity over the cone.
 dvec3 lamp_flux(const scene::PunctualLight& light);
 
 inline constexpr double lamp_tile_half_angle = 1.3089969;  ///< rad, 75 degrees

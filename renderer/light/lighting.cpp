@@ -119,6 +119,8 @@ SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& light
   if (effects_.sky) ground_illuminance_lux_ += sky.illuminance();
   effects_.static_shadows = effects.static_shadows && effects_.sun;
   effects_.moving_shadows = effects.moving_shadows && effects_.sun;
+  effects_.shadow_cascades = effects.shadow_cascades && effects_.static_shadows &&
+                             !scene.scene().bounds.empty() && scene.scene().bodies[0].primitive_count > 0;
   shadows_ = ShadowMaps(scene, SunFrame::of(key.direction),
                         {.static_casters = effects_.static_shadows,
                          .moving_casters = effects_.moving_shadows,

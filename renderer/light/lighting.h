@@ -77,10 +77,11 @@ KeyLight key_light(const Lighting& lighting);
 /// (sim/plan/effect_list.h). An effect that is off is not in the pipelines, not rendered and not uploaded.
 /// Textures, normal maps and alpha masks need GpuSceneOptions::textures.
 struct CameraEffects {
-  bool sun = true;             ///< the key light: sun or moon
-  bool sky = true;             ///< the sky as background, ambient light and reflection
-  bool static_shadows = true;  ///< only with the key light
-  bool moving_shadows = true;  ///< only with the key light
+  bool sun = true;               ///< the key light: sun or moon
+  bool sky = true;               ///< the sky as background, ambient light and reflection
+  bool static_shadows = true;    ///< only with the key light
+  bool moving_shadows = true;    ///< only with the key light
+  bool shadow_cascades = false;  ///< renderer/light/near_shadow.h; only with static_shadows
   bool textures = true;
   bool normal_maps = true;
   bool alpha_mask = true;

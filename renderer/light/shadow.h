@@ -35,6 +35,14 @@ class ShadowMaps {
   void describe(shared::GpuLighting& block) const;
   std::vector<gpu::Descriptor> descriptors() const;
   const SunFrame& frame() const { return frame_; }
+  const scene::GpuScene& scene() const { return *scene_; }
+  bool alpha_mask() const { return options_.alpha_mask; }
+  /// The edge of a texel of the static map, m, and the depths in it: z depth_scale() + depth_offset().
+  double static_texel_m() const { return (static_max_.x - static_min_.x) / static_map_.desc().width; }
+  double depth_scale() const { return 1.0 / (static_max_.z - static_min_.z); }
+  double depth_offset() const { return -static_min_.z * depth_scale(); }
+  const gpu::Image& static_map() const { return static_map_; }
+  const gpu::Sampler& sampler() const { return sampler_; }
   MovingShadows& moving() { return moving_; }
   const MovingShadows& moving() const { return moving_; }
 

@@ -22,9 +22,10 @@ gpu::Image shadow_map(gpu::Device& device, uint32_t size, std::string_view name,
       name);
 }
 
-gpu::Sampler shadow_sampler(gpu::Device& device, std::string_view name) {
+gpu::Sampler shadow_sampler(gpu::Device& device, std::string_view name, bool repeats) {
   return gpu::Sampler(
-      device, {.linear = true, .repeat_u = false, .repeat_v = false, .compare_greater_or_equal = true}, name);
+      device, {.linear = true, .repeat_u = repeats, .repeat_v = repeats, .compare_greater_or_equal = true},
+      name);
 }
 
 gpu::GraphicsPipeline shadow_pipeline(const scene::GpuScene& scene, gpu::GraphicsDesc desc, bool masked,

@@ -19,8 +19,8 @@ namespace greatx::render {
 
 /// Returns a square depth map that shaders sample. `also` are further uses.
 gpu::Image shadow_map(gpu::Device& device, uint32_t size, std::string_view name, VkImageUsageFlags also = 0);
-/// Returns the sampler that compares with such a map. What lies beyond its rim is lit.
-gpu::Sampler shadow_sampler(gpu::Device& device, std::string_view name);
+/// Returns the sampler that compares with such a map. What lies beyond its rim is lit, unless it `repeats`.
+gpu::Sampler shadow_sampler(gpu::Device& device, std::string_view name, bool repeats = false);
 
 /// Returns a pipeline that draws casters by the named vertex shader, with holes if `masked`. `desc` holds the
 /// bindings and push constants that this shader has beside the scene's.

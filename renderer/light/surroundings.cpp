@@ -135,6 +135,13 @@ uint32_t stored_radiance(const dvec3& radiance) {
   return word;
 }
 
+/// The free cells of an octant in four bits, rounded down: half steps between powers of two.
+uint32_t stored_leap(uint16_t cells) {
+  if (cells < 2) return 0;
+  const auto power = static_cast<uint32_t>(std::bit_width(cells) - 1);
+  return std::min(15u, 2 * power + (cells >> (power - 1) & 1u));
+}
+
 /// A lamp's illuminance on level ground, without shadows (KHR_lights_punctual).
 double lamp_lux(const scene::PunctualLight& lamp, const dvec3& apart) {
   const double distance2 = glm::dot(apart, apart), distance = std::sqrt(distance2);
@@ -442,25 +449,33 @@ BouncedLight Surroundings::gather_with(const Looks& looks, const dvec2& place, d
   return result;
 }
 
-std::vector<uint16_t> Surroundings::distances() const {
-  // Chebyshev's distance in two passes; beyond the field nothing stands.
+std::vector<uint16_t> Surroundings::free_cells(uint32_t octant) const {
   const auto width = static_cast<int64_t>(field_->width), height = static_cast<int64_t>(field_->height);
-  std::vector<uint16_t> result(cells_.size(), 1000);
-  const auto relax = [&](int64_t row, int64_t column, std::initializer_list<std::pair<int, int>> neighbours) {
-    uint16_t& here = result[static_cast<size_t>(row * width + column)];
-    if (cells_[static_cast<size_t>(row * width + column)].stands()) here = 0;
-    for (const auto& [dx, dy] : neighbours) {
-      const int64_t x = column + dx, y = row + dy;
-      if (x >= 0 && y >= 0 && x < width && y < height)
-        here =
-            std::min<uint16_t>(here, static_cast<uint16_t>(result[static_cast<size_t>(y * width + x)] + 1));
-    }
+  const int64_t right = octant & shared::surroundings_negative_x ? -1 : 1,
+                up = octant & shared::surroundings_negative_y ? -1 : 1;
+  const bool along_y = (octant & shared::surroundings_along_y) != 0;
+  constexpr uint16_t most = 1000;  // beyond the field nothing stands
+  std::vector<uint16_t> cone(cells_.size());
+  const auto of = [&](const std::vector<uint16_t>& values, int64_t column, int64_t row) {
+    const bool inside = column >= 0 && row >= 0 && column < width && row < height;
+    return inside ? values[static_cast<size_t>(row * width + column)] : most;
   };
+  // From a cell, the cone covers the next cell along the axis, the one beside that, and their cones.
+  for (int64_t j = 0; j < height; ++j)
+    for (int64_t i = 0; i < width; ++i) {
+      const int64_t column = right > 0 ? width - 1 - i : i, row = up > 0 ? height - 1 - j : j;
+      const auto here = static_cast<size_t>(row * width + column);
+      if (cells_[here].stands()) continue;
+      const uint16_t straight = along_y ? of(cone, column, row + up) : of(cone, column + right, row);
+      const uint16_t next = std::min(straight, of(cone, column + right, row + up));
+      cone[here] = std::min<uint16_t>(most, static_cast<uint16_t>(next + 1));
+    }
+  // A ray may start anywhere in its cell, and so also pass through the cones of the cell beside it.
+  std::vector<uint16_t> result(cells_.size());
   for (int64_t row = 0; row < height; ++row)
     for (int64_t column = 0; column < width; ++column)
-      relax(row, column, {{-1, 0}, {-1, -1}, {0, -1}, {1, -1}});
-  for (int64_t row = height; row-- > 0;)
-    for (int64_t column = width; column-- > 0;) relax(row, column, {{1, 0}, {1, 1}, {0, 1}, {-1, 1}});
+      result[static_cast<size_t>(row * width + column)] = std::min(
+          of(cone, column, row), along_y ? of(cone, column + right, row) : of(cone, column, row + up));
   return result;
 }
 
@@ -478,8 +493,9 @@ std::vector<uint32_t> Surroundings::words() const {
   header.rows = field_->height;
   header.place_columns = std::max(2u, field_->width / shared::surroundings_place_cells);
   header.place_rows = std::max(2u, field_->height / shared::surroundings_place_cells);
-  header.first_place = static_cast<uint32_t>(shared::surroundings_header_pairs +
-                                             shared::surroundings_cell_pairs * cells_.size());
+  const auto cells = static_cast<uint32_t>(cells_.size());
+  header.first_color = shared::surroundings_header_pairs + cells;
+  header.first_place = header.first_color + shared::surroundings_color_pairs * cells;
   header.most_top = most_top_;
   header.key_direction = vec3(light_.key_direction);
   header.key_over_pi = vec3(light_.key_lux / pi);
@@ -488,18 +504,25 @@ std::vector<uint32_t> Surroundings::words() const {
   std::vector<uint32_t> words(2 * shared::surroundings_header_pairs);
   std::memcpy(words.data(), &header, sizeof header);
 
-  const std::vector<uint16_t> away = distances();
+  std::vector<uint32_t> leaps(cells_.size());
+  for (uint32_t octant = 0; octant < 8; ++octant) {
+    const std::vector<uint16_t> free = free_cells(octant);
+    for (size_t i = 0; i < cells_.size(); ++i) leaps[i] |= stored_leap(free[i]) << 4 * octant;
+  }
+  for (size_t i = 0; i < cells_.size(); ++i) {
+    words.push_back(halves(cells_[i].top, cells_[i].bottom));
+    words.push_back(leaps[i]);
+  }
   for (size_t i = 0; i < cells_.size(); ++i) {
     const SurroundingCell& cell = cells_[i];
-    words.push_back(halves(cell.top, cell.shadow));
-    words.push_back(glm::packHalf1x16(cell.bottom) | uint32_t{away[i]} << 16);
     words.push_back(stored_radiance(top_radiance_[i]));
     uint32_t wall = 0;
     for (int c = 0; c < 3; ++c)
       wall |= static_cast<uint32_t>(std::lround(255.0 * std::clamp(cell.wall_albedo[c], 0.0, 1.0))) << 8 * c;
-    const double turn = std::atan2(cell.wall_normal.y, cell.wall_normal.x) / (2.0 * pi);
-    wall |= (static_cast<uint32_t>(std::lround((turn + 1.0) * 256.0)) & 255u) << 24;
     words.push_back(wall);
+    const vec4 normal(0.0f, 0.0f, vec2(cell.wall_normal));
+    words.push_back((glm::packHalf1x16(cell.shadow) & 0xffffu) | glm::packSnorm4x8(normal));
+    words.push_back(0);
   }
   put_places(words, header.place_columns, header.place_rows);
   return words;
@@ -543,18 +566,26 @@ void fill_from_neighbours(std::vector<BouncedPlace>& places, uint32_t columns, u
     }
 }
 
+/// The three signed bytes of a luminance's vector.
+uint32_t stored_vector(const BouncedLight& light) {
+  const double c = std::max(luminance(light.constant), 1e-30);
+  vec4 part(0.0f);
+  for (int axis = 0; axis < 3; ++axis)
+    part[axis] = float(luminance(light.along[axis]) / (double(shared::surroundings_vector_scale) * c));
+  return glm::packSnorm4x8(part);  // clamps
+}
+
 void put_place(std::vector<uint32_t>& words, const BouncedPlace& place) {
-  const auto halves = [](double low, double high) {
-    return glm::packHalf2x16(vec2(float(low), float(high)));
-  };
-  for (const BouncedLight* light : {&place.low, &place.high}) {
-    words.push_back(halves(luminance(light->constant), luminance(light->along[0])));
-    words.push_back(halves(luminance(light->along[1]), luminance(light->along[2])));
-  }
   const dvec3 sum = place.low.constant + place.high.constant;
   const double y = luminance(sum);
-  words.push_back(y > 0.0 ? halves(sum.r / y, sum.b / y) : halves(1.0, 1.0));
-  words.push_back(halves(place.ground, 0.0));
+  const double red = y > 0.0 ? sum.r / y : 1.0, blue = y > 0.0 ? sum.b / y : 1.0;
+  const dvec2 root =
+      glm::sqrt(glm::max(dvec2(red, blue), dvec2(0.0))) / double(shared::surroundings_color_scale);
+  const uint32_t color = glm::packUnorm4x8(vec4(0.0f, 0.0f, vec2(root)));  // clamps
+  words.push_back((glm::packHalf1x16(float(luminance(place.low.constant))) & 0xffffu) | color);
+  words.push_back(stored_vector(place.low));
+  words.push_back(glm::packHalf2x16(vec2(float(luminance(place.high.constant)), place.ground)));
+  words.push_back(stored_vector(place.high));
 }
 
 }  // namespace

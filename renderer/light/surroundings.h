@@ -65,6 +65,10 @@ class Surroundings {
   dvec3 wall_radiance(const SurroundingCell& cell, double height) const;
   /// Gathers the light that surfaces send to a point at a height over the floor. It looks along 16 azimuths.
   BouncedLight gather(const dvec2& place, double height) const;
+  /// Returns for each cell how many columns of cells (or rows, along y) a level ray passes, the own one
+  /// included, before something may stand in its way, wherever in the cell and in the octant of directions
+  /// (shaders/shared/surroundings.h) it goes. 0: something stands in the cell or beside it.
+  std::vector<uint16_t> free_cells(uint32_t octant) const;
   /// Returns the words that shaders/camera/surroundings.glsl reads; the layout is in
   /// shaders/shared/surroundings.h.
   std::vector<uint32_t> words() const;
@@ -74,7 +78,6 @@ class Surroundings {
   void thicken_walls();
   void cast_shadows();
   void shine(std::span<const scene::PunctualLight> lamps);
-  std::vector<uint16_t> distances() const;
   void put_places(std::vector<uint32_t>& words, uint32_t columns, uint32_t rows) const;
   template <typename Bands, typename Looks>
   void look_along(const dvec2& middle, double height, const Looks& looks, int azimuth, Bands& bands) const;

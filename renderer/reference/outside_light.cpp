@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "renderer/camera/lamps.h"
 #include "renderer/reference/scatter.h"
+#include "shaders/shared/beam.h"
 
 namespace greatx::render {
 
@@ -98,6 +99,9 @@ LampLight::LampLight(std::span<const scene::PunctualLight> lights, std::span<con
       const double inner = std::cos(double(light.inner_cone)), outer = std::cos(double(light.outer_cone));
       lamp.cone_scale = 1.0 / std::max(0.001, inner - outer);
       lamp.cone_offset = -outer * lamp.cone_scale;
+      lamp.passing = light.beam == scene::PunctualLight::Beam::passing;
+      lamp.right = glm::normalize(glm::cross(lamp.direction, pose.rotate({0.0, 0.0, 1.0})));
+      lamp.up = glm::cross(lamp.right, lamp.direction);
     }
     lamps_.push_back(lamp);
   }
@@ -118,7 +122,12 @@ LightSample LampLight::of(const Lamp& lamp, const dvec3& position) {
   const double ratio = distance2 * lamp.window;
   const double cone =
       std::clamp(lamp.cone_offset - glm::dot(sample.to_light, lamp.direction) * lamp.cone_scale, 0.0, 1.0);
-  sample.radiance = lamp.color * (cone * cone * std::clamp(1.0 - ratio * ratio, 0.0, 1.0) / distance2);
+  double shape = cone * cone;
+  if (lamp.passing && shape > 0.0) {
+    const dvec3 away = -sample.to_light / -glm::dot(sample.to_light, lamp.direction);
+    shape *= double(shared::passing_beam(float(glm::dot(away, lamp.right)), float(glm::dot(away, lamp.up))));
+  }
+  sample.radiance = lamp.color * (shape * std::clamp(1.0 - ratio * ratio, 0.0, 1.0) / distance2);
   return sample;
 }
 

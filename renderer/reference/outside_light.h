@@ -70,6 +70,8 @@ class LampLight {
     dvec3 position, direction, color;  ///< the colour times candelas, or lux of a directional lamp
     double window = 0.0;               ///< 1 / reach^2
     double cone_scale = 0.0, cone_offset = 1.0;
+    bool passing = false;  ///< a passing beam
+    dvec3 right{0.0}, up{0.0};
   };
   static LightSample of(const Lamp& lamp, const dvec3& position);
   std::vector<Lamp> lamps_;

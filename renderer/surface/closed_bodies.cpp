@@ -110,4 +110,18 @@ std::vector<bool> closed_bodies(const scene::Scene& scene) {
   return result;
 }
 
+std::vector<bool> closed_instances(const scene::Scene& scene) {
+  std::vector<std::vector<vec3>> corners(scene.instances.size());
+  const scene::Body& world = scene.bodies[0];
+  for (uint32_t i = world.first_primitive; i < world.first_primitive + world.primitive_count; ++i) {
+    const scene::Primitive& primitive = scene.primitives[i];
+    if (scene.has_holes(i)) continue;
+    for (uint32_t k = 0; k < primitive.index_count; ++k)
+      corners[primitive.instance].push_back(scene.positions[scene.indices[primitive.first_index + k]]);
+  }
+  std::vector<bool> result(scene.instances.size(), false);
+  for (size_t i = 0; i < corners.size(); ++i) result[i] = !corners[i].empty() && closed(corners[i]);
+  return result;
+}
+
 }  // namespace greatx::render

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Finds the bodies whose back faces nobody outside them ever sees.
+// Finds the bodies, and the things of the static world, whose back faces nobody outside them ever sees.
 #pragma once
 
 #include <vector>
@@ -16,5 +16,9 @@ namespace greatx::render {
 /// faces, and a front face is the nearest. Body 0, bodies without triangles, and bodies with materials that
 /// have holes are not closed.
 std::vector<bool> closed_bodies(const scene::Scene& scene);
+
+/// Returns the same for each instance of the static world, of the triangles without holes alone; false for
+/// instances of other bodies.
+std::vector<bool> closed_instances(const scene::Scene& scene);
 
 }  // namespace greatx::render

@@ -79,6 +79,7 @@ void require_16_bits(const char* what, size_t count) {
 SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
   const scene::Scene& scene = gpu_scene.scene();
   closed_ = closed_bodies(scene);
+  closed_instances_ = render::closed_instances(scene);
   require_16_bits("bodies", scene.bodies.size());
   require_16_bits("materials", scene.materials.size());
   Words triangles, materials;

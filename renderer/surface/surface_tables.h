@@ -28,12 +28,14 @@ class SurfaceTables {
   const gpu::Buffer& triangle_ids() const { return triangle_ids_; }
   /// Whether a body is closed (renderer/surface/closed_bodies.h).
   const std::vector<bool>& closed() const { return closed_; }
+  /// Whether an instance of the static world is.
+  const std::vector<bool>& closed_instances() const { return closed_instances_; }
 
  private:
   gpu::Buffer triangles_, materials_;  ///< shaders/shared/camera.h: triangle_record_quads
   gpu::Buffer address_;                ///< address of triangles_, if they are too many to be bound
   gpu::Buffer triangle_primitives_, triangle_ids_;
-  std::vector<bool> closed_;
+  std::vector<bool> closed_, closed_instances_;
 };
 
 }  // namespace greatx::render

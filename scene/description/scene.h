@@ -127,6 +127,9 @@ struct PunctualLight {
   float range_m = 0.0f;                              ///< 0: unlimited
   float inner_cone = 0.0f, outer_cone = 0.7853982f;  ///< rad
   uint32_t body = 0;
+  /// `passing` gives a spot the distribution of a vehicle's low beam (shaders/shared/beam.h) within its cone.
+  /// Its elbow lies on `direction`, and its cut-off is level in the frame of the body.
+  enum class Beam : uint32_t { cone, passing } beam = Beam::cone;
 };
 
 /// A plane n . x = offset in the body's frame (body 0: local coordinates), computed in fp64 from the numbers

@@ -110,8 +110,9 @@ void feed(Feeder& feeder, const Texture& texture) {
 }
 
 void feed(Feeder& feeder, const PunctualLight& light) {
-  feeder.values(static_cast<uint32_t>(light.type), light.position, light.direction, light.color,
-                light.intensity, light.range_m, light.inner_cone, light.outer_cone, light.body);
+  feeder.values(static_cast<uint32_t>(light.type) | static_cast<uint32_t>(light.beam) << 8, light.position,
+                light.direction, light.color, light.intensity, light.range_m, light.inner_cone,
+                light.outer_cone, light.body);
 }
 
 void feed_facets(Feeder& feeder, const Scene& scene) {

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "scene/description/index_bounds.h"
 #include "scene/device/tree_words.h"
 
 namespace greatx::scene {
@@ -58,8 +59,7 @@ BodyTree::BodyTree(const Scene& scene) {
     const Body& range = scene.bodies[body];
     for (uint32_t p = range.first_primitive; p < range.first_primitive + range.primitive_count; ++p) {
       const Primitive& primitive = scene.primitives[p];
-      for (uint32_t i = primitive.first_index; i < primitive.first_index + primitive.index_count; ++i)
-        bounds.add(dvec3(scene.positions[scene.indices[i]]));
+      bounds.add(bounds_of_indices(scene, primitive.first_index, primitive.index_count));
     }
     if (!bounds.empty()) bodies_.push_back({body, bounds.center(), 0.5 * bounds.size()});
   }

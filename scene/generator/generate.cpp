@@ -29,6 +29,7 @@ struct Kind {
   double min_size_m, max_size_m;  ///< both 0: the kind has no size
   std::vector<std::string> variants;
   bool seeded = false;  ///< has a seed, but no size
+  const char* variant_word = "variant";
 };
 
 template <typename Shape>
@@ -40,8 +41,10 @@ std::vector<std::string> variants_of(const std::vector<Shape>& shapes) {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> list{
-      {"city", "a part of a city: streets, buildings, park, trees, lamps, parked cars", 100, 1000, {}},
-      {"country", "hills, a winding road, fields, hedges, farms, woods", 160, 2000, {}},
+      {"city", "a part of a city: streets, buildings, park, trees, lamps, parked cars", 100, 1000,
+       season_names(), true, "season"},
+      {"country", "hills, a winding road, fields, hedges, farms, woods", 160, 2000, season_names(), true,
+       "season"},
       {"canyon", "a street between two rows of houses", 60, 1000, {}},
       {"room", "a closed room of 12 x 8 x 3.2 m, lit by its lamps", 0, 0, {"bare", "office"}},
       {"mast", "a base-station mast of 24.6 m", 0, 0, {}},
@@ -63,9 +66,15 @@ std::string checked_variant(const Kind& kind, const std::string& variant) {
   if (kind.variants.empty())
     throw_user_error("scene generator: variant: \"{}\" has none, found \"{}\"", kind.name, variant);
   if (std::find(kind.variants.begin(), kind.variants.end(), variant) == kind.variants.end())
-    throw_user_error("scene generator: variant of {}: {}", kind.name,
+    throw_user_error("scene generator: {} of {}: {}", kind.variant_word, kind.name,
                      expected_one_of(kind.variants, variant));
   return variant;
+}
+
+/// Returns the season of this name, or summer if there is none.
+Season season_of(const std::string& name) {
+  const auto found = std::ranges::find(season_names(), name);
+  return found == season_names().end() ? Season::summer : static_cast<Season>(found - season_names().begin());
 }
 
 void write_quadrotor(SceneWriter& writer, const std::string& variant) {
@@ -95,8 +104,8 @@ std::vector<std::string> generator_kinds() {
 std::vector<GeneratorKind> generators() {
   std::vector<GeneratorKind> list;
   for (const Kind& kind : kinds())
-    list.push_back(
-        {kind.name, kind.words, kind.min_size_m, kind.max_size_m, kind.seeded || kind.max_size_m > 0});
+    list.push_back({kind.name, kind.words, kind.min_size_m, kind.max_size_m,
+                    kind.seeded || kind.max_size_m > 0, kind.variant_word});
   return list;
 }
 
@@ -109,12 +118,13 @@ std::vector<std::byte> generate_glb(const GenerateOptions& options) {
   if (kind.max_size_m > 0 && !(size >= kind.min_size_m && size <= kind.max_size_m))
     throw_user_error("scene generator: size of \"{}\": expected {} to {} m, found {}", kind.name,
                      kind.min_size_m, kind.max_size_m, size);
-  SceneWriter writer;
+  const Season season = season_of(variant);
+  SceneWriter writer(seasonal_library(season));
   writer.set_quick(options.quick);
   if (options.kind == "city") {
-    write_city(writer, size, options.seed);
+    write_city(writer, size, options.seed, season);
   } else if (options.kind == "country") {
-    write_country(writer, size, options.seed);
+    write_country(writer, size, options.seed, season);
   } else if (options.kind == "canyon") {
     write_canyon(writer, size, options.seed);
   } else if (options.kind == "room") {
@@ -133,7 +143,7 @@ std::vector<std::byte> generate_glb(const GenerateOptions& options) {
                      .mesh = writer.add_mesh("mast", make_mast()),
                      .semantic_class = SemanticClass::mast});
   }
-  const bool plain = variant.empty() || variant == "bare";
+  const bool plain = variant.empty() || variant == "bare" || variant == "summer";
   return writer.finish(plain ? options.kind : options.kind + "_" + variant);
 }
 

@@ -20,7 +20,9 @@ struct GenerateOptions {
   /// Edge of the square of "city" (100...1000) and "country" (160...2000), length of "canyon" (60...1000);
   /// the other kinds ignore it.
   double size_m = 300;
-  std::string variant;  ///< one of generator_variants(kind); empty: the first of them
+  /// One of generator_variants(kind); empty: the first of them. The variants of "city" and "country" are the
+  /// seasons of their plants: "summer", "spring", "autumn", "winter".
+  std::string variant;
   /// Packs the pictures in a hurry, for bytes that are read back at once. The model is the same.
   bool quick = false;
 };
@@ -40,6 +42,7 @@ struct GeneratorKind {
   std::string name, words;                   ///< "car", "a car at rest"
   double least_size_m = 0, most_size_m = 0;  ///< bounds of GenerateOptions::size_m; both 0: it has no size
   bool seeded = false;                       ///< whether GenerateOptions::seed changes it
+  std::string variant_word;                  ///< name of the choice of a variant: "variant" or "season"
 };
 std::vector<GeneratorKind> generators();
 

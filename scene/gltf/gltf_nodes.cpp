@@ -227,8 +227,20 @@ class NodeReader {
     if (!(glm::length(direction) > 0.0)) throw_user_error("{}: a light's transform is singular", what);
     light.direction = glm::normalize(direction);
     set_light(source, light, what + ", light '" + light.name + "'");
+    set_beam(source, light, what + ", light '" + light.name + "'");
     model_.lights.push_back(light);
     model_.nodes_of_lights.push_back(static_cast<uint32_t>(model_.nodes.size() - 1));
+  }
+
+  /// Reads extras.greatx_beam of a spot.
+  static void set_beam(const tinygltf::Light& source, PunctualLight& light, const std::string& what) {
+    if (!source.extras.IsObject() || !source.extras.Has("greatx_beam")) return;
+    const tinygltf::Value& beam = source.extras.Get("greatx_beam");
+    if (light.type != PunctualLight::Type::spot || !beam.IsString() || beam.Get<std::string>() != "passing")
+      throw_user_error("{}: extras.greatx_beam: expected \"passing\" of a spot, found {}", what,
+                       beam.IsString() ? "'" + beam.Get<std::string>() + "' of a " + source.type
+                                       : std::string("no string"));
+    light.beam = PunctualLight::Beam::passing;
   }
 
   static void set_light(const tinygltf::Light& source, PunctualLight& light, const std::string& what) {

@@ -10,6 +10,9 @@
 #include "shared/contact.h"
 
 layout(set = 0, binding = contact_binding, scalar) readonly buffer ContactBlock { uint contact_words[]; };
+layout(set = 0, binding = contact_binding, scalar) readonly buffer ContactPairsBlock {
+  uint64_t contact_pairs[];
+};
 layout(set = 0, binding = contact_binding, scalar) readonly buffer ContactQuadsBlock {
   u64vec2 contact_quads[];
 };
@@ -41,8 +44,9 @@ float contact_open(vec3 p_eye, vec3 n, uint body) {
   float open = 1.0;
   bool inside = all(greaterThanEqual(cell, vec2(0.0))) && all(lessThan(cell, vec2(columns, rows)));
   if (inside) {
-    uint at = contact_header_words + 2u * (uint(cell.y) * columns + uint(cell.x));
-    uint entry = contact_words[at], end = entry + contact_words[at + 1u];
+    uint at = contact_header_words / 2u + uint(cell.y) * columns + uint(cell.x);
+    uvec2 list = unpackUint2x32(contact_pairs[at]);
+    uint entry = list.x, end = entry + list.y;
     for (; entry < end; ++entry) open *= box_open(contact_words[entry], p, n, body);
   }
   return open;

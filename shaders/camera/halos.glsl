@@ -22,7 +22,8 @@ float halo_chord(float x, float s) {
 }
 
 /// Returns the radiance that a lamp adds to the air along the ray up to `distance`.
-vec3 halo_of(vec4 place, vec4 axis, vec4 light, vec3 direction, float distance) {
+vec3 halo_of(uint lamp, vec3 direction, float distance) {
+  vec4 place = lamp_quads[lamp], axis = lamp_quads[lamp + 1u], light = lamp_quads[lamp + 2u];
   float nearest = dot(place.xyz, direction);
   float s2 = max(dot(place.xyz, place.xyz) - nearest * nearest, 0.0025), s = sqrt(s2);
   float reach2 = 1.0 / place.w - s2;
@@ -41,7 +42,9 @@ vec3 halo_of(vec4 place, vec4 axis, vec4 light, vec3 direction, float distance) 
     float cone = clamp(light.w - (lamp_axis - t * ray_axis) / r * axis.w, 0.0, 1.0);
     float ratio = r * r * place.w;
     float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
-    sum += halo_weights[i] * cone * cone * window * exp(-lighting.haze_extinction * (t + r)) *
+    float shape = cone * cone;
+    if (beams_on && shape > 0.0) shape *= beam_share(lamp, axis.xyz, (t * direction - place.xyz) / r);
+    sum += halo_weights[i] * shape * window * exp(-lighting.haze_extinction * (t + r)) *
            inversesqrt(1.0 - h);
   }
   float phase = 0.0795774715 * (1.0 - g * g) * inversesqrt(g * g * g) / b2;
@@ -57,7 +60,7 @@ vec3 lamp_halos(vec2 pixel, vec3 direction, float distance) {
   vec3 sum = vec3(0.0);
   for (; entry < end; ++entry) {
     uint lamp = lamp_words[entry];
-    sum += halo_of(lamp_quads[lamp], lamp_quads[lamp + 1u], lamp_quads[lamp + 2u], direction, distance);
+    sum += halo_of(lamp, direction, distance);
   }
   return sum;
 }

@@ -6,6 +6,7 @@
 #ifndef GREATX_CAMERA_LAMPS_GLSL
 #define GREATX_CAMERA_LAMPS_GLSL
 #include "camera/light.glsl"
+#include "shared/beam.h"
 
 layout(set = 0, binding = lights_binding, scalar) readonly buffer LampsBlock { uint lamp_words[]; };
 layout(set = 0, binding = lights_binding, scalar) readonly buffer LampQuadsBlock { vec4 lamp_quads[]; };
@@ -27,13 +28,22 @@ uint cluster_of(vec3 p) {
   return lamps_header_words + 2u * ((slice * rows + row) * columns + column);
 }
 
+/// Returns the share of a lamp's peak in a unit direction from it, beside that of its cone.
+float beam_share(uint lamp, vec3 axis, vec3 direction) {
+  if (lamp_words[4u * lamp + 15u] != lamp_of_beam) return 1.0;
+  vec3 up = lamp_quads[lamp + 3u].xyz;
+  vec3 away = direction / max(dot(direction, axis), 1e-3);
+  return passing_beam(dot(away, cross(axis, up)), dot(away, up));
+}
+
 /// Returns the share of a lamp's light that reaches a point, `from_lamp` away from it, on a surface with the
 /// given normal. What lies beside the lamp's tile is lit (renderer/light/lamp_shadow.h).
 float lamp_visibility(uint lamp, vec3 from_lamp, vec3 axis, vec3 n) {
   vec4 tile = lamp_quads[lamp + 3u];
   float scale2 = dot(tile.xyz, tile.xyz);
   float depth = dot(axis, from_lamp);
-  if (scale2 == 0.0 || depth <= lamp_shadow_near) return 1.0;
+  bool free = scale2 == 0.0 || (beams_on && lamp_words[4u * lamp + 15u] == lamp_of_beam);
+  if (free || depth <= lamp_shadow_near) return 1.0;
   float texel_m = depth * weather.lamp_texel_uv * inversesqrt(scale2);
   vec3 q = from_lamp + n * (1.5 * texel_m);
   depth = dot(axis, q);
@@ -63,6 +73,7 @@ vec3 reflect_lamps(Reflectance r, vec3 n, vec3 geometric, vec3 v, vec3 p_eye, bo
     float attenuation =
         directional ? 1.0 : cone * cone * clamp(1.0 - ratio * ratio, 0.0, 1.0) * nearness * nearness;
     float n_dot_l = dot(n, l);
+    if (beams_on && attenuation > 0.0 && n_dot_l > 0.0) attenuation *= beam_share(lamp, axis.xyz, -l);
     if (lamp_shadows_on && attenuation > 0.0 && n_dot_l > 0.0)
       attenuation *= lamp_visibility(lamp, -to_lamp, axis.xyz, geometric);
     vec3 illuminance = light.rgb * (attenuation * max(n_dot_l, 0.0));

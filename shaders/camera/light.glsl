@@ -23,6 +23,11 @@ layout(set = 0, binding = shadow_tiles_binding, scalar) readonly buffer ShadowTi
 };
 layout(set = 0, binding = environment_binding) uniform sampler2D environment;
 layout(set = 0, binding = static_shadow_binding) uniform sampler2DShadow static_shadow;
+layout(set = 0, binding = near_shadows_binding, scalar) readonly buffer NearShadowsBlock {
+  GpuNearShadows near_shadows;
+};
+layout(set = 0, binding = fine_shadow_binding) uniform sampler2DShadow fine_shadow;
+layout(set = 0, binding = middle_shadow_binding) uniform sampler2DShadow middle_shadow;
 layout(set = 0, binding = moving_shadow_binding) uniform sampler2DShadow moving_shadow;
 layout(set = 0, binding = sky_view_binding) uniform sampler2D sky_view;
 
@@ -94,6 +99,39 @@ float moving_visibility(vec3 p, vec3 n, float pixel_m) {
   return visible;
 }
 
+/// Returns the share of the sun that passes the static world by the map over all of it.
+float whole_visibility(vec3 p, vec3 n, float pixel_m) {
+  vec3 q = shadow_point(p, n, lighting.static_texel_m);
+  float depth = clamp(q.z * lighting.static_depth_scale + lighting.static_depth_offset, 0.0, 1.0);
+  vec2 uv = q.xy * lighting.static_uv_scale + lighting.static_uv_offset;
+  return shadow_filter(static_shadow, uv, depth, 1.0 / lighting.static_map_size,
+                       pixel_m < shadow_near * lighting.static_texel_m);
+}
+
+/// Returns the same by a cascade.
+float cascade_visibility(sampler2DShadow map, uint cascade, vec3 p, vec3 n, float pixel_m) {
+  float texel_m = near_shadows.texel_m[cascade];
+  vec3 q = shadow_point(p, n, texel_m);
+  float depth = clamp(q.z * lighting.static_depth_scale + lighting.static_depth_offset, 0.0, 1.0);
+  float uv_scale = near_shadows.uv_scale[cascade];
+  return shadow_filter(map, q.xy * uv_scale, depth, texel_m * uv_scale, pixel_m < shadow_near * texel_m);
+}
+
+/// Returns the share of the sun that passes the static world. A cascade fades into the next coarser one.
+float static_visibility(vec3 p, vec3 n, float pixel_m) {
+  if (shadow_cascades == 0u) return whole_visibility(p, n, pixel_m);
+  vec2 from_center = abs(p.xy - near_shadows.center);
+  vec2 weight = clamp(
+      (near_shadows.reach - max(from_center.x, from_center.y)) * near_shadows.fade, vec2(0.0), vec2(1.0));
+  bool fine = weight.x > 0.0, middle = shadow_cascades > 1u && weight.x < 1.0 && weight.y > 0.0;
+  float visible = 1.0;
+  bool whole = shadow_cascades > 1u ? weight.x < 1.0 && weight.y < 1.0 : weight.x < 1.0;
+  if (whole) visible = whole_visibility(p, n, pixel_m);
+  if (middle) visible = mix(visible, cascade_visibility(middle_shadow, 1u, p, n, pixel_m), weight.y);
+  if (fine) visible = mix(visible, cascade_visibility(fine_shadow, 0u, p, n, pixel_m), weight.x);
+  return visible;
+}
+
 /// Returns the share of the sun that reaches a point. The geometric normal is in the local frame and faces
 /// the sun.
 float sun_visibility(vec3 p_eye, vec3 normal) {
@@ -104,13 +142,7 @@ float sun_visibility(vec3 p_eye, vec3 normal) {
       vec3(dot(lighting.light_x, normal), dot(lighting.light_y, normal), dot(lighting.sun_direction, normal));
   vec3 p = camera.light_eye + vec3(dot(lighting.light_x, p_eye), dot(lighting.light_y, p_eye),
                                    dot(lighting.sun_direction, p_eye));
-  if (static_shadows_on) {
-    vec3 q = shadow_point(p, n, lighting.static_texel_m);
-    float depth = clamp(q.z * lighting.static_depth_scale + lighting.static_depth_offset, 0.0, 1.0);
-    vec2 uv = q.xy * lighting.static_uv_scale + lighting.static_uv_offset;
-    visible = shadow_filter(static_shadow, uv, depth, 1.0 / lighting.static_map_size,
-                            pixel_m < shadow_near * lighting.static_texel_m);
-  }
+  if (static_shadows_on) visible = static_visibility(p, n, pixel_m);
   if (moving_shadows_on) {
     // The common bounds of the tiles stand at fixed places, so one load serves all lanes.
     bool near =

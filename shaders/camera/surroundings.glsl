@@ -23,10 +23,17 @@ struct Bounced {
   vec2 red_blue;
 };
 
-vec4 four_halves(uint64_t pair) {
-  uvec2 words = unpackUint2x32(pair);
-  return vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y));
+/// Adds `weight` times the luminance of a place at one height. It returns the place's first word.
+uint add_luminance(uint pair, float weight, inout vec4 luminance) {
+  uvec2 words = unpackUint2x32(surrounding_pairs[pair]);
+  float c = weight * unpackHalf2x16(words.x).x;
+  luminance.x += c;
+  luminance.yzw += (surroundings_vector_scale * c) * unpackSnorm4x8(words.y).xyz;
+  return words.x;
 }
+
+vec2 root_of_red_blue(uint word) { return surroundings_color_scale * unpackUnorm4x8(word).zw; }
+float ground_of(uint word) { return unpackHalf2x16(word).y; }
 
 /// Returns the bounced light at a point. Three places of the grid stand around it: the corners of the half of
 /// a square in which it lies.
@@ -46,19 +53,19 @@ Bounced bounced_at(vec3 p_eye, vec3 n) {
   uint a = surroundings.first_place + surroundings_place_pairs * first;
   uint b = surroundings.first_place + surroundings_place_pairs * middle;
   uint c = surroundings.first_place + surroundings_place_pairs * last;
-  vec4 low = four_halves(surrounding_pairs[a]) * weights.x + four_halves(surrounding_pairs[b]) * weights.y +
-             four_halves(surrounding_pairs[c]) * weights.z;
-  vec4 high = four_halves(surrounding_pairs[a + 1u]) * weights.x +
-              four_halves(surrounding_pairs[b + 1u]) * weights.y +
-              four_halves(surrounding_pairs[c + 1u]) * weights.z;
-  vec4 rest = four_halves(surrounding_pairs[a + 2u]) * weights.x +
-              four_halves(surrounding_pairs[b + 2u]) * weights.y +
-              four_halves(surrounding_pairs[c + 2u]) * weights.z;
-  float height = p.z - surroundings.floor - rest.z;
+  vec4 low = vec4(0.0), high = vec4(0.0);
+  uint low_a = add_luminance(a, weights.x, low), low_b = add_luminance(b, weights.y, low),
+       low_c = add_luminance(c, weights.z, low);
+  uint high_a = add_luminance(a + 1u, weights.x, high), high_b = add_luminance(b + 1u, weights.y, high),
+       high_c = add_luminance(c + 1u, weights.z, high);
+  vec2 root = root_of_red_blue(low_a) * weights.x + root_of_red_blue(low_b) * weights.y +
+              root_of_red_blue(low_c) * weights.z;
+  float ground = dot(vec3(ground_of(high_a), ground_of(high_b), ground_of(high_c)), weights);
+  float height = p.z - surroundings.floor - ground;
   float up = clamp((height - surroundings_low) / (surroundings_high - surroundings_low), 0.0, 1.0);
   Bounced bounced;
   bounced.luminance = mix(low, high, up) * min(1.0, surroundings_high / max(height, 1.0));
-  bounced.red_blue = rest.xy;
+  bounced.red_blue = root * root;
   return bounced;
 }
 
@@ -75,51 +82,66 @@ vec3 stored_radiance(uint word) {
 }
 
 /// Returns the radiance of what stands in a cell where a ray meets it.
-vec3 met_radiance(uint cell, float shadow, float top, float height, vec3 direction) {
-  uvec2 words = unpackUint2x32(surrounding_pairs[cell + 1u]);
+vec3 met_radiance(uint cell, float top, float height, vec3 direction) {
+  uint at = surroundings.first_color + surroundings_color_pairs * cell;
+  uvec2 words = unpackUint2x32(surrounding_pairs[at]);
   bool from_above = height > top - 0.5 * surroundings.cell_m && direction.z < 0.0;
   if (from_above) return stored_radiance(words.x);
-  float turn = float(words.y >> 24) * (6.28318531 / 256.0);
-  vec3 normal = vec3(cos(turn), sin(turn), 0.0);
+  uint wall = unpackUint2x32(surrounding_pairs[at + 1u]).x;
+  float shadow = unpackHalf2x16(wall).x;
+  vec3 normal = vec3(unpackSnorm4x8(wall).zw, 0.0);
   normal = dot(normal, direction) > 0.0 ? -normal : normal;
-  vec3 albedo = vec3(words.y & 0xffu, words.y >> 8 & 0xffu, words.y >> 16 & 0xffu) * (1.0 / 255.0);
+  vec3 albedo = unpackUnorm4x8(words.y).xyz;
   float lit = clamp(height - shadow + 0.5, 0.0, 1.0);
   float facing = max(dot(normal, surroundings.key_direction), 0.0);
   return albedo * (surroundings.key_over_pi * (facing * lit) + surroundings.wall_sky);
 }
 
+/// Returns the number of a cell, or that of one in the field if the place is outside. CPU drivers convert
+/// lane by lane, so floats give the number by their digits, below 2^22.
+uint cell_of(vec2 at, vec2 size) {
+  vec2 whole = clamp(floor(at), vec2(0.0), size - 1.0);
+  return floatBitsToUint(whole.y * size.x + whole.x + 8388608.0) & 0x7fffffu;
+}
+
 /// Returns the radiance that comes to a surface along a mirrored ray: that of the surroundings which the ray
-/// meets, or else `sky`. A ray leaps as far as nothing stands near, and steps from cell to cell elsewhere.
+/// meets, or else `sky`. A ray leaps as far as nothing stands in its octant, and steps from cell to cell
+/// elsewhere.
 vec3 mirrored_surroundings(vec3 p_eye, vec3 n, vec3 direction, vec3 sky) {
   vec3 p = p_eye + camera.eye_high + n * surroundings.step_m;
   p.z -= surroundings.floor;
-  vec2 at = (p.xy - surroundings.corner) * surroundings.inverse_cell;
-  float level = max(length(direction.xy), 1e-3);
-  vec3 along = direction / level;  // for a metre on the level
+  p.xy = (p.xy - surroundings.corner) * surroundings.inverse_cell;
+  vec3 along = direction / max(length(direction.xy), 1e-3);  // for a metre on the level
+  vec2 aside = abs(along.xy);
+  uint octant = (along.x < 0.0 ? surroundings_negative_x : 0u) |
+                (along.y < 0.0 ? surroundings_negative_y : 0u) |
+                (aside.y > aside.x ? surroundings_along_y : 0u);
+  float leap_m = surroundings.cell_m / max(max(aside.x, aside.y), 0.5), least_m = 0.7 * surroundings.cell_m;
+  float down_m = along.z < 0.0 ? -1.0 / along.z : 0.0;  // the way on the level for a metre down
+  along.xy *= surroundings.inverse_cell;
   vec2 size = vec2(surroundings.columns, surroundings.rows);
-  float gone = 0.0;
-  vec3 radiance = direction.z > 0.0 ? sky : surroundings.beyond;
-  for (uint i = 0u; i < surroundings_most_steps; ++i) {
-    vec2 here = at + along.xy * (gone * surroundings.inverse_cell);
-    float height = p.z + along.z * gone;
-    bool outside = any(lessThan(here, vec2(0.0))) || any(greaterThanEqual(here, size)) ||
-                   (along.z > 0.0 && height > surroundings.most_top);
-    if (outside) break;
-    uint cell = surroundings_header_pairs +
-                surroundings_cell_pairs * (uint(here.y) * surroundings.columns + uint(here.x));
-    uvec2 words = unpackUint2x32(surrounding_pairs[cell]);
-    vec2 top_shadow = unpackHalf2x16(words.x);
-    float bottom = unpackHalf2x16(words.y & 0xffffu).x;
-    bool met = height < top_shadow.x && (height > bottom || height < 0.0);
-    if (met) {
-      radiance = met_radiance(cell, top_shadow.y, top_shadow.x, height, direction);
-      break;
-    }
-    float leap = max(float(words.y >> 16) - 1.0, 0.7) * surroundings.cell_m;
+  // The ray ends where it leaves the field, or rises above everything.
+  vec2 room = (mix(p.xy, size - p.xy, greaterThan(along.xy, vec2(0.0)))) / max(abs(along.xy), vec2(1e-6));
+  float end = min(room.x, room.y), up = (surroundings.most_top - p.z) / max(along.z, 1e-6);
+  end = along.z > 0.0 ? min(end, up) : end;
+  float gone = 0.0, top = -1.0, height = 0.0;
+  uint cell = 0u;
+  bool met = false;
+  for (uint i = 0u; i < surroundings_most_steps && gone < end && !met; ++i) {
+    vec3 here = p + along * gone;
+    height = here.z;
+    cell = cell_of(here.xy, size);
+    uvec2 words = unpackUint2x32(surrounding_pairs[surroundings_header_pairs + cell]);
+    vec2 top_bottom = unpackHalf2x16(words.x);
+    top = top_bottom.x;
+    met = height < top && (height > top_bottom.y || height < 0.0);
+    float free = uintBitsToFloat(((words.y >> (4u * octant) & 15u) << 22) + 0x3f800000u) - 1.0;
     // A ray that goes down stops at the ground, where it meets the next cell from above.
-    float down = along.z < 0.0 ? max((height - min(top_shadow.x, 0.5)) / -along.z, 0.0) + 0.05 : 1e9;
-    gone += min(leap, down);
+    float down = along.z < 0.0 ? max((height - min(top, 0.5)) * down_m, 0.0) + 0.05 : 1e9;
+    gone += min(max(free * leap_m, least_m), down);
   }
+  vec3 radiance = direction.z > 0.0 ? sky : surroundings.beyond;
+  if (met) radiance = met_radiance(cell, top, height, direction);
   return radiance;
 }
 #endif

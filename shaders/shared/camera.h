@@ -37,7 +37,11 @@ const uint horizon_binding = 28u;   // uniform: GpuHorizon (shaders/shared/horiz
 const uint panorama_binding = 29u;  // sampled: the sky's radiance with clouds, and what they let through
 const uint marks_binding = 30u;     // uniform: GpuMarks (shaders/shared/marks.h)
 const uint mark_map_binding = 31u;  // sampled: the share of the ground under markings
-const uint stars_binding = 20u;     // storage: GpuStar [star_cells, star_cells]
+// Cascades (renderer/light/near_shadow.h): storage, GpuNearShadows; two maps, sampled with comparison.
+const uint near_shadows_binding = 18u;
+const uint fine_shadow_binding = 19u;
+const uint middle_shadow_binding = 32u;
+const uint stars_binding = 20u;  // storage: GpuStar [star_cells, star_cells]
 // Weather and night (shaders/shared/weather.h).
 const uint weather_binding = 24u;      // uniform: GpuWeather
 const uint rain_cover_binding = 25u;   // sampled with comparison: what lies under the open sky
@@ -90,7 +94,9 @@ const uint spec_lamp_halos = 36u;
 const uint spec_contact_occlusion = 37u;
 const uint spec_bounced_light = 38u;
 const uint spec_glass = 39u;
-const uint shade_spec_count = 40u;
+const uint spec_shadow_cascades = 40u;  // their number
+const uint spec_beams = 41u;            // some lamp has a passing beam
+const uint shade_spec_count = 42u;
 // These constants belong to the shadow maps.
 const uint shadow_spec_base_color_arrays = 0u;
 const uint shadow_spec_masked = 1u;
@@ -124,8 +130,10 @@ const uint lamps_halos_word = 6u;
 /// (directional: -1). The second holds the unit direction and the scale of the cone. The third holds the
 /// intensity, cd (directional: lux), and the offset of the cone. The fourth belongs to its shadow: an axis
 /// across its direction times the scale of its tile, and the middle of the tile in unsigned 16-bit fractions;
-/// the axis is 0 if the lamp casts no shadow.
+/// the axis is 0 if the lamp casts no shadow. A spot with a passing beam (shaders/shared/beam.h) casts none;
+/// its fourth quadruple holds the unit direction up across its axis, and lamp_of_beam.
 const uint lamp_record_quads = 4u;
+const uint lamp_of_beam = 0xffffffffu;
 /// What is nearer to a lamp than this along its axis casts no shadow: its own housing.
 const float lamp_shadow_near = 0.5f;
 /// The most lamps whose light in the air a pixel adds up.
@@ -272,6 +280,16 @@ struct GpuShadowTile {
   vec2 uv_center;   ///< centre of the tile
   float uv_radius;  ///< half of its edge, without the margin
   float texel_m;
+};
+
+/// Holds a camera's cascades, finest first (renderer/light/near_shadow.h). A point that is r from `center`
+/// along x or y, whichever is more, has the weight (reach - r) fade, from 0 to 1.
+struct GpuNearShadows {
+  vec2 center;  ///< in the sun's x, y
+  vec2 reach;   ///< m
+  vec2 fade;    ///< 1/m
+  vec2 texel_m;
+  vec2 uv_scale;  ///< uv = xy uv_scale, modulo 1
 };
 
 /// Holds the push constants of the pass that draws a part of a moving body into the atlas. It takes points to

@@ -11,14 +11,24 @@ GREATX_SHARED_BEGIN
 
 const uint surroundings_binding = 22u;  // storage: SurroundingsHeader, then cells, then places
 
-/// A cell is two pairs of words. The first holds halves (top, shadow; bottom) and then the distance in cells
-/// to the nearest cell in which something stands. The second holds the radiance of the top, and the albedo of
-/// the wall (three bytes) with the turn of its normal (a byte). A radiance is three bytes and an exponent:
-/// byte * 2^(exponent - 136).
-const uint surroundings_cell_pairs = 2u;
-/// A place of bounced light is three pairs of words in halves: luminance at the low and at the high height
-/// (constant, x, y, z each), then red and blue over luminance, the ground's height, nothing.
-const uint surroundings_place_pairs = 3u;
+/// First come the steps, a pair of words for each cell: halves (top, bottom), then how far a ray may leap in
+/// each octant of directions, four bits each. q stands for (1 + (q & 1) / 2) 2^(q >> 1) columns or rows of
+/// cells, the own one included.
+/// The colours follow, two pairs for each cell. The first holds the radiance of the top, and the albedo of
+/// the wall (three bytes). The second holds the half of the shadow's height, and x and y of the wall's normal
+/// (two signed bytes). A radiance is three bytes and an exponent: byte * 2^(exponent - 136).
+const uint surroundings_color_pairs = 2u;
+/// The bits of an octant's number.
+const uint surroundings_negative_x = 1u;
+const uint surroundings_negative_y = 2u;
+const uint surroundings_along_y = 4u;  ///< y changes more than x
+/// A place of bounced light is two pairs of words, for the low and for the high height. The first word has a
+/// half, the constant c of the luminance, and then the square roots of red and blue over luminance (bytes
+/// over surroundings_color_scale, low height) or the ground's height (a half, high height). The second word
+/// has three signed bytes: the vector of the luminance over surroundings_vector_scale c.
+const uint surroundings_place_pairs = 2u;
+const float surroundings_color_scale = 2.0f;   ///< the largest square root
+const float surroundings_vector_scale = 2.0f;  ///< light from one direction has a vector of length 2 c
 /// The heights over the ground at which bounced light is known, m.
 const float surroundings_low = 1.5f;
 const float surroundings_high = 16.0f;
@@ -40,11 +50,11 @@ struct SurroundingsHeader {
   uint rows;
   uint place_columns;
   uint place_rows;
-  uint first_place;    ///< pairs of words from the beginning
+  uint first_color;    ///< pairs of words from the beginning
+  uint first_place;    ///< the same
   float most_top;      ///< highest top
   vec3 key_direction;  ///< unit, to the key light
-  float pad;
-  vec3 key_over_pi;  ///< light of the key light on a facing surface, over pi
+  vec3 key_over_pi;    ///< light of the key light on a facing surface, over pi
   float pad0;
   vec3 wall_sky;  ///< radiance of a white wall in the shade
   float pad1;

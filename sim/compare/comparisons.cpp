@@ -51,6 +51,25 @@ void keep_sensing(const TickEvidence& tick, const KeepErrors& keep) {
       keep(witness, tick.poses, compare_sensing(witness.record, tick.poses->record, tick.boxes));
 }
 
+bool has_array(const Witness& witness, std::string_view name) {
+  return std::ranges::find(witness.record.spec.arrays, name, &ArraySpec::name) !=
+         witness.record.spec.arrays.end();
+}
+
+void keep_depth_boxes(const TickEvidence& tick, const KeepErrors& keep) {
+  for (const Witness& camera : tick.witnesses)
+    if (camera.evidence.depth && tick.poses != nullptr && has_array(camera, "depth") &&
+        has_array(camera, "instance"))
+      keep(camera, tick.poses, compare_depth_boxes(camera.record, tick.poses->record, tick.boxes));
+}
+
+void keep_lidar_boxes(const TickEvidence& tick, const KeepErrors& keep) {
+  for (const Witness& lidar : tick.witnesses)
+    if (lidar.evidence.returns && tick.poses != nullptr && has_array(lidar, "points") &&
+        has_array(lidar, "instance"))
+      keep(lidar, tick.poses, compare_lidar_boxes(lidar.record, tick.poses->record, tick.boxes));
+}
+
 /// Returns what recomputing needs. A camera with boxes compares instances in a run even if it does not write
 /// them. The figure can then be recomputed only if they are written.
 Comparison::Needs lidar_needs(const SensorSpec& camera) {
@@ -73,6 +92,16 @@ constexpr Comparison table[] = {
      [](const RecordView& lidar, const RecordView& camera, std::span<const InstanceBox>) {
        return compare_lidar(lidar, camera);
      }},
+    {depth_box_figure, false, keep_depth_boxes,
+     [](const SensorSpec&) -> Comparison::Needs {
+       return {{"depth", "instance"}, {}, true};
+     },
+     compare_depth_boxes},
+    {lidar_box_figure, false, keep_lidar_boxes,
+     [](const SensorSpec&) -> Comparison::Needs {
+       return {{"points", "instance", "power"}, {}, true};
+     },
+     compare_lidar_boxes},
     {radar_figure, false, keep_radar,
      [](const SensorSpec&) -> Comparison::Needs {
        return {{"range", "power", "instance"}, {}, true};
@@ -102,12 +131,13 @@ Comparer::Comparer(const World& world, bool all) : world_(world), all_(all) {
 
 void Comparer::compare(uint32_t sequence, int64_t tick, std::span<const Witness> witnesses) {
   TickEvidence evidence{witnesses};
-  bool detections = false;
+  bool boxed = false;  // something is compared with the boxes of instances
   for (const Witness& witness : witnesses) {
     if (witness.evidence.poses) evidence.poses = &witness;
-    detections |= witness.evidence.detections || witness.evidence.sensed;
+    boxed |= witness.evidence.detections || witness.evidence.sensed || witness.evidence.depth ||
+             witness.evidence.returns;
   }
-  if (all_ && detections && boxes_.empty()) boxes_ = instance_boxes(world_);
+  if (all_ && boxed && evidence.poses != nullptr && boxes_.empty()) boxes_ = instance_boxes(world_);
   evidence.boxes = boxes_;
   for (const Comparison& comparison : table) {
     if (!all_ && !comparison.always) continue;

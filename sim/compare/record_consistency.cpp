@@ -6,96 +6,13 @@
 #include <cmath>
 #include <map>
 
-#include <nlohmann/json.hpp>
-
 #include "core/units.h"
 #include "sim/compare/consistency.h"
+#include "sim/compare/record_reading.h"
 
 namespace greatx::sim {
 
 namespace {
-
-using Json = nlohmann::json;
-
-Json metadata_of(const RecordView& record) { return Json::parse(record.spec.metadata_json); }
-
-Pose pose_of(const Json& json) {
-  const Json &p = json.at("position_m"), &q = json.at("orientation_wxyz");
-  const auto number = [](const Json& list, size_t i) { return list.at(i).get<double>(); };
-  return {{number(p, 0), number(p, 1), number(p, 2)},
-          {number(q, 0), number(q, 1), number(q, 2), number(q, 3)}};
-}
-
-bool has(const SensorSpec& spec, const std::string& name) {
-  return std::ranges::any_of(spec.arrays, [&](const ArraySpec& array) { return array.name == name; });
-}
-
-/// Returns an array. Throws UserError unless it has the given type and number of elements, since records may
-/// come from files.
-Array expect_array(const RecordView& record, const char* name, DType dtype, size_t elements) {
-  Array array = record.array(name);
-  if (array.dtype != dtype || array.element_count() != static_cast<int64_t>(elements))
-    throw_user_error("{}: {}: expected {} elements {}, found {} of {}", record.spec.name, name, elements,
-                     numpy_name(dtype), array.element_count(), numpy_name(array.dtype));
-  return array;
-}
-
-std::string node_of(const std::string& sensor) { return sensor.substr(0, sensor.find('/')); }
-
-/// Holds the poses of the nodes at a tick, and extrapolates them.
-class Nodes {
- public:
-  explicit Nodes(const RecordView& poses) {
-    const Json nodes = metadata_of(poses).at("nodes");
-    const auto of_nodes = [&](const char* name, size_t parts) {
-      return expect_array(poses, name, DType::f64, parts * nodes.size());
-    };
-    const Array position = of_nodes("position", 3), orientation = of_nodes("orientation", 4),
-                velocity = of_nodes("velocity", 3), acceleration = of_nodes("acceleration", 3),
-                angular_velocity = of_nodes("angular_velocity", 3);
-    const auto vector = [](const Array& array, size_t node) {
-      const std::span<const double> v = array.as<double>().subspan(3 * node, 3);
-      return dvec3(v[0], v[1], v[2]);
-    };
-    for (size_t i = 0; i < nodes.size(); ++i) {
-      const std::span<const double> q = orientation.as<double>().subspan(4 * i, 4);
-      numbers_[nodes.at(i).get<std::string>()] = static_cast<uint32_t>(i);
-      motions_.push_back({{vector(position, i), dquat(q[0], q[1], q[2], q[3])},
-                          vector(velocity, i),
-                          vector(acceleration, i),
-                          vector(angular_velocity, i)});
-    }
-  }
-  const Pose& at_tick(const std::string& node) const { return motions_.at(numbers_.at(node)).pose; }
-  /// Extrapolates by `dt_s` with the velocities, accelerations and angular velocities of the tick.
-  Pose after(uint32_t node, double dt_s) const {
-    const Motion& m = motions_.at(node);
-    Pose pose = m.pose;
-    pose.position += dt_s * (m.velocity + 0.5 * dt_s * m.acceleration);
-    const double rate = glm::length(m.angular_velocity);
-    if (rate > 0.0)
-      pose.orientation =
-          glm::normalize(glm::angleAxis(rate * dt_s, m.angular_velocity / rate) * pose.orientation);
-    return pose;
-  }
-  Pose after(const std::string& node, double dt_s) const { return after(numbers_.at(node), dt_s); }
-
- private:
-  std::map<std::string, uint32_t> numbers_;
-  std::vector<Motion> motions_;
-};
-
-render::CameraDesc camera_of(const Json& json) {
-  render::CameraDesc desc;
-  desc.width = json.at("width");
-  desc.height = json.at("height");
-  desc.fx = json.at("fx");
-  desc.fy = json.at("fy");
-  desc.cx = json.at("cx");
-  desc.cy = json.at("cy");
-  desc.near_m = json.at("near_m");
-  return desc;
-}
 
 render::CameraImages images_of(const RecordView& camera, const render::CameraDesc& desc) {
   render::CameraImages images;
@@ -105,15 +22,8 @@ render::CameraImages images_of(const RecordView& camera, const render::CameraDes
   const Array depth = expect_array(camera, "depth", DType::f32, pixels);
   images.depth.assign(depth.as<float>().begin(), depth.as<float>().end());
   if (!has(camera.spec, "instance")) return images;
-  const Array instance = camera.array("instance"),
-              material = expect_array(camera, "material", DType::u16, pixels);
-  if (instance.element_count() != static_cast<int64_t>(pixels))
-    throw_user_error("{}: instance: expected {} pixels, found {}", camera.spec.name, pixels,
-                     instance.element_count());
-  if (instance.dtype == DType::u16)
-    images.instance.assign(instance.as<uint16_t>().begin(), instance.as<uint16_t>().end());
-  else
-    images.instance.assign(instance.as<uint32_t>().begin(), instance.as<uint32_t>().end());
+  images.instance = expect_ids(camera, "instance", pixels);
+  const Array material = expect_array(camera, "material", DType::u16, pixels);
   images.material.assign(material.as<uint16_t>().begin(), material.as<uint16_t>().end());
   return images;
 }
@@ -163,33 +73,16 @@ std::map<uint32_t, size_t> strongest_of(std::span<const uint32_t> instances, std
 
 }  // namespace
 
-RecordView view_of(const SensorSpec& spec, const Record& record) {
-  return {spec, [&spec, &record](const std::string& name) {
-            const auto found = std::ranges::find(spec.arrays, name, &ArraySpec::name);
-            GREATX_CHECK(found != spec.arrays.end(), "{} has no array {}", spec.name, name);
-            return record.arrays[static_cast<size_t>(found - spec.arrays.begin())];
-          }};
-}
-
 ErrorStatistics compare_lidar(const RecordView& lidar, const RecordView& camera) {
   const Json about = metadata_of(camera);
   const render::CameraDesc desc = camera_of(about);
   const render::CameraImages images = images_of(camera, desc);
-  const Json about_lidar = metadata_of(lidar);
   const Pose camera_from_lidar =
-      pose_of(about.at("body_from_sensor")).inverse() * pose_of(about_lidar.at("body_from_sensor"));
-  const Array instance = lidar.array("instance");
-  const auto returns = static_cast<size_t>(instance.element_count());
-  const Array points = expect_array(lidar, "points", DType::f32, 4 * returns),
-              material = expect_array(lidar, "material", DType::u32, returns);
-  const Json receiver = about_lidar.value("receiver", Json::object());
-  const RangeNoise noise{receiver.value("range_std_m", 0.0), receiver.value("rise_m", 0.0),
-                         receiver.value("noise_equivalent_power", 0.0)};
-  Array power;
-  if (noise.std_m > 0.0 || noise.rise_m > 0.0) power = expect_array(lidar, "power", DType::f32, returns);
-  return lidar_against_depth(desc, images, camera_from_lidar, points.as<float>(), instance.as<uint32_t>(),
-                             material.as<uint32_t>(), about_lidar.value("point_error_m", 0.0), noise,
-                             power.bytes.empty() ? std::span<const float>() : power.as<float>());
+      pose_of(about.at("body_from_sensor")).inverse() * pose_of(metadata_of(lidar).at("body_from_sensor"));
+  const ReturnsRecord returns = read_returns(lidar);
+  const Array material = expect_array(lidar, "material", DType::u32, returns.instances().size());
+  return lidar_against_depth(desc, images, camera_from_lidar, returns.xyzi(), returns.instances(),
+                             material.as<uint32_t>(), returns.error_m, returns.noise, returns.power());
 }
 
 ErrorStatistics compare_sights(const RecordView& channel, const RecordView& poses) {

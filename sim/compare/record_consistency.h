@@ -19,6 +19,8 @@ namespace greatx::sim {
 /// The names of the figures in summaries and files.
 inline constexpr const char* depth_figure = "depth_vs_ray";
 inline constexpr const char* lidar_figure = "lidar_vs_depth";
+inline constexpr const char* depth_box_figure = "depth_vs_box";
+inline constexpr const char* lidar_box_figure = "lidar_vs_box";
 inline constexpr const char* sight_figure = "line_of_sight_delay_vs_distance";
 inline constexpr const char* radar_figure = "radar_range_vs_box";
 inline constexpr const char* sensing_figure = "sensing_range_vs_box";
@@ -62,7 +64,19 @@ ErrorStatistics compare_sights(const RecordView& channel, const RecordView& pose
 ErrorStatistics compare_radar(const RecordView& radar, const RecordView& poses,
                               std::span<const InstanceBox> boxes);
 
-/// The same for the detections of each link of a channel that senses, whose ranges are those at the tick.
+/// Compares the depth picture of a pinhole camera with the boxes of instances. The point that each pixel of
+/// an instance on a node sees lies within the instance's box at the tick, up to rounding. The error is the
+/// distance from the point to the box, relative to the distance from the camera.
+ErrorStatistics compare_depth_boxes(const RecordView& camera, const RecordView& poses,
+                                    std::span<const InstanceBox> boxes);
+
+/// The same for the returns of a LiDAR (all shots at the tick). The distance is less by the rounding of the
+/// coordinates, and by RangeNoise::bound_m.
+ErrorStatistics compare_lidar_boxes(const RecordView& lidar, const RecordView& poses,
+                                    std::span<const InstanceBox> boxes);
+
+/// The same as compare_radar() for the detections of each link of a channel that senses, whose ranges are
+/// those at the tick.
 ErrorStatistics compare_sensing(const RecordView& channel, const RecordView& poses,
                                 std::span<const InstanceBox> boxes);
 

@@ -4,12 +4,14 @@
 // Makes the measurements of a GNSS receiver: ranges to satellites with the errors of orbits, atmosphere,
 // multipath and receiver, and the position that follows from them.
 //
-//   constellation -> directions -> what stands in the way (Sky) -> ranges with errors -> least squares
+//   constellation -> directions -> what stands in the way (Sky) -> ranges with errors, strengths ->
+//   weights -> least squares, checked by their residuals
 #pragma once
 
 #include <array>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -57,11 +59,28 @@ struct SignalPath {
   } state = State::direct;
   double excess_m = 0.0;     ///< of a reflected path over the direct one
   double excess_rate = 0.0;  ///< its derivative, m/s
+  double loss_db = 0.0;      ///< of strength against the signal in view
 };
+
+/// Returns the loss in dB of a GPS signal (L1, right-hand circular) by a reflection at a wall of concrete, at
+/// an angle of incidence with this cosine, for an antenna that receives the other sense of rotation 6 dB
+/// weaker: Fresnel's coefficients for ITU-R P.2040-4's concrete (5.24, 0.0462 f^0.7822 S/m), and powers of
+/// both senses added. From 14 dB at right angles to none at grazing incidence.
+double reflection_loss_db(double cosine);
+/// Returns the carrier-to-noise density of a satellite in view, dB-Hz: 37 + 8 sin(e), for an ordinary
+/// receiver with a patch antenna (our setting; Kaplan and Hegarty's budget, 2nd ed., section 6.2, gives 38 to
+/// 45).
+double nominal_cn0(double elevation);
+/// Returns the factor by which a receiver multiplies the standard deviation of a signal that is `deficit_db`
+/// weaker than nominal: 10^(a D / 20) with D = deficit - 2 dB where that is positive, and a = 2 (F. K.
+/// Brunner, H. Hartinger and L. Troyer, GPS signal diffraction modelling: the stochastic SIGMA-D model, J.
+/// Geodesy 73 (1999), for the form and a; 2 dB is twice the deviation of a measured strength).
+double weakness_factor(double deficit_db);
 
 /// Returns the extra length of the path over one plane mirror, and its derivative: 2 d (n . s) for a mirror
 /// at the distance d with the normal n towards the receiver, and a satellite in the direction s, n . s > 0
-/// (P. D. Groves, Principles of GNSS, ..., 2nd ed., section 9.4.1; the method of images).
+/// (P. D. Groves, Principles of GNSS, ..., 2nd ed., section 9.4.1; the method of images). The loss is
+/// reflection_loss_db(n . s).
 SignalPath reflected_path(const dvec3& to_satellite, const dvec3& normal, double distance_m,
                           const dvec3& velocity);
 
@@ -73,11 +92,21 @@ struct SatelliteView {
   double azimuth = 0.0, elevation = 0.0;  ///< rad, azimuth from x (east) towards y (north)
   SignalPath path;
   double range_error_m = 0.0, rate_error = 0.0;  ///< NaN: not tracked
+  double cn0 = 0.0;                              ///< measured, dB-Hz; NaN: not tracked
+  bool used = false;                             ///< for the fix
+};
+
+/// What a receiver can say about the agreement of its ranges.
+enum class Integrity : uint8_t {
+  unknown = 0,   ///< no fix, too few satellites, or no check
+  agree = 1,     ///< those that are used do
+  disagree = 2,  ///< but not which are wrong: the covariance is widened
 };
 
 struct GnssEpoch {
   std::array<SatelliteView, satellite_count> satellites;
-  uint32_t used = 0;               ///< satellites of the solution, or that were there for one
+  uint32_t used = 0;  ///< satellites of the fix, or that were there for one
+  Integrity integrity = Integrity::unknown;
   std::optional<PositionFix> fix;  ///< none: fewer than 4 satellites, or a PDOP beyond the limit
 };
 
@@ -86,6 +115,10 @@ struct GnssReceiver {
   GnssErrors errors;
   double mask = 0.0872664625997165;  ///< least elevation of satellites, rad (5 degrees)
   double most_pdop = 25.0;           ///< there is no fix above it
+  /// Weights follow the strength of signals, and ranges that disagree are excluded. Otherwise the receiver
+  /// believes every signal.
+  bool integrity = true;
+  double false_alarm = 1e-3;  ///< probability of the check's alarm for an epoch without reflections
 };
 
 /// Simulates a receiver in one sequence. The random numbers depend on (seed, name, sequence).
@@ -103,11 +136,14 @@ class Gnss {
     GaussMarkov orbit, ionosphere, troposphere, multipath;
   };
   void disturb(SatelliteView& view, RangeMeasurement& measurement, size_t satellite, int64_t sample);
+  void weigh(const SatelliteView& view, double speed, RangeMeasurement& measurement) const;
+  void solve(GnssEpoch& epoch, std::span<const RangeMeasurement> measurements,
+             std::span<const size_t> tracked) const;
 
   GnssReceiver receiver_;
   LocalFrame frame_;
   dmat3 local_from_earth_{1.0};
-  NormalStream code_, doppler_;
+  NormalStream code_, doppler_, strength_;
   std::vector<Processes> processes_;  ///< [satellite_count]
 };
 

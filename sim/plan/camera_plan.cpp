@@ -60,6 +60,7 @@ Offers offers_of(const scene::Scene& scene) {
   }
   offers.lights = scene.lights.size();
   offers.horizon = render::horizon_of(scene);
+  if (!scene.bounds.empty()) offers.width_m = glm::length(dvec2(scene.bounds.size()));
   const double ground = scene.bounds.empty() ? 0.0 : scene.bounds.min.z;
   for (const scene::PunctualLight& light : scene.lights)
     offers.lamp_illuminance_lux = std::max(offers.lamp_illuminance_lux, lamp_illuminance(light, ground));
@@ -283,6 +284,14 @@ void plan_light(EffectPlan& plan, const Shading& shading, const Scenario& scenar
   shading.decide(plan.moving_shadows, plan.sun.on && offers.moving_triangles,
                  "the sun shines on moving meshes", plan.sun.on ? "no mesh moves" : "the sun is off",
                  "drawn every tick");
+  // From here on a texel of the one map, 17 cm, is larger than the pixels of what stands before a camera.
+  constexpr double wide_m = 700.0;
+  shading.decide(plan.shadow_cascades, plan.static_shadows.on && offers.width_m > wide_m,
+                 fmt::format("the scene is {:.0f} m wide, so that one map is coarse", offers.width_m),
+                 plan.static_shadows.on ? fmt::format("one map serves a scene of {:.0f} m, up to {:.0f} m",
+                                                      offers.width_m, wide_m)
+                                        : "static shadows are off",
+                 "pages are drawn where a camera has not been");
   shading.decide(plan.ambient_occlusion, plan.sky.on && offers.static_triangles,
                  "static meshes hide parts of the sky",
                  plan.sky.on ? "nothing static hides the sky" : "the sky is off", "made once, at the start");

@@ -20,6 +20,7 @@ struct Offers {
        emissive = false;
   bool markings = false;         ///< static lane markings
   bool smooth = false;           ///< a material may be smooth enough to mirror
+  double width_m = 0.0;          ///< the diagonal of its bounds, seen from above
   double brightest_cd_m2 = 0.0;  ///< the highest luminance that a material emits
   size_t lights = 0;
   /// The highest illuminance that a single lamp gives the ground.

@@ -33,6 +33,7 @@
   X(sky, true, camera, "light of the sky") \
   X(static_shadows, true, camera, "shadows of static meshes in that direct light") \
   X(moving_shadows, true, camera, "shadows of meshes that move in that direct light") \
+  X(shadow_cascades, true, camera, "finer maps of the shadows of static meshes around each camera") \
   X(ambient_occlusion, true, camera, "the share of the sky that each place sees") \
   X(contact_occlusion, true, camera, "light of the sky that meshes hide which move near a place") \
   X(bounced_light, true, camera, "light that the static world reflects once") \

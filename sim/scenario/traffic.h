@@ -36,7 +36,7 @@ struct TrafficVariant {
   double length_m = 0.0;  ///< of scene::VehicleShape; 0: a person
 };
 /// Returns all variants of vehicles, two-wheelers and people. A test compares them with the generator's.
-/// Lorries, buses and trams have share 0: streets with closed ways have no room for their turns.
+/// Trams and articulated lorries have share 0: the ways of the city have no room for them.
 const std::vector<TrafficVariant>& traffic_variants();
 /// The generator's kind of a variant and of its node's class: "vehicle" or "person".
 inline const char* generator_kind(TrafficMember::Kind kind) {

@@ -65,9 +65,15 @@ void Simulation::place_vehicle(uint32_t index) {
   Agent& agent = agents_[index];
   std::vector<double> lengths;
   for (const DriveWay& way : streets_->ways())
-    lengths.push_back(way.endless && !way.turn() && way.gates.back().stop_m > 12.0 ? way.curve.length()
-                                                                                   : 0.0);
+    lengths.push_back(way.goes_on(agent.size()) && !way.turn() && way.gates.back().stop_m > 12.0
+                          ? way.curve.length()
+                          : 0.0);
   const bool any = std::ranges::any_of(lengths, [](double length) { return length > 0.0; });
+  if (!any && agent.size() == VehicleSize::longer)
+    throw_user_error_at(where_,
+                        "traffic: expected vehicles whose bodies stay in their lanes, found one of {:.1f} m, "
+                        "for which the streets of {} have no way: leave it out of 'mix'",
+                        agent.body.extent.front_m + agent.body.extent.rear_m, streets_->name());
   for (int tries = 0; any && tries < most_tries; ++tries) {
     const auto [way, place] = pick(lengths, agent.random.uniform());
     const DriveWay& lane = streets_->ways()[way];

@@ -118,6 +118,7 @@ class Simulation {
     std::vector<double> ways_m, speeds_mps;
     std::vector<Piece> pieces;
     double place() const { return way_m - begin_m; }
+    VehicleSize size() const { return size_of(body.extent); }
     bool walks() const { return body.kind == TrafficMember::Kind::pedestrian; }
   };
   /// One on a way at a place, in order of place.
@@ -143,6 +144,7 @@ class Simulation {
   void append(Agent& agent);
 
   // vehicles
+  uint32_t choice(Agent& agent, const DriveWay& lane) const;
   void enter(Agent& agent, uint32_t way);
   void ask_all();
   bool first_to_ask(const Agent& agent, uint32_t index) const;

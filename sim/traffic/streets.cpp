@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.h"
 
@@ -19,6 +20,9 @@ constexpr double before_crossing_m = 1.0;
 constexpr double sample_m = 0.4;
 /// About each vehicle where turns are compared.
 constexpr double room_m = 0.2;
+/// Longer vehicles take ways on which they reach beyond the lane by this at most. Lanes of opposite
+/// directions lie further apart; on turns, exclusions see to the rest.
+constexpr double beside_lane_m = 0.1, beside_turn_m = 0.35;
 
 /// Returns the direction of travel at an end of a lane.
 dvec2 direction_at(const scene::StreetLane& lane, bool end) {
@@ -28,15 +32,54 @@ dvec2 direction_at(const scene::StreetLane& lane, bool end) {
   return glm::normalize(step);
 }
 
-std::vector<GroundBox> swept_boxes(const Curve& curve, const Extent& extent, std::vector<double>& places) {
-  std::vector<GroundBox> boxes;
-  const double begin = -extent.front_m, end = curve.length() + extent.rear_m;
-  const int count = std::max(1, static_cast<int>(std::ceil((end - begin) / sample_m)));
-  for (int i = 0; i <= count; ++i) {
-    places.push_back(begin + (end - begin) * i / count);
-    boxes.push_back(box_at(curve, places.back(), extent));
+/// The places of a body on a way, one behind the other.
+class Sweep {
+ public:
+  Sweep(const Curve& curve, const Extent& extent) {
+    const double begin = -extent.front_m, end = curve.length() + extent.rear_m;
+    const int count = std::max(1, static_cast<int>(std::ceil((end - begin) / sample_m)));
+    for (int i = 0; i <= count; ++i) {
+      places_.push_back(begin + (end - begin) * i / count);
+      boxes_.push_back(box_at(curve, places_.back(), extent));
+      if (i % group == 0) around_.push_back({boxes_.back().middle, 0.0});
+      auto& [middle, radius] = around_.back();
+      radius = std::max(radius, glm::distance(middle, boxes_.back().middle) + radius_of(boxes_.back()));
+    }
   }
-  return boxes;
+  bool meets(const GroundBox& box) const {
+    for (size_t i = 0; i < around_.size(); ++i) {
+      if (glm::distance(around_[i].first, box.middle) > around_[i].second + radius_of(box)) continue;
+      for (size_t k = i * group; k < std::min(boxes_.size(), (i + 1) * group); ++k)
+        if (overlap(boxes_[k], box)) return true;
+    }
+    return false;
+  }
+  /// Returns the last place at which the body meets another one's way.
+  std::optional<double> last_meeting(const Sweep& other) const {
+    for (size_t k = boxes_.size(); k-- > 0;)
+      if (other.meets(boxes_[k])) return places_[k];
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr size_t group = 8;
+  static double radius_of(const GroundBox& box) { return std::hypot(box.half_length, box.half_width); }
+  std::vector<GroundBox> boxes_;
+  std::vector<double> places_;
+  std::vector<std::pair<dvec2, double>> around_;  ///< circles about each group of boxes
+};
+
+/// Returns the largest ones of each size that there are, with room all round.
+std::vector<std::pair<VehicleSize, Extent>> sizes_of(const LargestVehicles& largest, double along_m,
+                                                     double across_m) {
+  std::vector<std::pair<VehicleSize, Extent>> sizes{{VehicleSize::ordinary, largest.ordinary}};
+  if (largest.longer) sizes.emplace_back(VehicleSize::longer, *largest.longer);
+  for (auto& [size, extent] : sizes) {
+    extent.front_m += along_m;
+    extent.rear_m += along_m;
+    extent.width_m += 2.0 * across_m;
+  }
+  return sizes;
 }
 
 }  // namespace
@@ -62,12 +105,35 @@ GroundBox box_at(const Curve& curve, double s, const Extent& extent) {
           0.5 * (extent.front_m + extent.rear_m), 0.5 * extent.width_m};
 }
 
-Streets::Streets(const scene::StreetNetwork& network, const Extent& largest, const std::string& name)
+double reach_beside(const Curve& curve, const Extent& extent) {
+  constexpr double chord_m = 0.5;
+  std::vector<CurvePlace> places;
+  for (double s = -extent.front_m; s < curve.length() + extent.front_m; s += chord_m)
+    places.push_back(curve.at(s));
+  const auto beside = [&](const dvec2& corner) {
+    double least = 1e18;
+    for (size_t i = 1; i < places.size(); ++i) {
+      const dvec2 a = places[i - 1].position, chord = places[i].position - a;
+      const double share = std::clamp(glm::dot(corner - a, chord) / glm::dot(chord, chord), 0.0, 1.0);
+      least = std::min(least, glm::distance(corner, a + share * chord));
+    }
+    return least;
+  };
+  double most = 0.5 * extent.width_m;
+  for (size_t i = 0; (static_cast<double>(i) * chord_m) <= curve.length() + extent.front_m; ++i)
+    for (const double side : {-0.5, 0.5}) {
+      const dvec2 across = side * extent.width_m * places[i].left();
+      most = std::max(most, beside(places[i].position + extent.front_m * places[i].tangent + across));
+    }
+  return most;
+}
+
+Streets::Streets(const scene::StreetNetwork& network, const LargestVehicles& largest, const std::string& name)
     : name_(name), junctions_(network.junctions), crossings_(network.crossings) {
   make_ways(network);
   find_crossings(network);
   make_gates(network);
-  find_endless();
+  find_endless(largest);
   find_exclusions(largest);
   keep_stops_clear(largest);
   make_rings(network);
@@ -92,18 +158,21 @@ void Streets::make_ways(const scene::StreetNetwork& network) {
     const double bend = curve.most_curvature();
     const double speed =
         bend > 0.0 ? std::min(lane.speed_mps, std::sqrt(most_lateral_mps2 / bend)) : lane.speed_mps;
-    ways_.push_back({std::move(curve),
-                     speed,
-                     lane.next,
-                     lane.left,
-                     lane.right,
-                     lane.junction,
-                     lane.group,
-                     from[i],
-                     {},
-                     {},
-                     0.5,
-                     false});
+    DriveWay way{.curve = std::move(curve),
+                 .width_m = lane.width_m,
+                 .speed_mps = speed,
+                 .next = lane.next,
+                 .next_longer = {},
+                 .left = lane.left,
+                 .right = lane.right,
+                 .junction = lane.junction,
+                 .group = lane.group,
+                 .from = from[i],
+                 .gates = {},
+                 .exit = {}};
+    const dvec2 first = way.curve.at(0.0).tangent, last = way.curve.at(way.curve.length()).tangent;
+    way.straight_on = glm::dot(first, last) > std::numbers::sqrt2 / 2.0;
+    ways_.push_back(std::move(way));
   }
 }
 
@@ -155,74 +224,80 @@ void Streets::make_gates(const scene::StreetNetwork& network) {
   }
 }
 
-/// Takes away, again and again, what ends where nothing follows.
-void Streets::find_endless() {
-  for (DriveWay& way : ways_) way.endless = true;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (DriveWay& way : ways_) {
-      std::erase_if(way.next, [&](uint32_t next) { return !ways_[next].endless; });
-      if (way.endless && way.next.empty()) {
-        way.endless = false;
-        changed = true;
+/// Takes away, again and again, what ends where nothing follows: for all, then for longer vehicles.
+void Streets::find_endless(const LargestVehicles& largest) {
+  const auto prune = [&](std::vector<uint32_t> DriveWay::*next, bool DriveWay::*endless) {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (DriveWay& way : ways_) {
+        std::erase_if(way.*next, [&](uint32_t other) { return !(ways_[other].*endless); });
+        if (way.*endless && (way.*next).empty()) {
+          way.*endless = false;
+          changed = true;
+        }
       }
     }
+  };
+  for (DriveWay& way : ways_) way.endless = true;
+  prune(&DriveWay::next, &DriveWay::endless);
+  if (!largest.longer) return;
+  for (DriveWay& way : ways_) {
+    const double beside_m = 0.5 * way.width_m + (way.turn() ? beside_turn_m : beside_lane_m);
+    way.endless_longer = way.endless && !way.right && reach_beside(way.curve, *largest.longer) <= beside_m;
+    way.next_longer = way.next;
   }
+  prune(&DriveWay::next_longer, &DriveWay::endless_longer);
 }
 
-void Streets::find_exclusions(const Extent& largest) {
+void Streets::find_exclusions(const LargestVehicles& largest) {
+  struct Taken {
+    uint32_t turn = 0;
+    VehicleSize size = VehicleSize::ordinary;
+    Sweep sweep;
+  };
   excludes_.resize(ways_.size());
-  std::vector<std::vector<uint32_t>> turns(junctions_.size());
-  for (uint32_t w = 0; w < ways_.size(); ++w)
-    if (ways_[w].turn()) turns[*ways_[w].junction].push_back(w);
-  Extent roomy = largest;
-  roomy.front_m += room_m;
-  roomy.rear_m += room_m;
-  roomy.width_m += 2.0 * room_m;
-  for (const std::vector<uint32_t>& of_junction : turns) {
-    std::vector<std::vector<GroundBox>> boxes;
-    std::vector<std::vector<double>> places(of_junction.size());
-    for (size_t i = 0; i < of_junction.size(); ++i)
-      boxes.push_back(swept_boxes(ways_[of_junction[i]].curve, roomy, places[i]));
-    for (size_t i = 0; i < of_junction.size(); ++i)
-      for (size_t j = 0; j < of_junction.size(); ++j) {
-        if (i == j) continue;
-        for (size_t k = boxes[i].size(); k-- > 0;)
-          if (std::ranges::any_of(boxes[j], [&](const GroundBox& b) { return overlap(boxes[i][k], b); })) {
-            excludes_[of_junction[i]].emplace_back(of_junction[j], places[i][k] + sample_m);
-            break;
-          }
-      }
-  }
+  std::vector<std::vector<Taken>> of_junctions(junctions_.size());
+  for (const auto& [size, extent] : sizes_of(largest, room_m, room_m))
+    for (uint32_t w = 0; w < ways_.size(); ++w)
+      if (ways_[w].turn() && (size == VehicleSize::ordinary || ways_[w].endless_longer))
+        of_junctions[*ways_[w].junction].push_back({w, size, Sweep(ways_[w].curve, extent)});
+  for (const std::vector<Taken>& taken : of_junctions)
+    for (const Taken& a : taken)
+      for (const Taken& b : taken)
+        if (a.turn != b.turn)
+          if (const auto last = a.sweep.last_meeting(b.sweep))
+            excludes_[a.turn].push_back({a.size, b.turn, b.size, *last + sample_m});
 }
 
 /// Moves stops back until those who wait do not stand in the way of others' turns.
-void Streets::keep_stops_clear(const Extent& largest) {
-  std::vector<std::vector<uint32_t>> turns(junctions_.size());
-  for (uint32_t w = 0; w < ways_.size(); ++w)
-    if (ways_[w].turn()) turns[*ways_[w].junction].push_back(w);
-  Extent roomy = largest;
-  roomy.width_m += room_m;
+void Streets::keep_stops_clear(const LargestVehicles& largest) {
+  std::vector<std::vector<std::pair<uint32_t, Sweep>>> turns(junctions_.size());
+  const auto roomy = sizes_of(largest, 0.0, 0.5 * room_m);
+  for (const auto& [size, extent] : roomy)
+    for (uint32_t w = 0; w < ways_.size(); ++w)
+      if (ways_[w].turn() && (size == VehicleSize::ordinary || ways_[w].endless_longer))
+        turns[*ways_[w].junction].emplace_back(w, Sweep(ways_[w].curve, extent));
   for (DriveWay& way : ways_) {
     if (way.turn() || way.next.empty() || !ways_[way.next[0]].turn()) continue;
     Gate& gate = way.gates.back();
-    std::vector<GroundBox> boxes;
-    std::vector<double> places;
     const auto own = static_cast<uint32_t>(&way - ways_.data());
-    for (const uint32_t turn : turns[*ways_[way.next[0]].junction])
-      if (ways_[turn].from != own)
-        for (const GroundBox& box : swept_boxes(ways_[turn].curve, roomy, places)) boxes.push_back(box);
-    for (int tries = 0; tries < 20 && gate.stop_m > 2.0; ++tries) {
-      const GroundBox waiting = box_at(way.curve, gate.stop_m - largest.front_m, roomy);
-      if (std::ranges::none_of(boxes, [&](const GroundBox& box) { return overlap(waiting, box); })) break;
-      gate.stop_m -= 0.5;
-    }
+    const auto in_the_way = [&](const Extent& extent) {
+      const GroundBox waiting = box_at(way.curve, gate.stop_m - extent.front_m, extent);
+      return std::ranges::any_of(turns[*ways_[way.next[0]].junction], [&](const auto& turn) {
+        return ways_[turn.first].from != own && turn.second.meets(waiting);
+      });
+    };
+    for (const auto& [size, extent] : roomy)
+      if (way.goes_on(size))
+        for (int tries = 0; tries < 20 && gate.stop_m > 2.0 && in_the_way(extent); ++tries)
+          gate.stop_m -= 0.5;
   }
 }
 
-std::optional<double> Streets::excludes(uint32_t turn, uint32_t other) const {
-  for (const auto& [with, up_to] : excludes_[turn])
-    if (with == other) return up_to;
+std::optional<double> Streets::excludes(uint32_t turn, VehicleSize size, uint32_t other,
+                                        VehicleSize other_size) const {
+  for (const Exclusion& e : excludes_[turn])
+    if (e.other == other && e.size == size && e.other_size == other_size) return e.up_to_m;
   return std::nullopt;
 }
 

@@ -22,6 +22,21 @@ struct Extent {
   double front_m = 2.0, rear_m = 0.8, width_m = 1.8;
 };
 
+/// Vehicles of more than longer_than_m (buses, lorries) keep to ways on which their body stays.
+enum class VehicleSize : uint8_t { ordinary, longer };
+inline constexpr double longer_than_m = 6.0;
+inline VehicleSize size_of(const Extent& extent) {
+  return extent.front_m + extent.rear_m > longer_than_m ? VehicleSize::longer : VehicleSize::ordinary;
+}
+
+/// The sizes of the largest vehicles: of ordinary ones, and of longer ones if there are any.
+struct LargestVehicles {
+  LargestVehicles(const Extent& of_ordinary, const std::optional<Extent>& of_longer = std::nullopt)
+      : ordinary(of_ordinary), longer(of_longer) {}
+  Extent ordinary;
+  std::optional<Extent> longer;
+};
+
 /// A rectangle on the ground.
 struct GroundBox {
   dvec2 middle{0.0}, forward{1.0, 0.0};
@@ -31,6 +46,11 @@ struct GroundBox {
 bool overlap(const GroundBox& a, const GroundBox& b);
 /// Returns the rectangle of one whose point is at `s` of a curve.
 GroundBox box_at(const Curve& curve, double s, const Extent& extent);
+
+/// Returns how far the body of one whose rear axle follows a curve, and then goes straight on, gets from the
+/// curve. On a circle of radius R it is sqrt((R + w/2)^2 + f^2) - R with the width w and the front f, if that
+/// is more than w/2. The curve is taken as chords of half a metre, which errs by 0.03 m / R at most.
+double reach_beside(const Curve& curve, const Extent& extent);
 
 /// A crossing on a lane of the carriageway.
 struct CrossingOnWay {
@@ -48,8 +68,10 @@ struct Gate {
 /// A lane or a turn.
 struct DriveWay {
   Curve curve;
+  double width_m = 3.0;
   double speed_mps = 0.0;  ///< allowed; in bends the lateral acceleration is at most most_lateral_mps2
   std::vector<uint32_t> next;
+  std::vector<uint32_t> next_longer;  ///< of those, where longer vehicles go
   std::optional<uint32_t> left, right;
   std::optional<uint32_t> junction;  ///< of a turn
   uint32_t group = 0;
@@ -58,6 +80,12 @@ struct DriveWay {
   std::vector<CrossingOnWay> exit;  ///< crossings at its beginning, which belong to the turn before it
   double clear_m = 0.5;             ///< rears beyond it are clear of the junction before it
   bool endless = false;             ///< whether one can go on from it for ever
+  bool endless_longer = false;      ///< whether a longer vehicle can
+  bool straight_on = true;          ///< of a turn: it changes the direction by less than 45 degrees
+  const std::vector<uint32_t>& nexts(VehicleSize size) const {
+    return size == VehicleSize::longer ? next_longer : next;
+  }
+  bool goes_on(VehicleSize size) const { return size == VehicleSize::longer ? endless_longer : endless; }
   bool turn() const { return junction.has_value(); }
 };
 
@@ -77,7 +105,9 @@ struct WalkRing {
   std::vector<uint32_t> leaving, joining;  ///< crossing paths
 };
 
-inline constexpr double most_lateral_mps2 = 2.0;
+/// Comfort on streets of low speed. The AASHTO's Green Book designs turning roads of 15 to 20 mph with a side
+/// friction of 0.32 to 0.27.
+inline constexpr double most_lateral_mps2 = 3.0;
 /// Of people from their walking line, and from the middle of a zebra.
 inline constexpr double walk_side_m = 0.33, zebra_side_m = 0.75;
 
@@ -86,10 +116,10 @@ enum class Light : uint8_t { green, amber, red };
 
 class Streets {
  public:
-  /// `largest` is the size of the largest vehicle, with which the turns that exclude each other are found. It
-  /// needs no vehicle if there are none. Throws UserError, beginning with `name`, if lanes or crossings do
+  /// `largest` are the sizes with which the turns that exclude each other are found, and for the longer ones
+  /// the ways that they take. Throws UserError, beginning with `name`, if lanes or crossings do
   /// not fit.
-  Streets(const scene::StreetNetwork& network, const Extent& largest, const std::string& name);
+  Streets(const scene::StreetNetwork& network, const LargestVehicles& largest, const std::string& name);
 
   const std::vector<DriveWay>& ways() const { return ways_; }
   const std::vector<CrossingPath>& paths() const { return paths_; }
@@ -97,8 +127,10 @@ class Streets {
   size_t crossing_count() const { return crossings_.size(); }
   const std::string& name() const { return name_; }
 
-  /// Returns up to which place on turn `turn` a vehicle excludes others from `other`; nothing: never.
-  std::optional<double> excludes(uint32_t turn, uint32_t other) const;
+  /// Returns up to which place on turn `turn` a vehicle of a size excludes those of another size from
+  /// `other`; nothing: never.
+  std::optional<double> excludes(uint32_t turn, VehicleSize size, uint32_t other,
+                                 VehicleSize other_size) const;
   /// Returns the signal of a turn.
   Light light(const DriveWay& turn, double time_s) const;
   /// Returns the time that people who step onto a crossing now have to cross it, s; 0: they may not. Without
@@ -116,9 +148,9 @@ class Streets {
   void make_ways(const scene::StreetNetwork& network);
   void find_crossings(const scene::StreetNetwork& network);
   void make_gates(const scene::StreetNetwork& network);
-  void find_endless();
-  void find_exclusions(const Extent& largest);
-  void keep_stops_clear(const Extent& largest);
+  void find_endless(const LargestVehicles& largest);
+  void find_exclusions(const LargestVehicles& largest);
+  void keep_stops_clear(const LargestVehicles& largest);
   void make_rings(const scene::StreetNetwork& network);
   void make_paths(const scene::StreetNetwork& network);
   void make_path(const scene::StreetCrossing& crossing, uint32_t index, bool back);
@@ -130,7 +162,13 @@ class Streets {
   std::vector<CrossingPath> paths_;
   std::vector<scene::StreetJunction> junctions_;
   std::vector<scene::StreetCrossing> crossings_;
-  std::vector<std::vector<std::pair<uint32_t, double>>> excludes_;  ///< [ways] other turn, up to
+  struct Exclusion {
+    VehicleSize size = VehicleSize::ordinary;
+    uint32_t other = 0;
+    VehicleSize other_size = VehicleSize::ordinary;
+    double up_to_m = 0.0;
+  };
+  std::vector<std::vector<Exclusion>> excludes_;  ///< [ways]
 };
 
 }  // namespace greatx::sim

@@ -18,6 +18,27 @@ constexpr double behind_m = 1.0;
 
 }  // namespace
 
+/// Draws the way on: straight on straight_share times as often as each turn, unless the street ends there
+/// without another junction.
+uint32_t Simulation::choice(Agent& agent, const DriveWay& lane) const {
+  const std::vector<uint32_t>& next = lane.nexts(agent.size());
+  constexpr double straight_share = 3.0;
+  const std::vector<DriveWay>& ways = streets_->ways();
+  const auto share = [&](uint32_t way) {
+    if (!ways[way].turn() || !ways[way].straight_on) return 1.0;
+    const std::vector<uint32_t>& then = ways[ways[way].next[0]].next;
+    return !then.empty() && ways[then[0]].turn() ? straight_share : 1.0;
+  };
+  double sum = 0.0;
+  for (const uint32_t way : next) sum += share(way);
+  double at = agent.random.uniform() * sum;
+  for (const uint32_t way : next) {
+    if (at < share(way)) return way;
+    at -= share(way);
+  }
+  return next.back();
+}
+
 /// Enters a lane or a turn, whose begin is at agent.begin_m.
 void Simulation::enter(Agent& agent, uint32_t index) {
   const DriveWay& way = streets_->ways()[index];
@@ -37,7 +58,7 @@ void Simulation::enter(Agent& agent, uint32_t index) {
   } else {
     agent.granted = false;
     for (Hold& hold : agent.holds) hold.last_grant = false;
-    agent.next = way.next[agent.random.below(static_cast<uint32_t>(way.next.size()))];
+    agent.next = choice(agent, way);
   }
   start_piece(agent, way.curve, 0.0);
 }
@@ -89,11 +110,11 @@ Simulation::Leader Simulation::leader_ahead(uint32_t index) const {
   const double to_turn_m = way.turn() ? -agent.place() : way.curve.length() - agent.place();
   for (const uint32_t other : ways[ways[turn].from].next) {
     if (other == turn) continue;
-    const std::optional<double> up_to = streets_->excludes(other, turn);
     for (const Entry& entry : on_way_[other]) {
+      const Agent& leader = agents_[entry.agent];
+      const std::optional<double> up_to = streets_->excludes(other, leader.size(), turn, agent.size());
       if (!up_to || entry.agent == index || entry.place > *up_to) break;
       if (entry.place + to_turn_m <= 0.0) continue;
-      const Agent& leader = agents_[entry.agent];
       consider({to_turn_m + entry.place - leader.body.extent.rear_m - agent.body.extent.front_m,
                 leader.speed_mps});
       break;
@@ -160,10 +181,10 @@ void Simulation::ask_all() {
     asking.push_back(i);
   }
   std::ranges::stable_sort(asking, {}, [&](uint32_t i) { return *agents_[i].asked_s; });
-  std::vector<uint32_t> older;  // turns that wait for others to pass
+  std::vector<uint32_t> older;  // those who wait for others to pass
   for (const uint32_t i : asking) {
     const Answer answer = ask(i, older);
-    if (answer == Answer::excluded) older.push_back(agents_[i].next);
+    if (answer == Answer::excluded) older.push_back(i);
     if (answer != Answer::granted) continue;
     Agent& agent = agents_[i];
     const DriveWay& way = streets_->ways()[agent.on];
@@ -197,15 +218,18 @@ Simulation::Answer Simulation::ask(uint32_t index, const std::vector<uint32_t>& 
   if (streets_->light(turn, now_s_) != Light::green) return Answer::no;
   if (!std::ranges::all_of(ways[turn.next[0]].exit, free) || !has_room(agent, turn.next[0]))
     return Answer::no;
-  for (const uint32_t other : older)
+  for (const uint32_t waiting : older) {
+    const uint32_t other = agents_[waiting].next;
     if (ways[other].junction == turn.junction && ways[other].from != turn.from &&
-        streets_->excludes(agent.next, other))
+        streets_->excludes(agent.next, agent.size(), other, agents_[waiting].size()))
       return Answer::excluded;
+  }
   for (const Agent& other : agents_)
     for (const Hold& hold : other.holds) {
       if (hold.crossing || ways[hold.index].junction != turn.junction || ways[hold.index].from == turn.from)
         continue;
-      const std::optional<double> up_to = streets_->excludes(hold.index, agent.next);
+      const std::optional<double> up_to =
+          streets_->excludes(hold.index, other.size(), agent.next, agent.size());
       if (up_to && other.way_m - hold.begin_m < *up_to) return Answer::excluded;
     }
   return Answer::granted;
@@ -271,7 +295,7 @@ void Simulation::weigh_lane_change(uint32_t index) {
     return place - agent.body.extent.rear_m - follower_place - follower.body.extent.front_m;
   };
   for (const std::optional<uint32_t>& side : {way.left, way.right}) {
-    if (!side || !ways[*side].endless || ways[*side].turn()) continue;
+    if (!side || !ways[*side].goes_on(agent.size()) || ways[*side].turn()) continue;
     const DriveWay& lane = ways[*side];
     const CurvePlace here = way.curve.at(place), there = lane.curve.at(place);
     const double offset = glm::dot(here.position - there.position, there.left());
@@ -316,7 +340,7 @@ void Simulation::weigh_lane_change(uint32_t index) {
     // It is on the new lane at once, and keeps a place on the old one until it has left it.
     agent.ghost = Ghost{agent.on, 0.0, agent.way_m + length};
     agent.on = *side;
-    agent.next = lane.next[agent.random.below(static_cast<uint32_t>(lane.next.size()))];
+    agent.next = choice(agent, lane);
     agent.gate = std::min(agent.gate, lane.gates.size() - 1);
     start_piece(agent, lane.curve, place, offset, length);
     ++counts_.lane_changes;

@@ -28,14 +28,17 @@ std::vector<TrafficBody> bodies_of(const TrafficConfig& traffic) {
   return bodies;
 }
 
-Extent largest_of(const TrafficConfig& traffic) {
-  Extent largest{0.0, 0.0, 0.0};
+LargestVehicles largest_of(const TrafficConfig& traffic) {
+  LargestVehicles all(Extent{0.0, 0.0, 0.0});
   for (const TrafficBody& body : bodies_of(traffic)) {
     if (body.kind == TrafficMember::Kind::pedestrian) continue;
+    const bool is_longer = size_of(body.extent) == VehicleSize::longer;
+    if (is_longer && !all.longer) all.longer = Extent{0.0, 0.0, 0.0};
+    Extent& largest = is_longer ? *all.longer : all.ordinary;
     largest = {std::max(largest.front_m, body.extent.front_m), std::max(largest.rear_m, body.extent.rear_m),
                std::max(largest.width_m, body.extent.width_m)};
   }
-  return largest;
+  return all;
 }
 
 std::shared_ptr<Simulation> simulation_of(const Scenario& scenario, const World& world, uint32_t sequence) {
@@ -63,8 +66,8 @@ void check_traffic(const Scenario& scenario, const World& world) {
   if (!scenario.traffic || scenario.traffic->members.empty()) return;
   if (!world.streets)
     throw_user_error_at(scenario.traffic->where,
-                        "traffic: expected a scene with streets (greatx_streets in its glTF file, as "
-                        "generate: {{kind: city}} has), found none");
+                        "traffic: expected a scene with streets (generate: {{kind: city}}, a place whose map "
+                        "has ways, or greatx_streets in a glTF file), found none");
   simulation_of(scenario, world, 0);
 }
 

@@ -58,7 +58,7 @@ TEST(CommandLine, UnknownNamesComeWithTheNearest) {
                  "--tracer: expected one of auto, driver, tree, found 'tre' (did you mean 'tree'?)");
   expect_refused("paths --color 1", "--color: expected one of gain, kind, found '1'");
   expect_refused("explain city --set nodes[uva].model=x",
-                 "--set: nodes[uva].model: expected a number or one of the names bs, uav, drone, car, found "
+                 "--set: nodes[uva].model: expected a number or one of the names bs, uav, drone, found "
                  "'uva' (did you mean 'uav'?)");
   EXPECT_THAT(greatx("explain citty").err, HasSubstr("(did you mean 'city'?)\n"));
   EXPECT_THAT(greatx("campaign plan great_mcd_mni").err, HasSubstr("(did you mean 'great_mcd_mini'?)\n"));

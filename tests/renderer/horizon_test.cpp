@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/light/horizon.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -146,6 +147,19 @@ TEST(Horizon, SuitsTheScene) {
   EXPECT_EQ(render::horizon_of(town), HorizonKind::city);
   EXPECT_NEAR(render::land_height(town), 0.0, 1e-4);
   EXPECT_NEAR(render::land_height(field()), 2.0, 1e-4);
+}
+
+/// Houses and trees up to the border leave only the ends of four streets free: a sixth of it.
+TEST(Horizon, LiesAtTheHeightOfStreetsThatEndBetweenHouses) {
+  TinyScene tiny;
+  tiny.object("ground").quad({-150, -150, 0}, {150, -150, 0}, {150, 150, 0}, {-150, 150, 0});
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0}) {
+      const dvec2 inner(25.0 * x, 25.0 * y), outer(150.0 * x, 150.0 * y);
+      tiny.object("block").box({std::min(inner.x, outer.x), std::min(inner.y, outer.y), 0},
+                               {std::max(inner.x, outer.x), std::max(inner.y, outer.y), 18});
+    }
+  EXPECT_NEAR(render::land_height(tiny.build()), 0.0, 1e-4);
 }
 
 }  // namespace

@@ -221,5 +221,50 @@ TEST(ClosedBodies, LookTheSameWithoutTheirBackFaces) {
   EXPECT_THAT(within.instance, testing::Each(2u));
 }
 
+TEST(ClosedBodies, ThingsOfTheStaticWorldAreClosedOneByOne) {
+  TinyScene tiny;
+  scene::Material fence;
+  fence.pbr.alpha_mode = scene::AlphaMode::mask;
+  const uint32_t masked = tiny.material_as(fence), car = tiny.body("car");
+  tiny.quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0});
+  tiny.object("closed").box({-1, -1, 0}, {1, 1, 1}).box({3, 3, 0}, {4, 4, 1});
+  tiny.object("holes", 0, masked).box({-1, -1, 0}, {1, 1, 1});
+  tiny.object("inside out").box({2, 2, 2}, {1, 1, 1});
+  tiny.object("another body", car).box({-1, -1, 0}, {1, 1, 1});
+  EXPECT_EQ(render::closed_instances(tiny.build()), (std::vector<bool>{false, true, false, false, false}));
+}
+
+TEST(ClosedBodies, OfTheStaticWorldLookTheSameWithoutTheirBackFaces) {
+  // A triangle hidden within a house leaves it open, so that its back faces are drawn.
+  const auto scene_with = [](bool open) {
+    TinyScene tiny;
+    tiny.quad({-30, -30, 0}, {30, -30, 0}, {30, 30, 0}, {-30, 30, 0});
+    for (int k = 0; k < 5; ++k) {
+      const dvec3 at(3.0 * k - 6.0, 1.3 * k - 2.0, 0.0);
+      tiny.object("house " + std::to_string(k)).box(at, at + dvec3(1.1, 1.7, 2.0 + 0.3 * k));
+      if (open) tiny.triangle(at + dvec3(0.1), at + dvec3(0.2, 0.1, 0.1), at + dvec3(0.1, 0.2, 0.1));
+    }
+    return tiny.build();
+  };
+  const scene::Scene closed_scene = scene_with(false), open_scene = scene_with(true);
+  ASSERT_TRUE(render::closed_instances(closed_scene)[1]);
+  ASSERT_FALSE(render::closed_instances(open_scene)[1]);
+  CameraRig closed(closed_scene, plain_light(60.0, 35.0), plain_camera(128)),
+      open(open_scene, plain_light(60.0, 35.0), plain_camera(128));
+  size_t differing = 0;
+  for (int k = 0; k < 8; ++k) {
+    const Pose eye = look({-9.0 + 0.4 * k, 1, 2.5}, -8.0 + k, 12.0);
+    const render::CameraImages a = closed.shoot(eye), b = open.shoot(eye);
+    for (size_t i = 0; i < a.depth.size(); ++i) {
+      const bool same =
+          a.instance[i] == b.instance[i] && a.depth[i] == b.depth[i] && a.hdr[3 * i] == b.hdr[3 * i];
+      differing += !same;
+    }
+  }
+  EXPECT_LE(differing, 4u) << "of 8 x 128 x 128, on outlines";
+  // From within a house, its back faces are what there is to see.
+  EXPECT_THAT(closed.shoot(look({0.5, 1.2, 1.0})).instance, testing::Each(4u));
+}
+
 }  // namespace
 }  // namespace greatx::test

@@ -5,13 +5,17 @@
 #include "renderer/light/surroundings.h"
 
 #include <cmath>
+#include <cstring>
 #include <iostream>
+#include <random>
 
 #include <fmt/format.h>
+#include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
 
 #include "renderer/light/sky_view.h"
 #include "renderer/reference/reference_picture.h"
+#include "shaders/shared/surroundings.h"
 #include "tests/renderer/camera_rig.h"
 
 namespace greatx::test {
@@ -103,6 +107,79 @@ TEST(Surroundings, OpenGroundSendsItsLightDownwardsOnly) {
   EXPECT_NEAR(bounced.over_pi({0, 0, -1}).x / radiance, 1.0, 0.02);
   EXPECT_NEAR(bounced.over_pi({1, 0, 0}).x / radiance, 0.5, 0.02);
   EXPECT_NEAR(bounced.over_pi({0, 0, 1}).x / radiance, 0.0, 0.02);
+}
+
+/// No ray of an octant meets a standing cell within the cells that are said to be free.
+TEST(Surroundings, LeapsPassNothingThatStands) {
+  TinyScene tiny;
+  tiny.quad({-64, -64, 0}, {64, -64, 0}, {64, 64, 0}, {-64, 64, 0});
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int k = 0; k < 30; ++k) {
+    const dvec3 at(120.0 * uniform(random) - 60.0, 120.0 * uniform(random) - 60.0, 0.0);
+    tiny.box(at, at + dvec3(1.0 + 5.0 * uniform(random), 1.0 + 5.0 * uniform(random), 8.0));
+  }
+  const scene::Scene scene = tiny.build();
+  const render::HeightField field = render::height_field(scene);
+  const render::Surroundings surroundings(scene, field, {}, {});
+  size_t free_cells = 0;
+  for (uint32_t octant = 0; octant < 8; ++octant) {
+    const std::vector<uint16_t> free = surroundings.free_cells(octant);
+    for (int k = 0; k < 2000; ++k) {
+      // A slope of the octant, from anywhere in a cell.
+      const bool along_y = (octant & shared::surroundings_along_y) != 0;
+      dvec2 direction(1.0, uniform(random));
+      if (along_y) direction = {direction.y, direction.x};
+      if (octant & shared::surroundings_negative_x) direction.x = -direction.x;
+      if (octant & shared::surroundings_negative_y) direction.y = -direction.y;
+      const dvec2 from(uniform(random) * field.width, uniform(random) * field.height);
+      const size_t cell = size_t(from.y) * field.width + size_t(from.x);
+      if (free[cell] == 0) continue;
+      for (double t = 0.0; t <= free[cell] - 1.0; t += 0.05) {
+        const dvec2 at = from + direction * t;
+        if (at.x < 0.0 || at.y < 0.0 || at.x >= field.width || at.y >= field.height) break;
+        ASSERT_FALSE(surroundings.cell(uint32_t(at.x), uint32_t(at.y)).stands())
+            << "octant " << octant << " from " << from.x << ", " << from.y << " after " << t;
+        ++free_cells;
+      }
+    }
+  }
+  EXPECT_GT(free_cells, 100000u);
+}
+
+/// The bytes in which shaders read bounced light are within the steps that docs/global_light.md states.
+TEST(Surroundings, StoredBouncedLightIsThatGathered) {
+  const scene::Scene scene = street(12.0, 0.6f, 0.3f);
+  const render::HeightField field = render::height_field(scene);
+  render::SurroundingLight light = sun_on_east();
+  light.key_lux = {100000.0, 80000.0, 50000.0};
+  light.beyond = {3000.0, 4000.0, 5000.0};
+  const render::Surroundings surroundings(scene, field, light, {});
+  const std::vector<uint32_t> words = surroundings.words();
+  shared::SurroundingsHeader header;
+  std::memcpy(&header, words.data(), sizeof header);
+  const uint32_t column = header.place_columns / 2, row = header.place_rows / 2;
+  const uint32_t* place = &words[2 * (header.first_place + shared::surroundings_place_pairs *
+                                                               (row * header.place_columns + column))];
+  const dvec2 middle =
+      field.corner + (dvec2(column, row) + 0.5) * field.cell_m * double(shared::surroundings_place_cells);
+  const render::BouncedLight low = surroundings.gather(middle, shared::surroundings_low),
+                             high = surroundings.gather(middle, shared::surroundings_high);
+  const auto luminance = [](const dvec3& rgb) { return glm::dot(rgb, dvec3(0.2126, 0.7152, 0.0722)); };
+  const auto expect_light = [&](const render::BouncedLight& gathered, const uint32_t* stored) {
+    const double c = glm::unpackHalf2x16(stored[0]).x;
+    EXPECT_NEAR(c / luminance(gathered.constant), 1.0, 1e-3);
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(2.0 * glm::unpackSnorm4x8(stored[1])[axis], luminance(gathered.along[axis]) / c, 0.0082);
+  };
+  ASSERT_GT(luminance(low.constant), 100.0);
+  expect_light(low, place);
+  expect_light(high, place + 2);
+  const dvec3 sum = low.constant + high.constant;
+  const vec4 root = 2.0f * glm::unpackUnorm4x8(place[0]);
+  EXPECT_NEAR(root.z * root.z, sum.r / luminance(sum), 0.01);
+  EXPECT_NEAR(root.w * root.w, sum.b / luminance(sum), 0.01);
+  EXPECT_NEAR(glm::unpackHalf2x16(place[2]).y, 0.0, 1e-3);
 }
 
 /// Returns the errors of a picture of the street, in the shade, against a reference of one bounce.

@@ -71,6 +71,32 @@ Complex cell_of(const PatchList& list, double from_m, double to_m) {
   return sum;
 }
 
+/// Plates of 6 cm at 20 m are seen by beams of their own with tubes of 0.3 m, and by the tubes with those of
+/// 1 cm. Scatterers belong to the surface, so that both see the same ones.
+TEST(RadarClutter, SmallFacetsSendBackTheSameWhateverTheTubesAre) {
+  TinyScene tiny;
+  const uint32_t rough = tiny.material_as(rough_material("grass"));
+  for (int i = 0; i < 12; ++i) {
+    const dvec3 at(20.0 + 0.05 * i, 0.15 * (i % 4) - 0.26, 0.22 * (i / 4) - 0.21), side(0.02, 0.06, 0.0),
+        up(-0.01, 0.0, 0.06);
+    tiny.object("plate", 0, rough).quad(at, at + side, at + side + up, at + up);
+  }
+  EchoScene scene(tiny);
+  EchoOptions options = still_options(3.0, -3.0, 3.0);
+  options.diffuse_patch_m = 0.005;
+  const auto sum = [&](uint32_t tubes, size_t& count) {
+    options.tubes = tubes;
+    const PatchList patches = scene.find(options, Pose{}).patches;
+    count = patches.size();
+    return cell_of(patches, 1.0, 100.0);
+  };
+  size_t few = 0, many = 0;
+  const Complex coarse = sum(49, few), fine = sum(44100, many);
+  EXPECT_GT(many, 1000u);
+  EXPECT_EQ(few, many);
+  EXPECT_LT(std::abs(coarse - fine), 1e-3 * std::abs(fine));
+}
+
 TEST(RadarClutter, SpecklesAreThoseOfRayleigh) {
   const TinyScene tiny = floor_scene(rough_material("grass"));
   EchoScene scene(tiny);

@@ -336,9 +336,32 @@ TEST(Model, PunctualLights) {
   EXPECT_EQ(spot.range_m, 15.0f);
   EXPECT_EQ(spot.inner_cone, 0.25f);
   EXPECT_EQ(spot.outer_cone, 0.5f);
+  EXPECT_EQ(spot.beam, PunctualLight::Beam::cone);
   EXPECT_EQ(model.lights[1].type, PunctualLight::Type::directional);
   EXPECT_EQ(model.lights[1].name, "sun");
   expect_near(model.lights[1].direction, {0, 1, 0});  // -z is north
+}
+
+TEST(Model, ALightMayHaveAPassingBeam) {
+  const auto load = [](const char* type, const json& beam) {
+    GltfWriter writer;
+    writer.add_triangles("wall", test::unit_quad(), test::quad_indices(), writer.itu_material());
+    writer.document["extensions"] = {
+        {"KHR_lights_punctual",
+         {{"lights", {{{"type", type}, {"spot", json::object()}, {"extras", {{"greatx_beam", beam}}}}}}}}};
+    writer.root({{"name", "lamp"}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    return writer.load().lights.at(0);
+  };
+  EXPECT_EQ(load("spot", "passing").beam, PunctualLight::Beam::passing);
+  for (const auto& [type, beam] :
+       std::vector<std::pair<const char*, json>>{{"spot", "driving"}, {"spot", 1}, {"point", "passing"}}) {
+    try {
+      load(type, beam);
+      FAIL() << "no error of " << type << " " << beam;
+    } catch (const UserError& error) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("light 'lamp': extras.greatx_beam: expected"));
+    }
+  }
 }
 
 SemanticClass class_named(const std::string& name) {

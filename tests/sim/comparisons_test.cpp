@@ -2,9 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/compare/comparisons.h"
 
+#include <cmath>
+#include <map>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/error.h"
+#include "core/units.h"
 #include "renderer/camera/camera.h"
 #include "sim/compare/consistency.h"
 
@@ -117,6 +122,86 @@ TEST_F(Comparisons, AFigureIsFoundAgainFromFilesOrSaysWhyNot) {
   camera.arrays.push_back({"box_2d", DType::f32, {-1, 4}, "pixel", ""});
   EXPECT_THAT(comparison_called(lidar_figure)->needs(camera).of_other,
               ::testing::ElementsAre("depth", "instance"));
+}
+
+/// A node carries a box of 2 m about its origin, and another node a camera and a LiDAR that look along +x.
+/// The poses put the box 10 m before them, turned by 30 degrees about the vertical.
+class AgainstBoxes : public testing::Test {
+ protected:
+  AgainstBoxes() {
+    poses_.name = "poses";
+    poses_.metadata_json = R"({"nodes": ["eye", "car"]})";
+    const double half = 0.5 * radians(30.0);
+    set(poses_, "position", std::vector<double>{100.0, 50.0, 2.0, 110.0, 50.0, 2.0});
+    set(poses_, "orientation",
+        std::vector<double>{1.0, 0.0, 0.0, 0.0, std::cos(half), 0.0, 0.0, std::sin(half)});
+    for (const char* name : {"velocity", "acceleration", "angular_velocity"})
+      set(poses_, name, std::vector<double>(6, 0.0));
+    InstanceBox ground, car;
+    ground.box.add(dvec3(-1e3, -1e3, -1.0));
+    ground.box.add(dvec3(1e3, 1e3, 0.0));
+    car.node = 1;
+    car.box.add(dvec3(-1.0));
+    car.box.add(dvec3(1.0));
+    boxes_ = {ground, car};
+    camera_.name = "eye/camera";
+    camera_.metadata_json = R"({"width": 3, "height": 1, "fx": 3.0, "fy": 3.0, "cx": 1.5, "cy": 0.5,
+      "near_m": 0.05, "body_from_sensor": {"position_m": [0, 0, 0], "orientation_wxyz": [1, 0, 0, 0]}})";
+    lidar_.name = "eye/lidar";
+    lidar_.metadata_json = R"({"point_error_m": 0.001, "receiver": {"range_std_m": 0.01},
+      "body_from_sensor": {"position_m": [0, 0, 0], "orientation_wxyz": [1, 0, 0, 0]}})";
+  }
+  template <typename T>
+  void set(const SensorSpec& sensor, const char* name, const std::vector<T>& values) {
+    arrays_[sensor.name + "." + name] = Array::of<T>({std::ssize(values)}, values);
+  }
+  RecordView view(const SensorSpec& sensor) const {
+    return {sensor,
+            [this, &sensor](const std::string& name) { return arrays_.at(sensor.name + "." + name); }};
+  }
+  double depth_error(float depth, uint16_t instance) {
+    set(camera_, "depth", std::vector<float>{INFINITY, depth, 7.0f});
+    set(camera_, "instance", std::vector<uint16_t>{0, instance, 1});
+    const ErrorStatistics errors = compare_depth_boxes(view(camera_), view(poses_), boxes_);
+    return errors.count() == 1 ? errors.max() : NAN;
+  }
+  double lidar_error(float range) {
+    set(lidar_, "points", std::vector<float>{range, 0.0f, 0.0f, 1.0f, 5.0f, 0.0f, 0.0f, 1.0f});
+    set(lidar_, "instance", std::vector<uint32_t>{2, 1});
+    set(lidar_, "power", std::vector<float>{1.0f, 1.0f});
+    const ErrorStatistics errors = compare_lidar_boxes(view(lidar_), view(poses_), boxes_);
+    return errors.count() == 1 ? errors.max() : NAN;
+  }
+
+  SensorSpec poses_, camera_, lidar_;
+  std::vector<InstanceBox> boxes_;
+  std::map<std::string, Array> arrays_;
+  /// Along the axis, the face of the turned box begins here: its half length over the cosine of its turn.
+  double face_m_ = 10.0 - 1.0 / std::cos(radians(30.0));
+};
+
+TEST_F(AgainstBoxes, APixelOutsideOfItsInstancesBoxIsFound) {
+  EXPECT_LT(depth_error(static_cast<float>(face_m_), 2), 1e-7);
+  EXPECT_EQ(depth_error(10.0f, 2), 0.0) << "inside";
+  // 0.5 m before the face along the axis are 0.5 cos 30 from it.
+  EXPECT_NEAR(depth_error(static_cast<float>(face_m_ - 0.5), 2),
+              0.5 * std::cos(radians(30.0)) / (face_m_ - 0.5), 1e-6);
+  EXPECT_TRUE(std::isnan(depth_error(5.0f, 1))) << "no node carries the ground, so it is not compared";
+  EXPECT_TRUE(std::isnan(depth_error(5.0f, 9))) << "no such instance";
+}
+
+TEST_F(AgainstBoxes, AReturnOutsideByMoreThanItsNoiseIsFound) {
+  EXPECT_EQ(lidar_error(static_cast<float>(face_m_)), 0.0);
+  EXPECT_EQ(lidar_error(static_cast<float>(face_m_ - 0.06)), 0.0) << "six deviations of 0.01 m, and 0.001 m";
+  const double before = face_m_ - 0.5;
+  EXPECT_NEAR(lidar_error(static_cast<float>(before)), (0.5 * std::cos(radians(30.0)) - 0.061) / before,
+              1e-6);
+}
+
+TEST_F(AgainstBoxes, ARecordOfAnotherShapeIsRefused) {
+  set(camera_, "instance", std::vector<uint16_t>{0, 2});
+  set(camera_, "depth", std::vector<float>{1.0f, 2.0f, 3.0f});
+  EXPECT_THROW(compare_depth_boxes(view(camera_), view(poses_), boxes_), UserError);
 }
 
 }  // namespace

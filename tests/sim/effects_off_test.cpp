@@ -247,6 +247,16 @@ TEST(EffectsOff, WhatHasNothingToActOnIsNotBuiltUnderAuto) {
   test::expect_same_bytes(automatic, bare);
 }
 
+TEST(EffectsOff, OnlyAWideSceneHasShadowCascades) {
+  for (const double half : {150.0, 300.0}) {
+    TinyScene tiny;
+    tiny.object("ground").quad({-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0});
+    const Experiment experiment = testing::experiment_in(yard_scenario(camera_sensor, ""), tiny.build());
+    EXPECT_TRUE(experiment.plan.static_shadows.on);
+    EXPECT_EQ(experiment.plan.shadow_cascades.on, half > 200.0) << experiment.plan.shadow_cascades.reason;
+  }
+}
+
 /// Names an effect, what it needs to be on beside it, and the sensor that has it.
 struct Tried {
   Sensor sensor;
@@ -259,6 +269,7 @@ const std::map<std::string, Tried> tried{
     {"sky", {camera_sensor, {}}},
     {"static_shadows", {camera_sensor, {"sun"}}},
     {"moving_shadows", {camera_sensor, {"sun"}}},
+    {"shadow_cascades", {camera_sensor, {"sun", "static_shadows"}}},
     {"ambient_occlusion", {camera_sensor, {"sky"}}},
     {"contact_occlusion", {camera_sensor, {"sky"}}},
     {"bounced_light", {camera_sensor, {"sky", "ambient_occlusion"}}},

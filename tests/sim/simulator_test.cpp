@@ -129,6 +129,26 @@ TEST(Consistency, ModalitiesSeeOneWorld) {
   EXPECT_LT(c.at(sight_figure).max(), 1e-12);
 }
 
+/// Boxes are those of the nodes in the poses. Cars roll and people swing their limbs within them.
+TEST(Consistency, PicturesAndLidarSeePeopleAndCarsWhereTheyAre) {
+  const KeptRun r = keep_run(
+      head +
+      "scene: {generate: {kind: city, seed: 7, size_m: 225}}\n"
+      "traffic: {vehicles: 12, cyclists: 4, pedestrians: 24}\n"
+      "nodes:\n  - name: mast\n    trajectory: {type: static, position_m: [-8.2, -8.2, 8]}\n    sensors:\n"
+      "      - {name: camera, type: camera, rate_hz: 10, width: 320, height: 240, fov_deg: 100, outputs: "
+      "[depth, "
+      "ids], mount: {rotation_deg: [45, 20, 0]}}\n"
+      "      - {name: lidar, type: lidar, rate_hz: 10, channels: 32, elevation_min_deg: -50, "
+      "elevation_max_deg: "
+      "5, azimuth_steps: 720}\n");
+  const Consistency& c = r.statistics.consistency;
+  EXPECT_GT(c.at(depth_box_figure).count(), 100u);
+  EXPECT_LT(c.at(depth_box_figure).max(), 1e-5);
+  EXPECT_GT(c.at(lidar_box_figure).count(), 50u);
+  EXPECT_LT(c.at(lidar_box_figure).max(), 1e-5);
+}
+
 TEST(Plan, ACameraAloneBuildsNothingOfRadioOrLidar) {
   const KeptRun alone = keep_run(head + city + "nodes:\n" + uav(camera) + "effects: {consistency: off}\n");
   EXPECT_FALSE(alone.built("lidar"));

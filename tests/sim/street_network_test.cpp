@@ -81,7 +81,7 @@ TEST(StreetNetwork, OfTheCityIsSmooth) {
   for (const uint64_t seed : {1, 7, 23})
     for (const double size_m : {150.0, 300.0, 600.0}) {
       const StreetNetwork network = scene::generator::city_network(scene::generator::plan_city(size_m, seed));
-      const sim::Streets streets(network, {4.5, 1.7, 2.25}, "city.glb");
+      const sim::Streets streets(network, sim::Extent{4.5, 1.7, 2.25}, "city.glb");
       size_t turns = 0;
       for (const sim::DriveWay& way : streets.ways()) {
         turns += way.turn() ? 1 : 0;

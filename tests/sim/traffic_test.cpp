@@ -21,7 +21,7 @@ namespace {
 using testing::HasSubstr;
 using Kind = TrafficMember::Kind;
 
-const Extent largest{4.5, 1.7, 2.25};
+const LargestVehicles largest(Extent{4.5, 1.7, 2.25}, Extent{9.1, 3.4, 2.75});
 
 std::shared_ptr<const Streets> city_streets(double size_m = 300.0, uint64_t seed = 7) {
   const auto plan = scene::generator::plan_city(size_m, seed);
@@ -39,7 +39,8 @@ TrafficBody body_of(Kind kind, const std::string& variant) {
 }
 
 std::vector<TrafficBody> bodies(int vehicles, int cyclists, int pedestrians) {
-  const std::vector<std::string> kinds{"saloon", "mini", "panel_van", "suv", "motorcycle", "pickup", "taxi"};
+  const std::vector<std::string> kinds{"saloon", "mini",     "panel_van", "suv",       "motorcycle", "pickup",
+                                       "taxi",   "city_bus", "lorry",     "box_truck", "minibus"};
   std::vector<TrafficBody> list;
   for (int i = 0; i < vehicles; ++i) list.push_back(body_of(Kind::vehicle, kinds[size_t(i) % kinds.size()]));
   for (int i = 0; i < cyclists; ++i)
@@ -101,6 +102,104 @@ TEST(Traffic, HasNoCollisionsInOtherCities) {
     Simulation simulation(city_streets(450.0, seed), bodies(40, 10, 60), config_of(seed), 0);
     EXPECT_EQ(collisions(simulation, 200.0), 0) << seed;
     EXPECT_EQ(simulation.counts().on_red, 0u);
+  }
+}
+
+/// On a circle the closed form holds; on a straight way the body stays within its own width.
+TEST(Traffic, BodiesReachBesideTheirWays) {
+  for (const double radius : {8.0, 20.0, 60.0}) {
+    std::vector<dvec3> circle;
+    for (int i = 0; i <= 400; ++i) {
+      const double angle = 1.5 * pi * i / 400.0;
+      circle.emplace_back(radius * std::sin(angle), radius * (1.0 - std::cos(angle)), 0.0);
+    }
+    const Extent bus{9.0, 3.0, 2.75};
+    const double expected = std::hypot(radius + 0.5 * bus.width_m, bus.front_m) - radius;
+    const Curve curve(circle, dvec2(1.0, 0.0), dvec2(0.0, -1.0));
+    EXPECT_NEAR(reach_beside(curve, bus), expected, 0.05 / radius) << radius;
+  }
+  EXPECT_NEAR(reach_beside(Curve({{0, 0, 0}, {50, 20, 0}}), {9.0, 3.0, 2.75}), 1.375, 1e-9);
+}
+
+/// Buses and lorries are simulated on every lane that they take; their bodies stay within it, but for what
+/// docs/traffic.md states.
+TEST(Traffic, LongerVehiclesStayInTheirLanes) {
+  const auto streets = city_streets();
+  size_t ways = 0;
+  for (const DriveWay& way : streets->ways()) {
+    EXPECT_TRUE(way.endless || !way.endless_longer);
+    if (!way.endless_longer) continue;
+    ++ways;
+    EXPECT_FALSE(way.right.has_value());
+    EXPECT_LE(reach_beside(way.curve, *largest.longer), 0.5 * way.width_m + (way.turn() ? 0.35 : 0.1));
+    for (const uint32_t next : way.next_longer) EXPECT_TRUE(streets->ways()[next].endless_longer);
+  }
+  EXPECT_GE(ways, 20u);
+  Simulation simulation(streets, bodies(22, 0, 0), config_of(6), 0);
+  for (const uint32_t member : {7u, 8u, 9u, 10u, 18u, 19u, 20u, 21u})
+    for (double time_s = 0.0; time_s < 300.0; time_s += 1.0) {
+      const Piece piece = simulation.at(member, time_s).piece;
+      const auto on = std::ranges::find_if(streets->ways(),
+                                           [&](const DriveWay& way) { return &way.curve == piece.curve; });
+      ASSERT_NE(on, streets->ways().end());
+      EXPECT_TRUE(on->endless_longer);
+    }
+}
+
+/// The mean speed of twenty vehicles is that of level of service D or better: 40 % of the free flow
+/// (Highway Capacity Manual 2010, exhibit 16-4), here of the lanes' limits, weighted by where they are.
+TEST(Traffic, FlowsAsStreetsWithSignalsDo) {
+  const auto streets = city_streets();
+  double speeds = 0.0, limits = 0.0;
+  for (const uint64_t seed : {1, 2, 3}) {
+    Simulation simulation(streets, bodies(20, 0, 30), config_of(seed), 0);
+    for (double time_s = 0.0; time_s < 600.0; time_s += 1.0)
+      for (uint32_t i = 0; i < 20; ++i) {
+        const WayState state = simulation.at(i, time_s);
+        const dvec3 place = place_on(state.piece, state.way_m).position;
+        if (std::max(std::abs(place.x), std::abs(place.y)) > 150.0) continue;  // in a loop beyond the edge
+        speeds += state.speed_mps;
+        for (const DriveWay& way : streets->ways())
+          if (&way.curve == state.piece.curve) limits += way.turn() ? 30.0 / 3.6 : way.speed_mps;
+      }
+  }
+  RecordProperty("share_of_free_flow", std::to_string(speeds / limits));
+  EXPECT_GT(speeds / limits, 0.4);
+  EXPECT_LT(speeds / limits, 0.85);  // signals hold some of them
+}
+
+/// Whoever leaves at the model's edge comes back: all places are continuous, and no street stays empty.
+TEST(Traffic, UsesStreetsThatEndAtTheEdge) {
+  const auto streets = city_streets();
+  for (const DriveWay& way : streets->ways())
+    if (!way.turn() && !way.right) {
+      EXPECT_TRUE(way.endless);
+    }
+  Simulation simulation(streets, bodies(11, 2, 0), config_of(8), 0);
+  double furthest = 0.0;
+  for (uint32_t i = 0; i < 13; ++i) {
+    dvec2 before = box_of(simulation, i, 0.0).middle;
+    for (int step = 1; step < 6000; ++step) {
+      const dvec2 now = box_of(simulation, i, 0.1 * step).middle;
+      EXPECT_LT(glm::distance(now, before), 0.1 * 1.2 * simulation.most_speed_mps(i));
+      furthest = std::max({furthest, std::abs(now.x), std::abs(now.y)});
+      before = now;
+    }
+  }
+  EXPECT_GT(furthest, 150.0);
+  EXPECT_LT(furthest, 190.0);
+}
+
+TEST(Traffic, SaysWhichVehiclesAreTooLong) {
+  try {
+    Simulation simulation(std::make_shared<const Streets>(
+                              scene::generator::city_network(scene::generator::plan_city(300.0, 7)),
+                              LargestVehicles(Extent{4.5, 1.7, 2.25}, Extent{15.0, 5.0, 2.75}), "city.glb"),
+                          {{Kind::vehicle, {15.0, 5.0, 2.75}, 5.0}}, config_of(1), 0);
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("found one of 20.0 m, for which the streets of city.glb have no way"));
   }
 }
 

@@ -29,9 +29,19 @@ using Kind = YamlChange::Kind;
 YamlChange set(const std::string& path, const std::string& value) {
   return {Kind::set, parse_yaml_path(path), value};
 }
+/// The default scenario with a car on way-points as its fourth node.
 std::string city() {
   for (const EmbeddedScenario& scenario : embedded_scenarios())
-    if (scenario.name == "city") return std::string(scenario.text);
+    if (scenario.name == "city") {
+      std::string text(scenario.text);
+      return text.insert(text.find("channels:\n"),
+                         "  - name: car\n"
+                         "    trajectory:\n"
+                         "      type: waypoints\n"
+                         "      points:\n"
+                         "        - {t_s: 0, position_m: [-45, -3.2, 0]}\n"
+                         "        - {t_s: 10, position_m: [75, -3.2, 0]}\n");
+    }
   return {};
 }
 sim::Scenario parse(const std::string& text) { return sim::parse_scenario(text, "city.yaml", "."); }

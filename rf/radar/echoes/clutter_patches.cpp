@@ -189,8 +189,15 @@ void ClutterPatches::cover(const ClutterParts::Part& part, const Polygon& piece,
   const dvec3 &from = ends.transmitter.position, &to = ends.receiver.position;
   if (hidden(facet, piece, from, to, ends, [](const dvec3&) { return 1.0; })) return;
   const double side = side_of(facet, piece, from, to, scatterers_in_a_cell, ends);
-  const CellField field = cells_.turned(part.tube, ends.turn);
+  uint32_t tube = part.tube;
+  CellField field;
+  if (tube != ClutterParts::of_a_beam) field = cells_.turned(tube, ends.turn);
   spread(part.facet, piece, side, world, out, [&](const dvec3& point, uint64_t draw) {
+    if (part.tube == ClutterParts::of_a_beam) {  // a long facet may reach over several cells
+      const uint32_t at = ends.sight.grid.tube_at(point - from);
+      if (at == RayGrid::outside) return;
+      if (at != tube) tube = at, field = cells_.turned(at, ends.turn);
+    }
     Leg there(from, point);
     there.field = field.towards(there.in);
     Complex sent;

@@ -41,9 +41,11 @@
 
 namespace greatx::rf {
 
-/// Parts of tubes on rough surfaces, which both ends see, or which the transmitter sees over a mirror.
+/// Parts of tubes and of beams on rough surfaces, which both ends see, or which the transmitter sees over a
+/// mirror.
 struct ClutterParts {
   static constexpr uint32_t no_mirror = ~0u;
+  static constexpr uint32_t of_a_beam = ~0u;  ///< in place of a tube: FacetEchoes has found the part
   struct Part {
     uint32_t tube = 0, facet = 0;
     uint32_t mirror = no_mirror;    ///< facet that the tube has met before

@@ -308,7 +308,7 @@ void EchoFinder::check_antenna(const dvec3& at, const RayGrid& grid, std::span<c
 RawEchoes EchoFinder::raw_echoes(const Pending& pending, const RayGrid& grid, const RayHits& hits,
                                  const EchoField& field, EchoStatistics& statistics) const {
   const dvec3& source = pending.transmitter.position;
-  const FacetScene scene{world_, trees_, tracer_};
+  const FacetScene scene{world_, trees_, tracer_, nullptr, clutter_ ? &*clutter_ : nullptr};
   const FacetEchoes small(scene, grid, field, options_, source, monostatic_, transmitter_.own_body,
                           receiver_.own_body);
   std::vector<MirroredFacet> images;

@@ -141,10 +141,12 @@ void FacetEchoes::solve(uint32_t facet, Job& job) const {
     find_visible(world, scene_.trees, beam, {}, outline, facet, job.pieces, job.smallest, job.scratch, cells);
     for (size_t i = 0; i < cells.size(); ++i)
       if (cells[i].facet == facet) {
-        if (scene_.veils == nullptr)
+        if (scene_.veils == nullptr) {
+          keep_rough(facet, cells[i].part, job);
           bounce_off(job, 0, cells[i].part, facet);
-        else
+        } else {
           solve_behind(facet, cells[i].part, farthest, job);
+        }
       }
   }
   if (scene_.veils == nullptr) send_over_shown(job);
@@ -165,6 +167,21 @@ void FacetEchoes::solve_behind(uint32_t facet, const Polygon& part, double farth
     send_over_shown(job);
     scene_.veils->weaken(*job.out, first, scene_.veils->leg(veil_views_.out, ends_.source, at), veil_views_,
                          ends_, monostatic_);
+  }
+}
+
+void FacetEchoes::keep_rough(uint32_t facet, const Polygon& part, Job& job) const {
+  const PosedFacet& posed = scene_.world.facet(facet);
+  if (scene_.clutter == nullptr || !scene_.clutter->rough(posed.material)) return;
+  if (posed.distance(ends_.source) * posed.distance(ends_.receiver) <= 0.0) return;
+  job.chain[0] = facet;
+  if (monostatic_)
+    job.sending.assign(1, part);
+  else
+    find_seen(job, 0, part);
+  for (const Polygon& seen : job.sending) {
+    const Polygon piece = on_facet(posed, job.beams[0], seen);
+    if (!piece.empty()) job.out->rough.add(ClutterParts::of_a_beam, facet, ClutterParts::no_mirror, piece);
   }
 }
 

@@ -8,7 +8,7 @@
 // size.
 //
 // The facets with beams are divided from the others by the first surface of an echo: TubeEchoes leaves out
-// tubes that fall on them first.
+// tubes that fall on them first. What a beam sees of a rough facet is kept for ClutterPatches.
 #pragma once
 
 #include <algorithm>
@@ -47,6 +47,7 @@ struct FacetScene {
   const EchoTracer& tracer;
   /// Null, or the veils through which `tracer` sees: only echoes of what is behind them are found then.
   const Veils* veils = nullptr;
+  const ClutterPatches* clutter = nullptr;  ///< null: rough surfaces are not asked for
 };
 
 class FacetEchoes {
@@ -71,6 +72,8 @@ class FacetEchoes {
   Polygon outline_of(uint32_t facet, uint32_t piece, const TubeBeam& beam, double& farthest) const;
   void solve(uint32_t facet, Job& job) const;
   void solve_over(const MirroredFacet& image, Job& job) const;
+  /// Keeps what both ends see of a part of the first facet, if it is rough.
+  void keep_rough(uint32_t facet, const Polygon& part, Job& job) const;
   /// Sends back from what is behind veils of a part that the source sees of a facet.
   void solve_behind(uint32_t facet, const Polygon& part, double farthest, Job& job) const;
   /// Replaces `pieces` by those that a part of a beam may meet nearer than `to`.

@@ -200,7 +200,7 @@ void TubeEchoes::bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint
   job.chain[bounce] = facet;
   job.chain_at = ~0u;
   const uint32_t word = whole ? hits_.word(job.tube, bounce) : word_of(job, bounce, facet);
-  if (scatters(bounce, facet) && (bounce == 1 || RayHits::sees_receiver(word)))
+  if (scatters(bounce, facet) && (bounce == 1 || (RayHits::sees_receiver(word) && beamed_.marks[facet] == 0)))
     keep_rough(job, bounce, part, facet);
   if (!field_.reflects(facet) || beamed_.hold(std::span(job.chain.data(), bounce + 1))) return;
   const auto omitted = [&](bool unbroken) {

@@ -41,8 +41,9 @@ namespace greatx::rf {
 /// fine mesh), uncovered parts count as the facet of the middle ray.
 class TubeEchoes {
  public:
-  /// `beamed` holds the facets that FacetEchoes follows: tubes that fall on them first give their clutter
-  /// alone. `clutter` is null if rough surfaces are not asked for.
+  /// `beamed` holds the facets that FacetEchoes follows: tubes that fall on them first give nothing, and
+  /// those that fall on them after a mirror give their clutter alone. `clutter` is null if rough surfaces are
+  /// not asked for.
   TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorld& world, const FacetTrees& trees,
              const EchoField& field, const scene::Scene& scene, const dvec3& source, bool monostatic,
              const EchoOptions& options, const ClutterPatches* clutter, const BeamedFacets& beamed);

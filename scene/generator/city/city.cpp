@@ -19,6 +19,7 @@
 #include "scene/generator/mesh/materials.h"
 #include "scene/generator/objects/objects.h"
 #include "scene/generator/objects/street_furniture.h"
+#include "scene/generator/objects/street_pieces.h"
 #include "scene/generator/objects/trees.h"
 #include "scene/generator/objects/vehicles.h"
 #include "scene/generator/paint/texture_painter.h"
@@ -34,13 +35,14 @@ constexpr double street_crown_m = 5.3;
 /// Holds the meshes that many nodes share, and the running numbers in the names of the nodes.
 class CityFurniture {
  public:
-  explicit CityFurniture(SceneWriter& writer) : writer_(writer) {}
+  CityFurniture(SceneWriter& writer, Season season) : writer_(writer), season_(season) {}
 
   /// `kind` is as in make_tree. A tree at a street leaves room for lorries below its crown.
   void tree(const dvec2& where, double z, int kind, bool at_street, RandomStream& random) {
     const int shape = static_cast<int>(random.below(4)) % 2;
     const std::string name = fmt::format("{}_{}_{}", at_street ? "street_tree" : "tree", kind, shape);
-    const int mesh = shared(name, [&] { return make_tree(kind, shape, at_street ? street_crown_m : 0.0); });
+    const int mesh =
+        shared(name, [&] { return make_tree(kind, shape, at_street ? street_crown_m : 0.0, season_); });
     const double draw = random.uniform(), yaw = random.uniform(0.0, 2.0 * pi);
     const double scale = at_street ? 0.95 + 0.2 * draw : 0.85 + 0.45 * draw;
     writer_.add_node({.name = number("tree"),
@@ -49,6 +51,20 @@ class CityFurniture {
                       .yaw = yaw,
                       .scale = scale,
                       .semantic_class = SemanticClass::vegetation});
+  }
+  /// Leaves lie around a tree in autumn: `half` m to both sides of `where` along `along` and across it, at
+  /// height z.
+  void fallen_leaves(const dvec2& where, double z, int kind, const dvec2& along, const dvec2& half) {
+    if (season_ != Season::autumn) return;
+    const dvec2 u = half.x * along, v = half.y * dvec2(-along.y, along.x);
+    MeshBuilder mesh;
+    const std::string name = number("leaves");
+    add_fallen_leaves(
+        mesh, kind,
+        {dvec3(where - u - v, z), dvec3(where + u - v, z), dvec3(where + u + v, z), dvec3(where - u + v, z)},
+        static_cast<uint32_t>(counts_["leaves"]));
+    writer_.add_node(
+        {.name = name, .mesh = writer_.add_mesh(name, mesh), .semantic_class = SemanticClass::vegetation});
   }
   void lamp(LampKind kind, const dvec2& where, double z, double yaw) {
     const Lamp lamp = make_lamp(kind);
@@ -92,8 +108,18 @@ class CityFurniture {
         "signal", green ? "signal_green" : "signal_red", [&] { return make_signal(green); },
         dvec3(where, pavement_height_m), yaw, SemanticClass::pole);
   }
-  void sign(const dvec2& where, double yaw) {
-    place("sign", "sign", make_sign, dvec3(where, pavement_height_m), yaw, SemanticClass::pole);
+  void sign(SignKind kind, const dvec2& where, double yaw) {
+    place(
+        "sign", fmt::format("sign_{}", static_cast<int>(kind)), [&] { return make_traffic_sign(kind); },
+        dvec3(where, pavement_height_m), yaw, SemanticClass::pole);
+  }
+  void stop_pole(const dvec2& where, double yaw) {
+    place("stop_pole", "stop_pole", make_stop_pole, dvec3(where, pavement_height_m), yaw,
+          SemanticClass::pole);
+  }
+  void site_fence(const dvec2& where, double yaw) {
+    place("site_fence", "site_fence", make_site_fence, dvec3(where, pavement_height_m), yaw,
+          SemanticClass::furniture);
   }
   void shelter(const dvec2& where, double yaw) {
     place("shelter", "shelter", make_shelter, dvec3(where, pavement_height_m), yaw, SemanticClass::furniture);
@@ -119,6 +145,7 @@ class CityFurniture {
   }
 
   SceneWriter& writer_;
+  Season season_;
   std::map<std::string, int> meshes_, counts_;
   std::array<int, 4> lights_{-1, -1, -1, -1};  ///< by LampKind
 };
@@ -134,15 +161,15 @@ TakenPlaces furnish_pavement(const Block& block, uint64_t seed, CityFurniture& f
   TakenPlaces all;
   for (int edge = 0; edge < 4; ++edge) {
     if (!block.street[static_cast<size_t>(edge)]) continue;
-    const dvec2 a = block.edge_start(edge), b = block.edge_end(edge);
-    const double length = glm::length(b - a);
-    const dvec2 along = (b - a) / length, inwards(-along.y, along.x);
-    const bool avenue = block.pavement_m[static_cast<size_t>(edge)] >= 4.0;
+    const Kerb kerb(block, edge);
+    const double length = kerb.length;
+    const dvec2 along = kerb.along, inwards = kerb.inwards;
+    const bool avenue = kerb.avenue;
     std::vector<double>& taken = all[static_cast<size_t>(edge)];
     const auto free = [&](double at, double room) {
       return std::all_of(taken.begin(), taken.end(), [&](double t) { return std::abs(t - at) > room; });
     };
-    const auto spot = [&](double at, double depth) { return a + along * at + inwards * depth; };
+    const auto spot = [&](double at, double depth) { return kerb.spot(at, depth); };
     if (avenue || edge == 0 || edge == 3) {
       const int lamps = std::max(1, static_cast<int>(std::lround(length / (avenue ? 34.0 : 30.0))));
       const double phase = avenue && (edge == 1 || edge == 2) ? 0.85 : 0.35;
@@ -160,7 +187,14 @@ TakenPlaces furnish_pavement(const Block& block, uint64_t seed, CityFurniture& f
       furniture.signal(spot(2.2, 0.45), heading(along), edge % 2 == 0);
       taken.push_back(2.2);
     } else if (crossing && edge % 2 == 0 && free(4.4, 0.8)) {
-      furniture.sign(spot(4.4, 0.45), heading(along));
+      furniture.sign(SignKind::crossing, spot(4.4, 0.45), heading(along));
+    }
+    // Drivers who come from a street wait for those on the avenue.
+    const bool meets_avenue = crossing && block.pavement_m[static_cast<size_t>((edge + 3) % 4)] >= 4.0;
+    if (!avenue && meets_avenue && free(5.6, 0.8)) {
+      const bool stop = hash(block.column + edge, block.row, static_cast<uint32_t>(seed) + 5) % 2 == 0;
+      furniture.sign(stop ? SignKind::stop : SignKind::yield, spot(5.6, 0.45), heading(along));
+      taken.push_back(5.6);
     }
     const uint32_t dice = hash(block.column * 4 + edge, block.row, static_cast<uint32_t>(seed));
     if (avenue && length > 40.0 && dice % 3 == 0) {
@@ -168,6 +202,7 @@ TakenPlaces furnish_pavement(const Block& block, uint64_t seed, CityFurniture& f
       furniture.shelter(spot(at, 2.4), heading(-inwards));
       for (const double side : {-4.0, -2.0, 0.0, 2.0, 4.0}) taken.push_back(at + side);
       furniture.bin(spot(at + 3.2, 2.2));
+      furniture.stop_pole(spot(at - 3.0, 0.5), heading(along));
     }
     const int slots = std::max(2, static_cast<int>(length / 10.5));
     const int kind =
@@ -177,6 +212,9 @@ TakenPlaces furnish_pavement(const Block& block, uint64_t seed, CityFurniture& f
       if (!free(at, 2.6) || at <= 5.0) continue;
       furniture.tree(spot(at, 1.2), pavement_height_m, kind, true, random);
       street.grate(spot(at, 1.2), heading(along));
+      // On the pavement, and in the gutter.
+      furniture.fallen_leaves(spot(at, 2.3), pavement_height_m + 0.02, kind, along, {1.7, 1.3});
+      furniture.fallen_leaves(spot(at + 0.8, -0.45), 0.01, kind, along, {2.6, 0.42});
       taken.push_back(at);
     }
   }
@@ -197,8 +235,34 @@ void park_cars(const CityPlan& plan, CityFurniture& furniture, RandomStream& ran
   }
 }
 
+/// Adds grass that stands higher than the lawn: around the trees' feet and along the paths. A tuft has four
+/// triangles; there are at most `most_tufts`.
+void add_park_grass(SceneWriter& writer, const std::vector<dvec2>& trees, const dvec2& center,
+                    const std::vector<dvec2>& path_ends, RandomStream& random) {
+  constexpr size_t most_tufts = 150;
+  std::vector<dvec3> feet;
+  const auto add = [&](const dvec2& at) {
+    if (feet.size() < most_tufts && glm::length(at - center) > 8.8)
+      feet.emplace_back(snap(at), pavement_height_m);
+  };
+  for (const dvec2& tree : trees)
+    for (int i = 0; i < 3; ++i) {
+      const double angle = random.uniform(0.0, 2.0 * pi), far = random.uniform(0.35, 0.9);
+      add(tree + far * dvec2(std::cos(angle), std::sin(angle)));
+    }
+  for (const dvec2& end : path_ends) {
+    const dvec2 along = glm::normalize(end - center), side(-along.y, along.x);
+    for (double at = 9.0; at < glm::length(end - center); at += random.uniform(1.2, 4.5))
+      add(center + at * along + (random.uniform() < 0.5 ? 1.0 : -1.0) * random.uniform(1.75, 2.3) * side);
+  }
+  writer.add_node({.name = "grass_000",
+                   .mesh = writer.add_mesh("grass_000", make_grass(feet, 1700)),
+                   .semantic_class = SemanticClass::vegetation});
+}
+
 /// Adds a lawn with paths, trees and benches around a small plaza with a fountain.
-void add_park(SceneWriter& writer, const Block& block, CityFurniture& furniture, RandomStream& random) {
+void add_park(SceneWriter& writer, const Block& block, uint64_t seed, CityFurniture& furniture,
+              RandomStream& random) {
   const std::vector<dvec2> quad = inset(block.sharp, block.pavement_m);
   const auto at = [&](double u, double v) {
     return glm::mix(glm::mix(quad[0], quad[1], u), glm::mix(quad[3], quad[2], u), v);
@@ -233,6 +297,7 @@ void add_park(SceneWriter& writer, const Block& block, CityFurniture& furniture,
                    .position = dvec3(center, z + 0.06),
                    .semantic_class = SemanticClass::furniture});
 
+  std::vector<dvec2> trees;
   for (int i = 0; i < 5; ++i)
     for (int j = 0; j < 5; ++j) {
       if (i == 2 || j == 2) continue;
@@ -240,6 +305,10 @@ void add_park(SceneWriter& writer, const Block& block, CityFurniture& furniture,
       const double v = 0.1 + 0.2 * j + random.uniform(-0.045, 0.045);
       const int kind = static_cast<int>(hash(i, j, 77) % tree_species);
       furniture.tree(at(u, v), z, kind, false, random);
+      trees.push_back(at(u, v));
+      for (const dvec2& side : {dvec2(1.1, 0.6), dvec2(-0.9, 1.2), dvec2(0.2, -1.3)})
+        furniture.fallen_leaves(at(u, v) + side, z + 0.015 + 0.002 * side.y, kind,
+                                glm::normalize(dvec2(side.y, 1.0 + side.x)), {1.5, 1.4});
     }
   for (const dvec2& end : {at(0.5, 0.03), at(0.97, 0.5), at(0.5, 0.97), at(0.03, 0.5)}) {
     const dvec2 along = glm::normalize(end - center), side(-along.y, along.x);
@@ -253,6 +322,8 @@ void add_park(SceneWriter& writer, const Block& block, CityFurniture& furniture,
     const dvec2 out(std::cos(angle), std::sin(angle));
     furniture.bench(center + 6.6 * out, z + 0.06, angle - pi / 2);
   }
+  RandomStream grass(seed, 9);
+  add_park_grass(writer, trees, center, {at(0.5, 0.03), at(0.97, 0.5), at(0.5, 0.97), at(0.03, 0.5)}, grass);
 }
 
 }  // namespace
@@ -270,7 +341,7 @@ std::span<const char* const> city_textures() {
   return names;
 }
 
-void write_city(SceneWriter& writer, double size_m, uint64_t seed) {
+void write_city(SceneWriter& writer, double size_m, uint64_t seed, Season season) {
   writer.paint_ahead(city_textures());
   const CityPlan plan = plan_city(size_m, seed);
   const auto add = [&](const std::string& name, const MeshBuilder& mesh, SemanticClass semantic_class) {
@@ -285,7 +356,7 @@ void write_city(SceneWriter& writer, double size_m, uint64_t seed) {
   add("lane_markings", markings, SemanticClass::lane_marking);
   add("ground_base", base, SemanticClass::ground);
 
-  CityFurniture furniture(writer);
+  CityFurniture furniture(writer, season);
   CityStreet street(writer, seed);
   RandomStream random(seed, 3), details(seed, 4);
   const std::array<const char*, 4> surfaces{"paving", "grass", "asphalt_lot", "paving"};
@@ -299,7 +370,7 @@ void write_city(SceneWriter& writer, double size_m, uint64_t seed) {
     add(fmt::format("{}_{:03}", park ? "park" : "courtyard", i), courtyard, SemanticClass::ground);
     street.furnish(block, furnish_pavement(block, seed, furniture, street, details));
     if (park) {
-      add_park(writer, block, furniture, details);
+      add_park(writer, block, seed, furniture, details);
       continue;
     }
     for (const Building& b : make_buildings(plan, block, seed, building, random)) {
@@ -310,6 +381,14 @@ void write_city(SceneWriter& writer, double size_m, uint64_t seed) {
                        .yaw = b.yaw,
                        .semantic_class = SemanticClass::building});
       for (const CafePlace& cafe : b.cafes) street.cafe(cafe.where, cafe.out);
+      if (b.scaffold.empty()) continue;
+      writer.add_node({.name = name + "_scaffold",
+                       .mesh = writer.add_mesh(name + "_scaffold", b.scaffold),
+                       .position = b.position,
+                       .yaw = b.yaw,
+                       .semantic_class = SemanticClass::furniture});
+      for (const CafePlace& fence : b.fences)
+        furniture.site_fence(fence.where, heading(fence.out) - 0.5 * pi);
     }
   }
   park_cars(plan, furniture, details);

@@ -6,12 +6,14 @@
 #include <span>
 
 #include "scene/generator/mesh/scene_writer.h"
+#include "scene/generator/mesh/seasons.h"
 
 namespace greatx::scene::generator {
 
 /// Returns the names of the textures that every large city shows.
 std::span<const char* const> city_textures();
 
-void write_city(SceneWriter& writer, double size_m, uint64_t seed);
+/// `writer` has the materials of the season (seasonal_library).
+void write_city(SceneWriter& writer, double size_m, uint64_t seed, Season season = Season::summer);
 
 }  // namespace greatx::scene::generator

@@ -207,8 +207,9 @@ struct Site {
   dvec2 along;
 };
 
-constexpr double ledge_m = 0.2;    ///< height of the ledge above shops
-constexpr double plinth_m = 0.75;  ///< height of the plinth, below the windows
+constexpr double scaffold_odds = 0.04;  ///< of a house without shops
+constexpr double ledge_m = 0.2;         ///< height of the ledge above shops
+constexpr double plinth_m = 0.75;       ///< height of the plinth, below the windows
 
 /// Adds the rings of a ledge above shops, or of a plinth, which stands a little out of the wall.
 void add_foot(RingSolid& solid, const Style& style, double street_level, RandomStream& extras) {
@@ -371,6 +372,9 @@ Building make_building(const Site& site, int floors, bool tower, const std::vect
       style.facade.find("plaster") != std::string::npos || style.facade.find("brick") != std::string::npos;
   if (homes && extras.uniform() < 0.4) add_balconies(mesh, walls, extras);
   if (old_town(style)) add_downpipes(mesh, walls, top, extras);
+  if (!shops && !tower && extras.uniform() < scaffold_odds)
+    for (const auto& [place, out] : add_scaffold(building.scaffold, walls, top))
+      building.fences.push_back({place, out});
   return building;
 }
 
@@ -422,13 +426,12 @@ std::vector<Building> make_buildings(const CityPlan& plan, const Block& block, u
       if (are_neighbours(lots[i], lot, size)) beside.push_back(buildings[i].facade);
     Building building = make_building(site, floors, tower, beside, random, looks, extras);
     building.position = dvec3(center, 0.15);
-    // The tables stand 0.65 m in front of the wall.
     const double c = std::cos(building.yaw), s = std::sin(building.yaw);
-    for (CafePlace& cafe : building.cafes) {
-      const dvec2 p = cafe.where + 0.65 * cafe.out, o = cafe.out;
-      cafe = {snap(center + dvec2(c * p.x - s * p.y, s * p.x + c * p.y)),
-              dvec2(c * o.x - s * o.y, s * o.x + c * o.y)};
-    }
+    const auto turned = [&](const dvec2& p) { return dvec2(c * p.x - s * p.y, s * p.x + c * p.y); };
+    // The tables stand 0.65 m in front of the wall.
+    for (CafePlace& cafe : building.cafes)
+      cafe = {snap(center + turned(cafe.where + 0.65 * cafe.out)), turned(cafe.out)};
+    for (CafePlace& fence : building.fences) fence = {snap(center + turned(fence.where)), turned(fence.out)};
     buildings.push_back(std::move(building));
   }
   return buildings;

@@ -11,7 +11,7 @@
 
 namespace greatx::scene::generator {
 
-/// A place for tables in front of a wall that looks towards `out`, in the city's frame.
+/// A place for tables, or for a fence, in front of a wall that looks towards `out`, in the city's frame.
 struct CafePlace {
   dvec2 where{0.0}, out{0.0};
 };
@@ -23,6 +23,8 @@ struct Building {
   double yaw = 0.0;
   std::string facade;  ///< name of the material of its walls
   std::vector<CafePlace> cafes;
+  MeshBuilder scaffold;           ///< about the same origin; empty for most buildings
+  std::vector<CafePlace> fences;  ///< in front of the scaffold
 };
 
 /// Makes the buildings of a block. They have footprints of several shapes on the lots of the block and are

@@ -147,6 +147,34 @@ void add_entrance(MeshBuilder& mesh, const Walls& walls, RandomStream& random) {
   add_block(mesh, frame, material("roof_zinc"), wall, {at - 1.25, at + 1.25}, {-0.07, 0.8}, 2.72, 2.86);
 }
 
+std::vector<std::pair<dvec2, dvec2>> add_scaffold(MeshBuilder& mesh, const Walls& walls, double top_z) {
+  const std::vector<size_t> edges = free_walls(walls, 8.0);
+  if (edges.size() < 2) return {};  // the longest wall has the door
+  const Wall wall = wall_of(walls, edges[1]);
+  const int tube = material("scaffold_tube"), board = material("bench_wood");
+  const double from = 0.3, to = wall.length - 0.3, inner = 0.28, outer = 1.02;
+  const int bays = std::max(2, static_cast<int>(std::lround((to - from) / 2.6)));
+  for (int i = 0; i <= bays; ++i) {
+    const double at = from + (to - from) * i / bays;
+    for (const double far : {inner, outer}) {
+      const std::vector<dvec2> corners{wall.point(at - 0.03, far - 0.02), wall.point(at, far + 0.03),
+                                       wall.point(at + 0.03, far - 0.02)};
+      mesh.prism(tube, tube, corners, -0.02, snap(top_z + (far == outer ? 1.1 : 0.12)));
+    }
+  }
+  for (double z = 2.5; z < top_z; z += 2.0) {
+    add_block(mesh, board, board, wall, {from - 0.1, to + 0.1}, {inner + 0.04, outer - 0.04}, snap(z - 0.05),
+              snap(z));
+    add_block(mesh, tube, tube, wall, {from - 0.05, to + 0.05}, {outer + 0.025, outer + 0.065},
+              snap(z + 0.98), snap(z + 1.02));
+  }
+  std::vector<std::pair<dvec2, dvec2>> fences;
+  const int elements = static_cast<int>((to - from) / 3.7);
+  for (int i = 0; i < std::min(elements, 4); ++i)
+    fences.emplace_back(wall.point(from + 1.85 + 3.7 * i, 0.8), wall.out);
+  return fences;
+}
+
 void add_downpipes(MeshBuilder& mesh, const Walls& walls, double top_z, RandomStream& random) {
   const int zinc = material("downpipe");
   for (size_t edge = 0; edge < walls.footprint.size(); ++edge) {

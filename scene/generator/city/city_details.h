@@ -32,6 +32,10 @@ std::vector<std::pair<dvec2, dvec2>> add_shop_fronts(MeshBuilder& mesh, const Wa
                                                      RandomStream& random);
 /// Adds a door with a step and a canopy on one wall, for buildings without shops.
 void add_entrance(MeshBuilder& mesh, const Walls& walls, RandomStream& random);
+/// Adds a scaffold up to `top_z` before the second longest wall that faces no neighbour, if it has at least
+/// 8 m: two rows of standards, boards every 2 m, and rails. Returns places for elements of a fence, 3.4 m
+/// long, as add_shop_fronts does. Nothing is farther than 1.2 m from the wall.
+std::vector<std::pair<dvec2, dvec2>> add_scaffold(MeshBuilder& mesh, const Walls& walls, double top_z);
 /// Adds pipes from the eaves down, at some corners.
 void add_downpipes(MeshBuilder& mesh, const Walls& walls, double top_z, RandomStream& random);
 /// Adds ducts, vents and antennas to a flat roof, where they fit within `roof` and keep away from the

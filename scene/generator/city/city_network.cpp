@@ -7,6 +7,7 @@
 
 #include "scene/generator/city/city_ground.h"
 #include "scene/generator/mesh/mesh_builder.h"
+#include "scene/network/ways.h"
 
 namespace greatx::scene::generator {
 namespace {
@@ -46,6 +47,7 @@ class NetworkMaker {
         add_street(plan_.streets[street], false, junction_at(column, j), junction_at(column + 1, j),
                    {block_at(column, j), block_at(column, j - 1)});
     for (int junction = 0; junction < (n - 1) * (n - 1); ++junction) add_turns(junction);
+    for (const StreetLanes& lanes : streets_) add_loops(lanes);
     return std::move(network_);
   }
 
@@ -64,8 +66,8 @@ class NetworkMaker {
       for (int j = 1; j < plan_.blocks; ++j) {
         StreetJunction junction;
         if (i == middle || j == middle)
-          junction.phases = {{{1}, j == middle ? 20.0 : 16.0, 3.0, 2.0},
-                             {{0}, i == middle ? 20.0 : 16.0, 3.0, 2.0}};
+          junction.phases = {{{1}, j == middle ? 16.0 : 12.0, 3.0, 2.0},
+                             {{0}, i == middle ? 16.0 : 12.0, 3.0, 2.0}};
         network_.junctions.push_back(std::move(junction));
       }
   }
@@ -168,6 +170,25 @@ class NetworkMaker {
     }
   }
 
+  /// Where a street ends at the model's edge, its outermost lane goes on in a loop beyond the edge, which
+  /// leads back onto the street's other side. Whoever leaves the model comes back, and nobody appears within.
+  void add_loops(const StreetLanes& street) {
+    for (const int out : {0, 1}) {
+      if (street.junctions[1 - out] >= 0) continue;
+      const uint32_t from = street.sides[out].front(), to = street.sides[1 - out].front();
+      const bool avenue = street.sides[out].size() > 1;
+      StreetLane loop;
+      loop.width_m = avenue ? 12.0 : network_.lanes[from].width_m;  // room for the front of a bus that turns
+      loop.speed_mps = network_.lanes[from].speed_mps;
+      loop.next = {to};
+      for (const dvec2& point : loop_line(end(from), start(to), direction(from), avenue ? 10.0 : 7.0))
+        loop.line.emplace_back(point, 0.0);
+      network_.lanes[from].stop_m = 0.0;
+      network_.lanes[from].next.push_back(static_cast<uint32_t>(network_.lanes.size()));
+      network_.lanes.push_back(std::move(loop));
+    }
+  }
+
   void add_turn(int junction, const StreetLanes& street, uint32_t from, uint32_t to) {
     StreetLane turn;
     turn.junction = static_cast<uint32_t>(junction);
@@ -179,45 +200,6 @@ class NetworkMaker {
       turn.line.emplace_back(point, 0.0);
     network_.lanes[from].next.push_back(static_cast<uint32_t>(network_.lanes.size()));
     network_.lanes.push_back(std::move(turn));
-  }
-
-  /// A Bezier curve of degree five whose three control points at each end lie on a line: its curvature there
-  /// is 0. Straight pieces lead to it where the corner is further from one end than from the other.
-  static std::vector<dvec2> turn_line(dvec2 from, const dvec2& from_direction, dvec2 to,
-                                      const dvec2& to_direction) {
-    std::vector<dvec2> line{from};
-    double handle = 0.2 * glm::distance(from, to);
-    const double sine = cross(from_direction, to_direction);
-    if (std::abs(sine) > 0.5) {
-      const double before = cross(to - from, to_direction) / sine;   // from the start to the corner
-      const double after = cross(from_direction, to - from) / sine;  // from the corner to the end
-      const double reach = std::min(before, after);
-      const dvec2 last = to;
-      from += (before - reach) * from_direction;
-      to -= (after - reach) * to_direction;
-      handle = 0.3 * reach;  // gives the widest bend: 0.85 of the reach
-      for (const dvec2& point : curve(from, from_direction, to, to_direction, handle))
-        if (glm::distance(point, line.back()) > 0.05) line.push_back(point);
-      if (glm::distance(last, line.back()) < 0.05) line.pop_back();
-      line.push_back(last);
-      return line;
-    }
-    line = curve(from, from_direction, to, to_direction, handle);
-    return line;
-  }
-
-  static std::vector<dvec2> curve(const dvec2& from, const dvec2& from_direction, const dvec2& to,
-                                  const dvec2& to_direction, double handle) {
-    const dvec2 a = from + handle * from_direction, b = a + handle * from_direction;
-    const dvec2 d = to - handle * to_direction, c = d - handle * to_direction;
-    std::vector<dvec2> points;
-    constexpr int steps = 24;
-    for (int i = 0; i <= steps; ++i) {
-      const double u = static_cast<double>(i) / steps, v = 1.0 - u;
-      points.push_back(v * v * v * v * v * from + 5.0 * u * v * v * v * v * a + 10.0 * u * u * v * v * v * b +
-                       10.0 * u * u * u * v * v * c + 5.0 * u * u * u * u * v * d + u * u * u * u * u * to);
-    }
-    return points;
   }
 
   const CityPlan& plan_;

@@ -53,6 +53,15 @@ const Piece& choose(bool avenue, double draw) {
 
 }  // namespace
 
+Kerb::Kerb(const Block& block, int edge)
+    : start(block.edge_start(edge)),
+      along(block.edge_end(edge) - start),
+      length(glm::length(along)),
+      avenue(block.pavement_m[static_cast<size_t>(edge)] >= 4.0) {
+  along /= length;
+  inwards = dvec2(-along.y, along.x);
+}
+
 void CityStreet::place(const std::string& name, const std::string& mesh, const Make& make, const dvec2& where,
                        double yaw, SemanticClass semantic_class) {
   const auto found = meshes_.find(mesh);
@@ -68,10 +77,9 @@ void CityStreet::furnish(const Block& block, const TakenPlaces& taken) {
   RandomStream random(seed_, 6, static_cast<uint32_t>(64 * block.row + block.column));
   for (int edge = 0; edge < 4; ++edge) {
     if (!block.street[static_cast<size_t>(edge)]) continue;
-    const dvec2 a = block.edge_start(edge), b = block.edge_end(edge);
-    const double length = glm::length(b - a);
-    const dvec2 along = (b - a) / length, inwards(-along.y, along.x);
-    const bool avenue = block.pavement_m[static_cast<size_t>(edge)] >= 4.0;
+    const Kerb kerb(block, edge);
+    const double length = kerb.length;
+    const bool avenue = kerb.avenue;
     std::vector<double> full = taken[static_cast<size_t>(edge)];
     for (double at = 6.5; at < length - 6.5; at += random.uniform(3.0, avenue ? 8.0 : 12.0)) {
       const Piece& piece = choose(avenue, random.uniform());
@@ -81,8 +89,8 @@ void CityStreet::furnish(const Block& block, const TakenPlaces& taken) {
         continue;
       full.push_back(at - 0.6 * piece.half_m);
       full.push_back(at + 0.6 * piece.half_m);
-      const dvec2 spot = snap(a + along * at + inwards * piece.depth_m);
-      const double yaw = std::atan2(inwards.y, inwards.x) + piece.turn;
+      const dvec2 spot = snap(kerb.spot(at, piece.depth_m));
+      const double yaw = std::atan2(kerb.inwards.y, kerb.inwards.x) + piece.turn;
       const std::string name = piece.name;
       if (name == "bench") {
         place("seat", "seat", make_bench, spot, yaw);
@@ -90,7 +98,7 @@ void CityStreet::furnish(const Block& block, const TakenPlaces& taken) {
         place("litter_bin", "litter_bin", make_bin, spot, yaw);
       } else if (name == "bollards") {
         for (const double shift : {-1.6, 0.0, 1.6})
-          place("bollard", "bollard", make_bollard, snap(spot + shift * along), yaw);
+          place("bollard", "bollard", make_bollard, snap(spot + shift * kerb.along), yaw);
       } else if (name == "bicycle_rack") {
         place(
             name, fmt::format("bicycle_rack_{}", draw % 4), [&] { return make_bicycle_rack(draw % 4); }, spot,
@@ -109,13 +117,14 @@ void CityStreet::furnish(const Block& block, const TakenPlaces& taken) {
         place(name, name, make_cabinet, spot, yaw);
       } else {
         // Drivers beside this pavement come from b, so that signs face along the edge.
-        static constexpr std::array<SignKind, 6> kinds{SignKind::no_parking, SignKind::parking,
-                                                       SignKind::priority,   SignKind::yield,
-                                                       SignKind::speed_30,   SignKind::one_way};
+        static constexpr std::array<SignKind, 5> kinds{SignKind::no_parking, SignKind::parking,
+                                                       SignKind::priority, SignKind::speed_30,
+                                                       SignKind::one_way};
         const SignKind kind = kinds[draw % kinds.size()];
         place(
             "traffic_sign", fmt::format("traffic_sign_{}", static_cast<int>(kind)),
-            [&] { return make_traffic_sign(kind); }, spot, std::atan2(along.y, along.x), SemanticClass::pole);
+            [&] { return make_traffic_sign(kind); }, spot, std::atan2(kerb.along.y, kerb.along.x),
+            SemanticClass::pole);
       }
     }
   }

@@ -18,6 +18,16 @@ namespace greatx::scene::generator {
 /// Places on the four edges of a block's pavement that are taken, m along the edge.
 using TakenPlaces = std::array<std::vector<double>, 4>;
 
+/// One edge of a block's pavement: the kerb from `start`, and the direction into the block.
+struct Kerb {
+  Kerb(const Block& block, int edge);
+  dvec2 start, along, inwards;
+  double length;
+  bool avenue;
+  /// Returns the point `at` m along the kerb and `depth` m into the block.
+  dvec2 spot(double at, double depth) const { return start + along * at + inwards * depth; }
+};
+
 /// Places pieces on pavements. People walk within 0.6 m of a line that is 3.1 m from the kerb of an avenue
 /// and 2.0 m from that of another street, and they cross the street at its ends. Pieces keep away from
 /// both.

@@ -36,8 +36,8 @@ struct Field {
 
 class Country {
  public:
-  Country(SceneWriter& writer, double size_m, uint64_t seed)
-      : writer_(writer), seed_(seed), random_(seed, 5), terrain_(size_m, random_) {}
+  Country(SceneWriter& writer, double size_m, uint64_t seed, Season season)
+      : writer_(writer), seed_(seed), season_(season), random_(seed, 5), terrain_(size_m, random_) {}
 
   void write() {
     choose_sites();
@@ -68,6 +68,7 @@ class Country {
   void add_verges();
   void add_yard(size_t farm);
   void add_tree(const dvec2& where, bool conifer);
+  void add_fallen(const dvec2& where, int kind);
   bool near_site(const dvec2& point, double margin) const;
   int shared(const std::string& name, const std::function<MeshBuilder()>& make);
   void add(const std::string& name, const MeshBuilder& mesh, SemanticClass semantic_class) {
@@ -76,6 +77,7 @@ class Country {
 
   SceneWriter& writer_;
   uint64_t seed_;
+  Season season_;
   RandomStream random_;
   Terrain terrain_;
   std::vector<Site> farms_;
@@ -271,15 +273,32 @@ void Country::add_tree(const dvec2& where, bool conifer) {
   // Most trees are oaks, maples and lindens. Poplars and copper beeches are rare.
   static constexpr std::array<int, 12> kinds{2, 2, 1, 0, 2, 3, 1, 2, 4, 0, 3, 5};
   const int kind = kinds[random_.below(kinds.size())], shape = static_cast<int>(random_.below(2));
-  const int mesh =
-      conifer ? shared("conifer", [] { return make_conifer(); })
-              : shared(fmt::format("tree_{}_{}", kind, shape), [&] { return make_tree(kind, shape); });
+  const int mesh = conifer ? shared("conifer", [] { return make_conifer(); })
+                           : shared(fmt::format("tree_{}_{}", kind, shape),
+                                    [&] { return make_tree(kind, shape, 0.0, season_); });
+  if (season_ == Season::autumn && !conifer) add_fallen(at, kind);
   writer_.add_node({.name = fmt::format("tree_{:03}", tree_count_++),
                     .mesh = mesh,
                     .position = dvec3(at, terrain_.height(at) - 0.1),
                     .yaw = random_.uniform(0.0, 2.0 * pi),
                     .scale = random_.uniform(0.85, 1.5),
                     .semantic_class = SemanticClass::vegetation});
+}
+
+/// Adds leaves around a tree, a few centimetres over the ground.
+void Country::add_fallen(const dvec2& where, int kind) {
+  MeshBuilder mesh;
+  uint32_t draw = static_cast<uint32_t>(tree_count_);
+  for (const dvec2& middle : {dvec2(1.1, 0.7), dvec2(-1.0, 1.0), dvec2(0.1, -1.2)}) {
+    std::array<dvec3, 4> corners;
+    for (size_t i = 0; i < 4; ++i) {
+      const dvec2 p = snap(where + middle + 1.4 * dvec2(i == 0 || i == 3 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0));
+      corners[i] = dvec3(p, terrain_.height(p) + 0.02 +
+                                0.003 * ((7u * static_cast<uint32_t>(tree_count_) + 5u * draw) % 17u));
+    }
+    add_fallen_leaves(mesh, kind, corners, draw++);
+  }
+  add(fmt::format("leaves_{:03}", tree_count_), mesh, SemanticClass::vegetation);
 }
 
 void Country::add_farms() {
@@ -449,8 +468,8 @@ void Country::add_verges() {
 
 }  // namespace
 
-void write_country(SceneWriter& writer, double size_m, uint64_t seed) {
-  Country(writer, size_m, seed).write();
+void write_country(SceneWriter& writer, double size_m, uint64_t seed, Season season) {
+  Country(writer, size_m, seed, season).write();
 }
 
 }  // namespace greatx::scene::generator

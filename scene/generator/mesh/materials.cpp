@@ -43,7 +43,26 @@ const char* const canopy = R"({"foliage":"weissberger","clutter":"foliage"})";
 // is high.
 const char* const unseen = R"({"foliage":{"attenuation_db_per_m":0}})";
 const char* const cloth = R"({"relative_permittivity":1.8,"conductivity":0.002,"thickness_m":0.001})";
-const char* const rubber = R"({"relative_permittivity":3.0,"conductivity":0.02,"thickness_m":0.02})";
+// Surfaces of bodies. A facet of a mesh stands for a curved piece that is many wavelengths across, and lies
+// up to a centimetre off it. What a flat facet would send into one direction goes into all directions about
+// which the normals of the piece turn: such a piece scatters nearly all, in a directive lobe. Normals that
+// turn by s (rms, about each axis) make alpha_R = 1/(2 s^2). The normals by which the meshes are shaded turn
+// by 4.5 degrees on car bodies and panes, by 7 degrees on lamps, and by 10 degrees on people
+// (docs/radar_bodies.md).
+#define GREATX_CURVED(exponent) \
+  R"("scattering_coefficient":0.99,"pattern":"directive","pattern_exponent":)" #exponent
+const char* const body_metal = R"({"itu":"metal","thickness_m":0.002,)" GREATX_CURVED(80) "}";
+const char* const body_pane = R"({"itu":"glass","thickness_m":0.005,)" GREATX_CURVED(80) "}";
+// Bumpers, grilles and lamps: a plastic skin before steel beams, radiators and metallized reflectors.
+const char* const body_cover =
+    R"({"layers":[{"relative_permittivity":2.8,"conductivity":0.003,"thickness_m":0.003},)"
+    R"({"relative_permittivity":1.0,"conductivity":0.0,"thickness_m":0.06},)"
+    R"({"itu":"metal","thickness_m":0.002}],)" GREATX_CURVED(33) "}";
+// Engines and wheels: fins, pipes, spokes and bolts turn every way within a facet.
+const char* const castings = R"({"itu":"metal","thickness_m":0.002,"scattering_coefficient":0.99})";
+// Treads have blocks and grooves.
+const char* const rubber =
+    R"({"relative_permittivity":3.0,"conductivity":0.02,"thickness_m":0.02,"scattering_coefficient":0.99})";
 const char* const plastic = R"({"relative_permittivity":2.8,"conductivity":0.003,"thickness_m":0.003})";
 // Dry skin by the four Cole-Cole terms of S. Gabriel, R. W. Lau and C. Gabriel, "The dielectric properties of
 // biological tissues: III", Phys. Med. Biol. 41 (1996). The rows are fitted to it within 1.1 % of the
@@ -58,7 +77,8 @@ const char* const tissue =
     R"({"a":438.3,"b":-0.9822,"c":6.69,"d":0.4207,"min_hz":3.4e10,"max_hz":5.2e10},)"
     R"({"a":237.0,"b":-0.8273,"c":14.78,"d":0.2194,"min_hz":5.2e10,"max_hz":7.6e10},)"
     R"({"a":94.09,"b":-0.6134,"c":22.23,"d":0.1246,"min_hz":7.6e10,"max_hz":1e11}],)"
-    R"("extrapolate":true,"scattering_coefficient":0.3,"cross_polarization":0.1})";
+    R"("extrapolate":true,"cross_polarization":0.1,)" GREATX_CURVED(14) "}";
+#undef GREATX_CURVED
 // Woven or coated cloth.
 const char* const fabric = R"({"relative_permittivity":2.8,"conductivity":0.003,"thickness_m":0.001})";
 const char* const radome = R"({"relative_permittivity":3.5,"conductivity":0.005,"thickness_m":0.003})";
@@ -133,8 +153,8 @@ std::vector<MaterialSpec> make_library() {
        sheet_metal, 1},
       {"facade_metal_dark", "facade_metal", facade, facade_bays, vec3(0.42f, 0.46f, 0.52f), 1.0f, 1.0f,
        office_light, sheet_metal, 0},
-      {"shopfront", "shopfront", dvec2(24.0, 4.2), 4, vec3(1.0f), 1.0f, 1.0f, shop_light, glazing, 0},
-      {"shopfront_late", "shopfront", dvec2(24.0, 4.2), 4, vec3(0.94f, 0.96f, 1.0f), 1.0f, 1.0f, shop_light,
+      {"shopfront", "shopfront", dvec2(36.0, 4.2), 6, vec3(1.0f), 1.0f, 1.0f, shop_light, glazing, 0},
+      {"shopfront_late", "shopfront", dvec2(36.0, 4.2), 6, vec3(0.94f, 0.96f, 1.0f), 1.0f, 1.0f, shop_light,
        glazing, 1},
       {"dormer", "dormer", dvec2(1.5, 1.6), 1, vec3(1.0f), 1.0f, 1.0f, home_light, timber, 0},
       {"dormer_dark", "dormer", dvec2(1.5, 1.6), 1, vec3(1.0f), 1.0f, 1.0f, vec3(0), timber},
@@ -180,6 +200,13 @@ std::vector<MaterialSpec> make_library() {
       {"sprays_copper", "leaf_sprays", dvec2(3.0), 0, vec3(0.72f, 0.3f, 0.38f), 1.0f, 0.0f, vec3(0), unseen},
       {"leaves_birch", "leaves", dvec2(3.0), 0, vec3(0.9f, 0.88f, 0.45f), 1.0f, 0.0f, vec3(0), canopy},
       {"sprays_birch", "leaf_sprays", dvec2(3.0), 0, vec3(1.0f, 0.98f, 0.5f), 1.0f, 0.0f, vec3(0), unseen},
+      // Leaves on the ground, and the boughs of bare crowns, whose volume for radio is that of the twigs.
+      {"fallen_yellow", "fallen_leaves", dvec2(3.0), 0, vec3(0.66f, 0.44f, 0.08f), 1.0f, 0.0f, vec3(0),
+       unseen},
+      {"fallen_red", "fallen_leaves", dvec2(3.0), 0, vec3(0.5f, 0.17f, 0.05f), 1.0f, 0.0f, vec3(0), unseen},
+      {"fallen_brown", "fallen_leaves", dvec2(3.0), 0, vec3(0.36f, 0.21f, 0.09f), 1.0f, 0.0f, vec3(0),
+       unseen},
+      {"boughs", "bark", dvec2(1.0), 0, vec3(0.62f), 1.0f, 0.0f, vec3(0), unseen},
       {"needles", "leaves", dvec2(3.0), 0, vec3(0.34f, 0.5f, 0.46f), 1.0f, 0.0f, vec3(0), canopy},
       {"sprays_needles", "needle_sprays", dvec2(3.0), 0, vec3(0.6f, 0.8f, 0.86f), 1.0f, 0.0f, vec3(0),
        unseen},
@@ -214,12 +241,15 @@ std::vector<MaterialSpec> make_library() {
       {"shelter_glass", "", dvec2(1.0), 0, vec3(0.3f, 0.36f, 0.38f), 0.1f, 0.0f, vec3(0), pane},
       {"traffic_signs", "traffic_signs", dvec2(1.0), 0, vec3(1.0f), 0.5f, 0.0f, vec3(0), sheet_metal},
       {"bicycle", "bicycles", dvec2(1.0), 0, vec3(1.0f), 0.4f, 0.0f, vec3(0), unseen},
+      // Tubes of 5 cm.
+      {"scaffold_tube", "", dvec2(1.0), 0, vec3(0.5f, 0.51f, 0.52f), 0.5f, 0.6f, vec3(0), unseen},
       {"mesh_fence", "mesh_fence", dvec2(0.3), 0, vec3(1.0f), 0.5f, 0.0f, vec3(0), unseen},
       {"column_bills", "column_bills", dvec2(3.6, 2.5), 0, vec3(1.0f), 0.7f, 0.0f, vec3(0), concrete_wall},
       {"column_green", "", dvec2(1.0), 0, vec3(0.03f, 0.1f, 0.06f), 0.5f, 0.0f, vec3(0), sheet_metal},
       {"post_yellow", "", dvec2(1.0), 0, vec3(0.78f, 0.5f, 0.03f), 0.45f, 0.0f, vec3(0), sheet_metal},
       {"hydrant_red", "", dvec2(1.0), 0, vec3(0.5f, 0.03f, 0.02f), 0.5f, 0.0f, vec3(0), sheet_metal},
-      {"cabinet_grey", "", dvec2(1.0), 0, vec3(0.36f, 0.39f, 0.38f), 0.6f, 0.0f, vec3(0), plastic},
+      {"cabinet_grey", "cabinet", dvec2(1.2, 1.3), 0, vec3(0.74f, 0.78f, 0.75f), 0.6f, 0.0f, vec3(0),
+       plastic},
       {"chair", "", dvec2(1.0), 0, vec3(0.34f, 0.2f, 0.1f), 0.7f, 0.0f, vec3(0), timber},
       {"tree_grate", "tree_grate", dvec2(1.5), 0, vec3(1.0f), 0.9f, 0.0f, vec3(0), soil},
       {"awning_red", "awning", dvec2(0.6, 2.0), 0, vec3(0.8f, 0.24f, 0.18f), 0.9f, 0.0f, vec3(0), cloth},
@@ -239,57 +269,58 @@ std::vector<MaterialSpec> make_library() {
       {"aviation_light", "", dvec2(1.0), 0, vec3(0.6f, 0.02f, 0.02f), 0.3f, 0.0f, vec3(1.0f, 0.02f, 0.02f),
        plastic},
 
-      {"car_paint_white", "car_side", dvec2(1.0), 0, vec3(0.78f), 0.28f, 0.0f, vec3(0), sheet_metal},
+      {"car_paint_white", "car_side", dvec2(1.0), 0, vec3(0.78f), 0.28f, 0.0f, vec3(0), body_metal},
       {"car_paint_silver", "car_side", dvec2(1.0), 0, vec3(0.5f, 0.51f, 0.53f), 0.3f, 0.5f, vec3(0),
-       sheet_metal},
+       body_metal},
       {"car_paint_red", "car_side", dvec2(1.0), 0, vec3(0.5f, 0.025f, 0.03f), 0.25f, 0.0f, vec3(0),
-       sheet_metal},
+       body_metal},
       {"car_paint_blue", "car_side", dvec2(1.0), 0, vec3(0.03f, 0.1f, 0.32f), 0.28f, 0.3f, vec3(0),
-       sheet_metal},
+       body_metal},
       {"car_paint_grey", "car_side", dvec2(1.0), 0, vec3(0.16f, 0.17f, 0.18f), 0.3f, 0.4f, vec3(0),
-       sheet_metal},
+       body_metal},
       {"car_paint_green", "car_side", dvec2(1.0), 0, vec3(0.04f, 0.14f, 0.09f), 0.28f, 0.2f, vec3(0),
-       sheet_metal},
+       body_metal},
       {"car_paint_sand", "car_side", dvec2(1.0), 0, vec3(0.52f, 0.43f, 0.3f), 0.3f, 0.4f, vec3(0),
-       sheet_metal},
+       body_metal},
       {"car_paint_yellow", "car_side", dvec2(1.0), 0, vec3(0.7f, 0.46f, 0.03f), 0.28f, 0.0f, vec3(0),
-       sheet_metal},
-      {"car_paint_black", "car_side", dvec2(1.0), 0, vec3(0.012f), 0.25f, 0.0f, vec3(0), sheet_metal},
+       body_metal},
+      {"car_paint_black", "car_side", dvec2(1.0), 0, vec3(0.012f), 0.25f, 0.0f, vec3(0), body_metal},
       {"car_paint_navy", "car_side", dvec2(1.0), 0, vec3(0.014f, 0.028f, 0.08f), 0.28f, 0.3f, vec3(0),
-       sheet_metal},
+       body_metal},
       {"car_paint_bronze", "car_side", dvec2(1.0), 0, vec3(0.2f, 0.115f, 0.065f), 0.3f, 0.4f, vec3(0),
-       sheet_metal},
+       body_metal},
       {"car_paint_orange", "car_side", dvec2(1.0), 0, vec3(0.6f, 0.15f, 0.02f), 0.28f, 0.0f, vec3(0),
-       sheet_metal},
+       body_metal},
       {"car_paint_ivory", "car_side", dvec2(1.0), 0, vec3(0.76f, 0.66f, 0.36f), 0.3f, 0.0f, vec3(0),
-       sheet_metal},
-      {"car_trim", "", dvec2(1.0), 0, vec3(0.012f), 0.2f, 0.0f, vec3(0), sheet_metal},
+       body_metal},
+      {"engine_metal", "", dvec2(1.0), 0, vec3(0.55f, 0.57f, 0.58f), 0.5f, 0.7f, vec3(0), castings},
+      {"car_trim", "", dvec2(1.0), 0, vec3(0.012f), 0.2f, 0.0f, vec3(0), body_metal},
       {"soft_top", "", dvec2(1.0), 0, vec3(0.022f, 0.02f, 0.02f), 0.95f, 0.0f, vec3(0), fabric},
       {"tarpaulin", "", dvec2(1.0), 0, vec3(0.06f, 0.16f, 0.34f), 0.55f, 0.0f, vec3(0), fabric},
-      {"truck_box", "", dvec2(1.0), 0, vec3(0.72f, 0.73f, 0.74f), 0.45f, 0.0f, vec3(0), sheet_metal},
-      {"chassis", "", dvec2(1.0), 0, vec3(0.025f), 0.7f, 0.0f, vec3(0), sheet_metal},
-      {"chrome", "", dvec2(1.0), 0, vec3(0.6f, 0.61f, 0.62f), 0.15f, 1.0f, vec3(0), sheet_metal},
-      {"lamp_cover", "", dvec2(1.0), 0, vec3(0.2f, 0.21f, 0.22f), 0.12f, 0.0f, vec3(0), plastic},
+      {"truck_box", "", dvec2(1.0), 0, vec3(0.72f, 0.73f, 0.74f), 0.45f, 0.0f, vec3(0), body_metal},
+      {"chassis", "", dvec2(1.0), 0, vec3(0.025f), 0.7f, 0.0f, vec3(0), body_metal},
+      {"chrome", "", dvec2(1.0), 0, vec3(0.6f, 0.61f, 0.62f), 0.15f, 1.0f, vec3(0), body_metal},
+      {"lamp_cover", "", dvec2(1.0), 0, vec3(0.2f, 0.21f, 0.22f), 0.12f, 0.0f, vec3(0), body_cover},
       {"taxi_sign", "", dvec2(1.0), 0, vec3(0.8f, 0.62f, 0.08f), 0.4f, 0.0f, vec3(0.3f, 0.21f, 0.03f),
        plastic},
       {"blue_beacon", "", dvec2(1.0), 0, vec3(0.02f, 0.06f, 0.55f), 0.2f, 0.0f, vec3(0), plastic},
       {"destination", "", dvec2(1.0), 0, vec3(0.05f, 0.03f, 0.01f), 0.4f, 0.0f, vec3(0.35f, 0.16f, 0.015f),
        plastic},
       {"lit_window", "", dvec2(1.0), 0, vec3(0.035f, 0.042f, 0.045f), 0.08f, 0.0f, lamp_color_4000k * 0.04f,
-       pane},
-      {"wheel_alloy", "wheel_alloy", dvec2(1.0), 0, vec3(1.0f), 0.45f, 0.0f, vec3(0), sheet_metal},
-      {"wheel_steel", "wheel_steel", dvec2(1.0), 0, vec3(1.0f), 0.55f, 0.0f, vec3(0), sheet_metal},
-      {"car_glass", "", dvec2(1.0), 0, vec3(0.025f, 0.035f, 0.04f), 0.08f, 0.0f, vec3(0), pane},
+       body_pane},
+      {"wheel_alloy", "wheel_alloy", dvec2(1.0), 0, vec3(1.0f), 0.45f, 0.0f, vec3(0), castings},
+      {"wheel_steel", "wheel_steel", dvec2(1.0), 0, vec3(1.0f), 0.55f, 0.0f, vec3(0), castings},
+      {"car_glass", "", dvec2(1.0), 0, vec3(0.025f, 0.035f, 0.04f), 0.08f, 0.0f, vec3(0), body_pane},
       {"tyre", "", dvec2(1.0), 0, vec3(0.015f), 0.9f, 0.0f, vec3(0), rubber},
-      {"wheel_rim", "", dvec2(1.0), 0, vec3(0.45f), 0.35f, 0.8f, vec3(0), sheet_metal},
-      {"bumper", "", dvec2(1.0), 0, vec3(0.03f), 0.7f, 0.0f, vec3(0), plastic},
+      {"wheel_rim", "", dvec2(1.0), 0, vec3(0.45f), 0.35f, 0.8f, vec3(0), body_metal},
+      {"bumper", "", dvec2(1.0), 0, vec3(0.03f), 0.7f, 0.0f, vec3(0), body_cover},
       {"headlight", "", dvec2(1.0), 0, vec3(0.5f, 0.52f, 0.55f), 0.15f, 0.0f, head_lamp_color * 20.0f,
-       plastic},
-      {"headlight_off", "", dvec2(1.0), 0, vec3(0.5f, 0.52f, 0.55f), 0.15f, 0.0f, vec3(0), plastic},
+       body_cover},
+      {"headlight_off", "", dvec2(1.0), 0, vec3(0.5f, 0.52f, 0.55f), 0.15f, 0.0f, vec3(0), body_cover},
       {"tail_light", "", dvec2(1.0), 0, vec3(0.45f, 0.01f, 0.01f), 0.2f, 0.0f, vec3(2.3f, 0.004f, 0.003f),
-       plastic},
-      {"tail_light_off", "", dvec2(1.0), 0, vec3(0.4f, 0.01f, 0.01f), 0.2f, 0.0f, vec3(0), plastic},
-      {"number_plate", "", dvec2(1.0), 0, vec3(0.7f), 0.5f, 0.0f, vec3(0), sheet_metal},
+       body_cover},
+      {"tail_light_off", "", dvec2(1.0), 0, vec3(0.4f, 0.01f, 0.01f), 0.2f, 0.0f, vec3(0), body_cover},
+      {"number_plate", "", dvec2(1.0), 0, vec3(0.7f), 0.5f, 0.0f, vec3(0), body_metal},
 
       // People. Clothes are thin and nearly transparent to radio, so that they have the skin's medium.
       {"skin_light", "", dvec2(1.0), 0, vec3(0.56f, 0.33f, 0.24f), 0.6f, 0.0f, vec3(0), tissue},

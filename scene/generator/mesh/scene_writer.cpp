@@ -87,7 +87,8 @@ int SceneWriter::add_light(const LightSpec& light) {
                           .intensity_cd = micro(light.intensity_cd * peak),
                           .range_m = light.range_m,
                           .inner_cone = micro(light.inner_cone),
-                          .outer_cone = micro(light.outer_cone)});
+                          .outer_cone = micro(light.outer_cone),
+                          .passing_beam = light.passing_beam});
 }
 
 void SceneWriter::paint_ahead(std::span<const char* const> names) {

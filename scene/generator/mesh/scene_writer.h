@@ -37,6 +37,7 @@ struct LightSpec {
   double intensity_cd = 0.0;
   double range_m = 0.0;
   double inner_cone = 0.0, outer_cone = 0.0;  ///< rad from the axis; 0: a point light
+  bool passing_beam = false;                  ///< scene::PunctualLight::Beam
   /// Returns the luminous flux of the light, lm. Between the cones KHR_lights_punctual's intensity falls with
   /// the square of a ramp in the cosine.
   double flux_lm() const;

@@ -12,9 +12,6 @@ namespace greatx::scene::generator {
 
 namespace {
 
-/// Returns a number from -1 to 1.
-double uneven(int i, int k, uint32_t seed) { return (hash(i, k, seed) % 1001) / 500.0 - 1.0; }
-
 /// Returns the chain with points between, at most `step` apart.
 std::vector<dvec3> divided(const std::vector<dvec3>& chain, double step) {
   std::vector<dvec3> points{chain.front()};
@@ -29,12 +26,7 @@ std::vector<dvec3> divided(const std::vector<dvec3>& chain, double step) {
 
 void add_spray(MeshBuilder& mesh, int material, const dvec3& normal, const dvec3& at, const dvec3& across,
                const dvec3& up, uint32_t draw) {
-  const std::array<dvec3, 4> p{snap(at - across - up), snap(at + across - up), snap(at + across + up),
-                               snap(at - across + up)};
-  const double u = 0.5 * static_cast<double>(draw % 2) + 0.004,
-               v = 0.5 * static_cast<double>(draw / 2 % 2) + 0.004;
-  const double s = 0.492;
-  const std::array<dvec2, 4> uv{dvec2(u, v + s), dvec2(u + s, v + s), dvec2(u + s, v), dvec2(u, v)};
+  const auto [p, uv] = spray_corners(at, across, up, draw);
   for (const auto& [a, b, c] : {std::array<size_t, 3>{0, 1, 2}, std::array<size_t, 3>{0, 2, 3}}) {
     const dvec3 flat = glm::normalize(glm::cross(p[b] - p[a], p[c] - p[a]));
     dvec3 n = glm::normalize(normal + 0.2 * flat);

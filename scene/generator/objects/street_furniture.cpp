@@ -75,13 +75,6 @@ MeshBuilder make_signal(bool green) {
   return mesh;
 }
 
-MeshBuilder make_sign() {
-  MeshBuilder mesh;
-  mesh.box(material("galvanised_metal"), {-0.03, -0.03, -0.1}, {0.03, 0.03, 2.75});
-  mesh.box(material("sign_blue"), {0.02, -0.3, 2.1}, {0.05, 0.3, 2.7});
-  return mesh;
-}
-
 MeshBuilder make_shelter() {
   MeshBuilder mesh;
   const int metal = material("painted_metal"), glass = material("shelter_glass");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes the furniture of streets: lamps with their photometry, signals, signs, shelters. The foot is at the
+// Makes the furniture of streets: lamps with their photometry, signals, shelters. The foot is at the
 // origin, z is up.
 #pragma once
 
@@ -21,8 +21,6 @@ Lamp make_lamp(LampKind kind);
 
 /// Makes a signal on its pole that faces +x, green or red.
 MeshBuilder make_signal(bool green);
-/// Makes a sign for a crossing that faces +x.
-MeshBuilder make_sign();
 /// Makes a shelter of 4.2 m along y, open towards +x, with a poster that is lit by night.
 MeshBuilder make_shelter();
 MeshBuilder make_bin();

@@ -181,7 +181,7 @@ MeshBuilder make_stop_pole() {
 
 MeshBuilder make_site_fence() {
   MeshBuilder mesh;
-  const int steel = material("galvanised_metal"), concrete = material("concrete");
+  const int steel = material("scaffold_tube"), concrete = material("concrete");
   add_panel_facing_x(
       mesh, material("mesh_fence"),
       {{-0.012, -1.7, 0.16}, {0.012, 1.7, 2.0}, {0.0, 0.0}, {12.0, 6.0}, {0.0, 0.0}, {12.0, 6.0}});
@@ -189,7 +189,7 @@ MeshBuilder make_site_fence() {
     mesh.box(steel, {-0.02, y, 0.05}, {0.02, y + 0.04, 2.04});
     mesh.box(concrete, {-0.36, y - 0.1, -0.01}, {0.36, y + 0.14, 0.14});
   }
-  mesh.box(steel, {-0.02, -1.7, 1.98}, {0.02, 1.7, 2.02});
+  mesh.box(steel, {-0.015, -1.71, 1.98}, {0.015, 1.71, 2.02});
   MeshBuilder turned;
   turned.append(mesh, dvec3(0.0), 0.5 * pi);
   return turned;

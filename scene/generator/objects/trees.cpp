@@ -13,9 +13,6 @@ namespace greatx::scene::generator {
 
 namespace {
 
-/// Returns a number from -1 to 1.
-double noise_of(int i, int k, uint32_t seed) { return (hash(i, k, seed) % 1001) / 500.0 - 1.0; }
-
 /// Adds a pyramid from its foot, a polygon of three or more sides, to a tip. Its sides are triangles, so that
 /// each is one plane.
 void add_spike(MeshBuilder& mesh, int bark, std::vector<dvec3> foot, const dvec3& tip, double tall) {
@@ -37,12 +34,12 @@ void add_trunk(MeshBuilder& mesh, const char* bark_name, double radius, double t
   for (const dvec2& p : regular_polygon(5, radius, dvec2(0.0), 0.4)) foot.emplace_back(p, -0.2);
   add_spike(mesh, bark, foot, {0, 0, top}, top);
   for (int i = 0; i < boughs; ++i) {
-    const double angle = 2.0 * pi * (i + 0.25 * noise_of(i, 5, seed)) / boughs + 0.7;
+    const double angle = 2.0 * pi * (i + 0.25 * uneven(i, 5, seed)) / boughs + 0.7;
     const dvec2 out(std::cos(angle), std::sin(angle)), side(-out.y, out.x);
-    const double z = low - 0.35 + 0.3 * noise_of(i, 6, seed), thick = 0.42 * radius;
+    const double z = low - 0.35 + 0.3 * uneven(i, 6, seed), thick = 0.42 * radius;
     const std::vector<dvec3> base{dvec3(thick * side, z), dvec3(-thick * side, z),
                                   dvec3(-0.3 * thick * out, z + 1.7 * thick)};
-    const dvec2 end = (1.15 + 0.25 * noise_of(i, 7, seed)) * out;
+    const dvec2 end = (1.15 + 0.25 * uneven(i, 7, seed)) * out;
     std::vector<dvec3> snapped;
     for (const dvec3& p : base) snapped.push_back(snap(p));
     add_spike(mesh, bark, snapped, snap(dvec3(end, z + 1.5)), 2.0);
@@ -66,14 +63,14 @@ LeafBody crown_body(const Crown& crown, uint32_t seed) {
   const double height = crown.high - crown.low, widest = crown.low + crown.widest * height;
   const auto place = [&](double around, double z, int i) {
     // Boughs are two waves around the trunk with their own phase. Each corner also moves a little in or out.
-    const double bough = 0.6 * std::sin(3.0 * around + 5.0 * z + noise_of(-1, 0, seed + 3) * pi) +
-                         0.5 * std::sin(5.0 * around - 4.0 * z + noise_of(-2, 0, seed + 3) * pi);
-    const double out = 0.9 + crown.lumps * (0.45 * bough + 0.4 * noise_of(i, 1, seed));
+    const double bough = 0.6 * std::sin(3.0 * around + 5.0 * z + uneven(-1, 0, seed + 3) * pi) +
+                         0.5 * std::sin(5.0 * around - 4.0 * z + uneven(-2, 0, seed + 3) * pi);
+    const double out = 0.9 + crown.lumps * (0.45 * bough + 0.4 * uneven(i, 1, seed));
     const double up = z > 0.0 ? crown.high - widest : widest - crown.low;
     const double slim = (z > 0.0 ? 1.0 - crown.taper * z : 1.0 + 0.12 * z) * std::sqrt(1.0 - z * z);
     const double r = crown.radius * out * slim;
     return snap(dvec3(r * std::cos(around), r * std::sin(around),
-                      widest + up * z * (1.0 + 0.25 * crown.lumps * noise_of(i, 2, seed))));
+                      widest + up * z * (1.0 + 0.25 * crown.lumps * uneven(i, 2, seed))));
   };
   LeafBody body;
   for (size_t ring = 0; ring < heights.size(); ++ring) {
@@ -81,13 +78,13 @@ LeafBody crown_body(const Crown& crown, uint32_t seed) {
     for (int i = 0; i < sides; ++i) {
       const int key = static_cast<int>(ring) * sides + i;
       const double turn = ring % 2 == 0 ? 0.0 : 0.4;
-      const double around = 2.0 * pi * (i + turn + 0.18 * noise_of(key, 3, seed)) / sides;
+      const double around = 2.0 * pi * (i + turn + 0.18 * uneven(key, 3, seed)) / sides;
       points.push_back(place(around, heights[ring], key));
     }
     body.rings.push_back(std::move(points));
   }
   body.bottom = snap(dvec3(0.0, 0.0, crown.low));
-  body.top = snap(dvec3(0.1 * noise_of(7, 7, seed), 0.1 * noise_of(7, 8, seed), crown.high - 0.1));
+  body.top = snap(dvec3(0.1 * uneven(7, 7, seed), 0.1 * uneven(7, 8, seed), crown.high - 0.1));
   return body;
 }
 
@@ -95,18 +92,40 @@ struct Species {
   Crown crown;
   const char* bark;
   double trunk_m;
+  const char* fallen;  ///< material of its leaves on the ground
 };
 
 const std::array<Species, tree_species>& species() {
   static const std::array<Species, tree_species> list{{
       // linden, maple, oak, plane, Lombardy poplar, copper beech, birch
-      {{"leaves_green", "sprays_green", 2.2, 7.4, 2.1, 0.42, 0.18, 0.3, {1, 1.7, 0.2}}, "bark", 0.22},
-      {{"leaves_light", "sprays_light", 2.3, 6.9, 2.4, 0.45, 0.0, 0.34, {1, 1.8, 0.0}}, "bark", 0.21},
-      {{"leaves_olive", "sprays_olive", 2.1, 6.4, 2.75, 0.4, 0.0, 0.4, {1, 2.0, 0.0}}, "bark", 0.28},
-      {{"leaves_dark", "sprays_dark", 2.4, 7.8, 2.2, 0.5, 0.05, 0.34, {1, 1.8, 0.1}}, "bark_plane", 0.24},
-      {{"leaves_green", "sprays_green", 1.2, 10.6, 1.1, 0.35, 0.5, 0.24, {2, 1.4, 0.8}}, "bark", 0.18},
-      {{"leaves_copper", "sprays_copper", 2.0, 6.0, 2.2, 0.45, 0.0, 0.28, {1, 1.7, 0.1}}, "bark", 0.19},
-      {{"leaves_birch", "sprays_birch", 1.9, 8.2, 1.5, 0.38, 0.3, 0.36, {2, 1.3, 0.7}}, "bark_birch", 0.14},
+      {{"leaves_green", "sprays_green", 2.2, 7.4, 2.1, 0.42, 0.18, 0.3, {1, 1.7, 0.2}},
+       "bark",
+       0.22,
+       "fallen_yellow"},
+      {{"leaves_light", "sprays_light", 2.3, 6.9, 2.4, 0.45, 0.0, 0.34, {1, 1.8, 0.0}},
+       "bark",
+       0.21,
+       "fallen_red"},
+      {{"leaves_olive", "sprays_olive", 2.1, 6.4, 2.75, 0.4, 0.0, 0.4, {1, 2.0, 0.0}},
+       "bark",
+       0.28,
+       "fallen_brown"},
+      {{"leaves_dark", "sprays_dark", 2.4, 7.8, 2.2, 0.5, 0.05, 0.34, {1, 1.8, 0.1}},
+       "bark_plane",
+       0.24,
+       "fallen_brown"},
+      {{"leaves_green", "sprays_green", 1.2, 10.6, 1.1, 0.35, 0.5, 0.24, {2, 1.4, 0.8}},
+       "bark",
+       0.18,
+       "fallen_yellow"},
+      {{"leaves_copper", "sprays_copper", 2.0, 6.0, 2.2, 0.45, 0.0, 0.28, {1, 1.7, 0.1}},
+       "bark",
+       0.19,
+       "fallen_red"},
+      {{"leaves_birch", "sprays_birch", 1.9, 8.2, 1.5, 0.38, 0.3, 0.36, {2, 1.3, 0.7}},
+       "bark_birch",
+       0.14,
+       "fallen_yellow"},
   }};
   return list;
 }
@@ -142,18 +161,23 @@ class RoundBody {
   double wide_ = 0.1, tall_ = 1.0;
 };
 
-/// Adds a spray with its middle at `at`, in the plane of `across` and `up`.
+/// Adds a spray with its middle at `at`, in the plane of `across` and `up`, with the normals of a round body.
 void add_spray(MeshBuilder& mesh, int material, const RoundBody& round, const dvec3& at, const dvec3& across,
                const dvec3& up, uint32_t draw) {
-  const std::array<dvec3, 4> p{snap(at - across - up), snap(at + across - up), snap(at + across + up),
-                               snap(at - across + up)};
-  const double u = 0.5 * (draw % 2) + 0.004, v = 0.5 * (draw / 2 % 2) + 0.004, s = 0.492;
-  const std::array<dvec2, 4> uv{dvec2(u, v + s), dvec2(u + s, v + s), dvec2(u + s, v), dvec2(u, v)};
+  const auto [p, uv] = spray_corners(at, across, up, draw);
   round.face(mesh, material, {p[0], p[1], p[2]}, {uv[0], uv[1], uv[2]}, 0.2);
   round.face(mesh, material, {p[0], p[2], p[3]}, {uv[0], uv[2], uv[3]}, 0.2);
 }
 
 }  // namespace
+
+double uneven(int i, int k, uint32_t seed) { return (hash(i, k, seed) % 1001) / 500.0 - 1.0; }
+
+SprayCorners spray_corners(const dvec3& at, const dvec3& across, const dvec3& up, uint32_t draw) {
+  const double u = 0.5 * (draw % 2) + 0.004, v = 0.5 * (draw / 2 % 2) + 0.004, s = 0.492;
+  return {{snap(at - across - up), snap(at + across - up), snap(at + across + up), snap(at - across + up)},
+          {dvec2(u, v + s), dvec2(u + s, v + s), dvec2(u + s, v), dvec2(u, v)}};
+}
 
 void add_leaf_body(MeshBuilder& mesh, int material, const LeafBody& body) {
   const RoundBody round(body);
@@ -189,20 +213,20 @@ void add_sprays(MeshBuilder& mesh, int material, const LeafBody& body, const Spr
   // Sets a spray near a point of the body, turned out of its face at random.
   const auto spray = [&](const dvec3& on, const dvec3& normal) {
     const int key = count++;
-    const double half = 0.5 * sprays.size_m * (1.0 + 0.25 * noise_of(key, 1, seed));
-    const dvec3 random(noise_of(key, 2, seed), noise_of(key, 3, seed), noise_of(key, 4, seed));
+    const double half = 0.5 * sprays.size_m * (1.0 + 0.25 * uneven(key, 1, seed));
+    const dvec3 random(uneven(key, 2, seed), uneven(key, 3, seed), uneven(key, 4, seed));
     dvec3 out = glm::normalize(normal + 0.46 * random);
     out = glm::normalize(glm::mix(out, dvec3(out.x, out.y, 0.25 * out.z), sprays.hang));
     dvec3 up = glm::normalize(glm::mix(random, dvec3(0.3 * random.x, 0.3 * random.y, 1.0), sprays.hang) +
                               0.01 * dvec3(1.0, 2.0, 3.0));
     const dvec3 across = glm::normalize(glm::cross(up, out));
     up = glm::cross(out, across);
-    const dvec3 at = on + (0.12 + 0.2 * noise_of(key, 5, seed)) * half * normal;
+    const dvec3 at = on + (0.12 + 0.2 * uneven(key, 5, seed)) * half * normal;
     add_spray(mesh, material, round, at, half * across, half * up, hash(key, 6, seed));
   };
   const auto on_face = [&](const std::array<dvec3, 4>& c) {
     const dvec3 normal = glm::normalize(glm::cross(c[2] - c[0], c[3] - c[1]));
-    const double u = 0.5 + 0.3 * noise_of(count, 7, seed), v = 0.5 + 0.3 * noise_of(count, 8, seed);
+    const double u = 0.5 + 0.3 * uneven(count, 7, seed), v = 0.5 + 0.3 * uneven(count, 8, seed);
     spray(glm::mix(glm::mix(c[0], c[1], u), glm::mix(c[3], c[2], u), v), normal);
   };
   const auto at = [&](size_t ring, size_t i) { return body.rings[ring][i % sides]; };
@@ -217,7 +241,53 @@ void add_sprays(MeshBuilder& mesh, int material, const LeafBody& body, const Spr
   }
 }
 
-MeshBuilder make_tree(int kind, int shape, double clear_m) {
+namespace {
+
+/// Returns the body that stands for the twigs of a bare crown: smaller about the middle of the leaves.
+LeafBody bare_body(const LeafBody& leaves) {
+  const dvec3 middle = 0.5 * (leaves.bottom + leaves.top);
+  const auto nearer = [&](const dvec3& p) { return snap(middle + leafless_scale * (p - middle)); };
+  LeafBody body{leaves.rings, nearer(leaves.bottom), nearer(leaves.top)};
+  for (auto& ring : body.rings)
+    for (dvec3& p : ring) p = nearer(p);
+  return body;
+}
+
+/// Adds the boughs of a bare crown, which rise from the trunk, and its leader.
+void add_boughs(MeshBuilder& mesh, const Crown& crown, double trunk_radius, uint32_t seed) {
+  const int bark = material("boughs");
+  const double height = crown.high - crown.low;
+  const auto bough = [&](const dvec3& from, const dvec3& to, double thick) {
+    const dvec3 along = glm::normalize(to - from);
+    const dvec3 side = glm::normalize(glm::cross(along, dvec3(0.36, -0.48, 0.8))),
+                over = glm::cross(along, side);
+    std::vector<dvec3> foot;
+    for (const dvec2& p : regular_polygon(3, thick)) foot.push_back(snap(from + p.x * side + p.y * over));
+    add_spike(mesh, bark, foot, snap(to), glm::length(to - from));
+  };
+  bough({0.0, 0.0, crown.low + 0.1 * height}, {0.0, 0.0, crown.high - 0.12 * height}, 0.55 * trunk_radius);
+  constexpr int count = 9;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2.4 * i + 0.3 * uneven(i, 11, seed);  // the golden angle, as buds stand
+    const double at = crown.low + (0.02 + 0.5 * i / count) * height;
+    const double top = std::min(at + (0.34 + 0.1 * uneven(i, 12, seed)) * height, crown.high - 0.1 * height);
+    const double far = crown.radius * (0.86 - 0.34 * i / count) * (1.0 + 0.12 * uneven(i, 13, seed));
+    bough({0.0, 0.0, at}, {far * std::cos(angle), far * std::sin(angle), top},
+          trunk_radius * (0.4 - 0.2 * i / count));
+  }
+}
+
+}  // namespace
+
+void add_fallen_leaves(MeshBuilder& mesh, int kind, const std::array<dvec3, 4>& corners, uint32_t draw) {
+  const double u = 0.5 * static_cast<double>(draw % 2), v = 0.5 * static_cast<double>(draw / 2 % 2);
+  const std::array<dvec2, 4> uv{dvec2(u, v + 0.5), dvec2(u + 0.5, v + 0.5), dvec2(u + 0.5, v), dvec2(u, v)};
+  const int leaves = material(species()[static_cast<size_t>(kind)].fallen);
+  for (const auto& [a, b, c] : {std::array<size_t, 3>{0, 1, 2}, std::array<size_t, 3>{0, 2, 3}})
+    mesh.triangle(leaves, {snap(corners[a]), snap(corners[b]), snap(corners[c])}, {uv[a], uv[b], uv[c]});
+}
+
+MeshBuilder make_tree(int kind, int shape, double clear_m, Season season) {
   const Species& s = species()[static_cast<size_t>(kind)];
   Crown crown = s.crown;
   const double lift = std::max(0.0, clear_m - crown.low);
@@ -228,7 +298,13 @@ MeshBuilder make_tree(int kind, int shape, double clear_m) {
   add_trunk(mesh, s.bark, s.trunk_m * (1.0 + 0.08 * lift), crown.low + 0.45 * (crown.high - crown.low),
             crown.low, 3, seed);
   const LeafBody body = crown_body(crown, seed);
-  add_leaf_body(mesh, material(crown.leaves), body);
+  if (season == Season::winter) {
+    add_leaf_body(mesh, material(crown.leaves), bare_body(body));
+    add_boughs(mesh, crown, s.trunk_m, seed);
+    crown.around.hang = 0.8;  // twigs rise
+  } else {
+    add_leaf_body(mesh, material(crown.leaves), body);
+  }
   add_sprays(mesh, material(crown.sprays), body, crown.around, seed);
   return mesh;
 }
@@ -248,8 +324,8 @@ void add_tiers(MeshBuilder& mesh) {
       std::vector<dvec3> ring;
       for (int i = 0; i < sides; ++i) {
         const int key = 16 * tier + 8 * part + i;
-        const double around = 2.0 * pi * (i + 0.5 * (tier % 2) + 0.15 * noise_of(key, 1, seed)) / sides;
-        const double r = radius * (1.0 + 0.2 * noise_of(key, 2, seed));
+        const double around = 2.0 * pi * (i + 0.5 * (tier % 2) + 0.15 * uneven(key, 1, seed)) / sides;
+        const double r = radius * (1.0 + 0.2 * uneven(key, 2, seed));
         ring.push_back(snap(dvec3(r * std::cos(around), r * std::sin(around), z)));
       }
       body.rings.push_back(std::move(ring));
@@ -261,11 +337,11 @@ void add_tiers(MeshBuilder& mesh) {
   for (int tier = 0; tier < tiers; ++tier)
     for (int i = 0; i < sides; ++i) {
       const int key = 40 * tier + i;
-      const double angle = 2.0 * pi * (i + 0.5 * (tier % 2) + 0.5 + 0.3 * noise_of(key, 3, seed)) / sides;
+      const double angle = 2.0 * pi * (i + 0.5 * (tier % 2) + 0.5 + 0.3 * uneven(key, 3, seed)) / sides;
       const dvec3 out(std::cos(angle), std::sin(angle), 0.0), side(-out.y, out.x, 0.0);
       const double radius = 1.7 * (1.0 - 0.17 * tier), half = 0.42 * radius + 0.25;
-      const dvec3 up = glm::normalize(out - dvec3(0, 0, 0.45 + 0.2 * noise_of(key, 4, seed)));
-      const dvec3 across = glm::normalize(side + 0.25 * noise_of(key, 5, seed) * dvec3(0, 0, 1));
+      const dvec3 up = glm::normalize(out - dvec3(0, 0, 0.45 + 0.2 * uneven(key, 4, seed)));
+      const dvec3 across = glm::normalize(side + 0.25 * uneven(key, 5, seed) * dvec3(0, 0, 1));
       const dvec3 at = dvec3(0, 0, 1.55 + 1.72 * tier) + (0.85 * radius) * out;
       add_spray(mesh, material("sprays_needles"), round, at, -half * across, half * up, hash(key, 6, seed));
     }

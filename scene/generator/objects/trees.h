@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene/generator/mesh/mesh_builder.h"
+#include "scene/generator/mesh/seasons.h"
 
 namespace greatx::scene::generator {
 
@@ -17,7 +18,19 @@ inline constexpr int tree_species = 7;
 
 /// Makes a broad-leaved tree 6 to 11 m high. `kind` is below tree_species. `shape` (any number) varies the
 /// boughs. The crown stands higher on its trunk if it would otherwise reach below `clear_m`.
-MeshBuilder make_tree(int kind, int shape, double clear_m = 0.0);
+///
+/// In winter the crown is bare: boughs and sprays of twigs, which radio does not see, and a closed body of
+/// twigs that is smaller than the body of leaves by leafless_scale along each axis.
+MeshBuilder make_tree(int kind, int shape, double clear_m = 0.0, Season season = Season::summer);
+
+/// A path through the middle of a leafless crown takes this share of the loss in leaf, dB over dB: ITU-R
+/// P.833-10 says that around 1 GHz the specific attenuation is some 20 % larger in leaf. All foliage of a
+/// scene has one specific attenuation, so that the bare crown's volume is smaller in its place.
+inline constexpr double leafless_scale = 1.0 / 1.2;
+
+/// Adds leaves that have fallen from a tree of this kind onto the ground between four corners,
+/// counter-clockwise from above: two open faces. `draw` picks their picture.
+void add_fallen_leaves(MeshBuilder& mesh, int kind, const std::array<dvec3, 4>& corners, uint32_t draw);
 
 enum class Conifer { spruce, pine };
 /// Makes a conifer some 10 m high.
@@ -41,6 +54,16 @@ void add_leaf_body(MeshBuilder& mesh, int material, const LeafBody& body);
 /// Adds sprays around a body, which are open faces. Their normals are those of the round crown as well.
 void add_sprays(MeshBuilder& mesh, int material, const LeafBody& body, const Sprays& sprays, uint32_t seed);
 
+/// Returns a number from -1 to 1 that depends on (i, k, seed) alone.
+double uneven(int i, int k, uint32_t seed);
+/// The corners of a spray, counter-clockwise from its front, and their places in its picture.
+struct SprayCorners {
+  std::array<dvec3, 4> p;
+  std::array<dvec2, 4> uv;
+};
+/// Returns the corners of a spray with its middle at `at`, in the plane of `across` and `up` (half its width
+/// and height). `draw` picks one of the picture's four quarters.
+SprayCorners spray_corners(const dvec3& at, const dvec3& across, const dvec3& up, uint32_t draw);
 /// Adds one spray with its middle at `at`, in the plane of `across` and `up` (half its width and height).
 /// `normal` lights it, as far as it is on the spray's outside. `draw` picks its picture.
 void add_spray(MeshBuilder& mesh, int material, const dvec3& normal, const dvec3& at, const dvec3& across,

@@ -209,7 +209,7 @@ TwoWheeler make_motorcycle(const VehicleShape& shape, int paint) {
   TwoWheeler made;
   const dvec3 front = shape.wheels[0].hub_m, rear = shape.wheels[1].hub_m;
   SmoothMesh parts;
-  const int dark = material("bumper"), metal = material("galvanised_metal");
+  const int dark = material("bumper"), metal = material("engine_metal");
   add_hull(parts, paint,
            {{-0.12, 0.86, 0.06, 0.07},
             {0.08, 0.90, 0.14, 0.12},

@@ -105,14 +105,14 @@ void add_plate(MeshBuilder& mesh, double x, double z, bool front) {
 
 namespace {
 
-/// Returns the low beam: its peak within 3 degrees of an axis 1.5 degrees below the horizon. The intensity
-/// falls to zero at 25 degrees from the axis, which is 23.5 degrees above the horizon.
+/// Returns the low beam. Its light ends at 35 degrees from the axis.
 LightSpec low_beam(double peak_cd) {
   return {.color = head_lamp_color,
           .intensity_cd = peak_cd,
           .range_m = peak_cd > 2000.0 ? 60.0 : 25.0,
-          .inner_cone = 3.0 * pi / 180.0,
-          .outer_cone = 25.0 * pi / 180.0};
+          .inner_cone = 20.0 * pi / 180.0,
+          .outer_cone = 35.0 * pi / 180.0,
+          .passing_beam = true};
 }
 
 /// Returns the light of both tail lights together, behind the car. Position lights give some 5 cd each.
@@ -125,7 +125,7 @@ LightSpec tail_glow() {
 
 void add_vehicle_lights(SceneWriter& writer, const VehicleBody& body, int root) {
   const int beam = writer.add_light(low_beam(body.beam_cd)), glow = writer.add_light(tail_glow());
-  const double tilt = 1.5 * pi / 180.0;
+  const double tilt = std::atan(0.01);  // the elbow of the cut-off lies 1 % below the horizon
   const auto add = [&](const std::vector<dvec3>& lamps, const std::string& name, double ahead, int light,
                        const dvec3& shine) {
     for (const dvec3& lamp : lamps)

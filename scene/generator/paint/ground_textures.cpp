@@ -13,9 +13,10 @@ namespace greatx::scene::generator {
 /// Paints 16 m across x 32 m along a street, with its middle at x = 256: wheel tracks of the lanes, oil
 /// between them, patches, cracks and a few manhole covers.
 TextureMaps asphalt() {
-  TexturePainter painter(512, 1024, {80, 80, 82});
-  painter.blotches(256, 7, 11);
-  painter.blotches(32, 4, 12);
+  TexturePainter painter(512, 1024, {87, 86, 86});
+  painter.blotches(256, 9, 11);
+  painter.blotches(64, {6, 5, 4}, 10);
+  painter.blotches(16, 5, 12);
   const auto track = [&](double center_m, double half_m, int change) {
     for (const int side : {-1, 1}) {
       const int middle = 256 + static_cast<int>(32 * side * center_m), half = static_cast<int>(32 * half_m);
@@ -26,15 +27,33 @@ TextureMaps asphalt() {
     }
   };
   for (const double lane : {1.65, 5.1}) {
-    track(lane - 0.75, 0.35, 8);  // polished by tyres
-    track(lane + 0.75, 0.35, 8);
-    track(lane, 0.45, -9);  // oil
+    track(lane - 0.75, 0.35, 12);  // polished by tyres
+    track(lane + 0.75, 0.35, 12);
+    track(lane, 0.45, -15);  // oil
   }
-  track(7.6, 0.7, -12);          // gutters
+  track(6.7, 0.5, 10);           // dust beside the kerb
+  track(7.6, 0.8, -18);          // gutters
+  for (int i = 0; i < 5; ++i) {  // where somebody braked
+    const int lane = i % 2 == 0 ? 53 : 163, x = 256 + (i % 4 < 2 ? lane : -lane);
+    const int y = static_cast<int>(hash(i, 10, 14) % 1024),
+              length = 90 + static_cast<int>(hash(i, 11, 14) % 160);
+    for (const int tyre : {-25, 20})
+      for (int k = 0; k < length; ++k)
+        painter.shade(x + tyre + k / 60, y + k, x + tyre + k / 60 + 5, y + k + 1,
+                      -20 * std::min({k, length - k, 40}) / 40);
+  }
+  for (int i = 0; i < 70; ++i) {  // drops of oil, most of them where cars wait
+    const int lane = i % 2 == 0 ? 53 : 163,
+              x = 256 + (i % 4 < 2 ? lane : -lane) + static_cast<int>(hash(i, 12, 14) % 24) - 12;
+    const int y = static_cast<int>(hash(i, 13, 14) % (i % 3 == 0 ? 1024 : 300)), r = 1 + i % 4;
+    for (int dy = -r; dy <= r; ++dy)
+      for (int dx = -r; dx <= r; ++dx)
+        if (dx * dx + dy * dy <= r * r) painter.add(x + dx, y + dy, {-26, -26, -24});
+  }
   for (int i = 0; i < 9; ++i) {  // trenches, dug and filled
     const int x = static_cast<int>(hash(i, 0, 14) % 512), y = static_cast<int>(hash(i, 1, 14) % 1024);
     const int w = 24 + static_cast<int>(hash(i, 2, 14) % 70), h = 30 + static_cast<int>(hash(i, 3, 14) % 130);
-    const int tone = i % 3 == 0 ? 9 : -13;
+    const int tone = i % 3 == 0 ? 15 : -19;
     painter.shade(x, y, x + w, y + h, tone);
     for (const int edge : {0, w - 2}) painter.shade(x + edge, y, x + edge + 2, y + h, -10);
     for (const int edge : {0, h - 2}) painter.shade(x, y + edge, x + w, y + edge + 2, -10);

@@ -74,8 +74,15 @@ class Tuft {
   uint32_t seed_;
 };
 
+using LeafTone = Rgb (*)(int tone);
 /// Returns a colour of leaves.
 Rgb leaf_color(int tone) { return {tone * 74 / 100, tone, tone * 44 / 100}; }
+/// Returns a tone of pale leaves, which the material colours.
+Rgb pale_color(int tone) {
+  const int light = 90 + tone * 9 / 8;
+  return {light, light - 4, light - 14};
+}
+Rgb bark_color(int tone) { return {tone, tone * 94 / 100, tone * 86 / 100}; }
 
 /// Returns the reach of a spray of leaves from its middle towards (x, y), as a percentage of half the
 /// quarter. It has lobes, so that no outline is round.
@@ -86,26 +93,35 @@ int reach_towards(int x, int y, int quarter) {
 
 }  // namespace
 
-TextureMaps leaves() {
+namespace {
+
+TextureMaps leaves_of(LeafTone color_of) {
   constexpr int size = 256;
-  TexturePainter painter(size, size, {30, 44, 20});
-  painter.blotches(64, 8, 61);
-  for (int layer = 0; layer < 3; ++layer)
-    for (int i = 0; i < 560; ++i) {
-      const int x = static_cast<int>(hash(i, 5 * layer, 62) % size),
-                y = static_cast<int>(hash(i, 5 * layer + 1, 62) % size);
-      // Leaves gather in clumps. The gaps stay dark.
-      if (hash(x / 24, y / 24, 63) % 4 == 0 && layer > 0) continue;
-      const int length = 9 + static_cast<int>(hash(i, 5 * layer + 2, 62) % 6);
-      const int tone = 56 + 20 * layer + static_cast<int>(hash(i, 5 * layer + 3, 62) % 34);
-      add_leaf(x, y, directions[hash(i, 5 * layer + 4, 62) % directions.size()], length, leaf_color(tone),
+  TexturePainter painter(size, size, color_of(36));
+  painter.blotches(64, 7, 61);
+  // Leaves gather in clumps. Light from above falls on a clump's upper leaves; its lower ones, and the gaps
+  // between clumps, are dark.
+  for (int clump = 0; clump < 46; ++clump) {
+    const int radius = 18 + static_cast<int>(hash(clump, 0, 63) % 20);
+    const int cx = static_cast<int>(hash(clump, 1, 63) % size),
+              cy = static_cast<int>(hash(clump, 2, 63) % size);
+    const int tint = static_cast<int>(hash(clump, 3, 63) % 17) - 8;
+    for (int i = 0; i < radius * radius / 9; ++i) {
+      const int key = 1000 * clump + i;
+      const int x = static_cast<int>(hash(key, 0, 62) % static_cast<uint32_t>(2 * radius)) - radius,
+                y = static_cast<int>(hash(key, 1, 62) % static_cast<uint32_t>(2 * radius)) - radius;
+      if (x * x + y * y > radius * radius) continue;
+      const int length = 8 + static_cast<int>(hash(key, 2, 62) % 6);
+      const int tone = 96 + tint - 44 * y / radius + static_cast<int>(hash(key, 3, 62) % 30) - 15;
+      add_leaf(cx + x, cy + y, directions[hash(key, 4, 62) % directions.size()], length, color_of(tone),
                [&](int px, int py, const Rgb& color) { painter.rect(px, py, px + 1, py + 1, color); });
     }
+  }
   return painter.maps();
 }
 
-TextureMaps leaf_sprays() {
-  TexturePainter painter(2 * tuft_px, 2 * tuft_px, {44, 62, 26});
+TextureMaps leaf_sprays_of(LeafTone color_of) {
+  TexturePainter painter(2 * tuft_px, 2 * tuft_px, color_of(62));
   painter.cut_all();
   constexpr int middle = tuft_px / 2;
   for (int quarter = 0; quarter < 4; ++quarter) {
@@ -125,8 +141,87 @@ TextureMaps leaf_sprays() {
         if (static_cast<int>(tuft.draw(key, 4) % 100) < 46 * far / (reach * reach)) continue;
         const size_t toward = tuft.draw(key, 2) % directions.size();
         const int tone = 66 + 22 * layer + static_cast<int>(tuft.draw(key, 5) % 36);
-        tuft.leaf(x + middle, y + middle, toward, length, leaf_color(tone));
+        tuft.leaf(x + middle, y + middle, toward, length, color_of(tone));
       }
+  }
+  return painter.maps();
+}
+
+/// Paints a twig from (x, y), in 64ths of a pixel with y upwards, and the twigs that leave it, by calls of
+/// `paint`. Directions are numbers of `directions`.
+template <typename Paint>
+void add_twig(int x, int y, int toward, int length, int depth, uint32_t seed, const Paint& paint) {
+  int side = hash(length, toward, seed) % 2 == 0 ? 1 : -1;
+  for (int k = 0; k < length; ++k) {
+    const auto& [dx, dy] = directions[static_cast<size_t>(std::clamp(toward, 0, 16))];
+    x += dx;
+    y += dy;
+    const int thick = depth == 0 ? 3 - 2 * k / length : depth == 1 && 2 * k < length ? 2 : 1;
+    const int tone = 104 + static_cast<int>(hash(x / 200, y / 200, seed) % 40) - 8 * depth;
+    for (int w = 0; w < thick; ++w) paint(x / 64 + w, y / 64, bark_color(tone + 14 * w));
+    const uint32_t draw = hash(k, length + 31 * depth, seed + static_cast<uint32_t>(toward));
+    if (draw % 11 == 0) toward = std::clamp(toward + (draw / 16 % 2 == 0 ? 1 : -1), 1, 15);
+    if (length < 8 || k < length / 6 || (k + static_cast<int>(seed)) % (10 - std::min(depth, 2)) != 0)
+      continue;
+    side = -side;
+    const int out = std::clamp(toward + side * (2 + static_cast<int>(draw / 64 % 3)), 0, 16);
+    const int reach = (length - k) * (46 + static_cast<int>(draw / 512 % 34)) / 100;
+    if (reach > 5) add_twig(x, y, out, reach, depth + 1, seed * 5 + static_cast<uint32_t>(k), paint);
+  }
+}
+
+}  // namespace
+
+TextureMaps leaves() { return leaves_of(leaf_color); }
+TextureMaps leaves_pale() { return leaves_of(pale_color); }
+TextureMaps leaf_sprays() { return leaf_sprays_of(leaf_color); }
+TextureMaps leaf_sprays_pale() { return leaf_sprays_of(pale_color); }
+
+TextureMaps twigs() {
+  constexpr int size = 256;
+  TexturePainter painter(size, size, bark_color(96));
+  painter.cut_all();
+  for (int i = 0; i < 17; ++i) {
+    const int x = static_cast<int>(hash(i, 0, 681) % size), y = static_cast<int>(hash(i, 1, 681) % size);
+    const int toward = 5 + static_cast<int>(hash(i, 2, 681) % 7);
+    add_twig(64 * x, 64 * y, toward, 70 + static_cast<int>(hash(i, 3, 681) % 40), 1,
+             690 + static_cast<uint32_t>(i),
+             [&](int px, int up, const Rgb& color) { painter.cover(px, size - 1 - up, color); });
+  }
+  return painter.maps();
+}
+
+TextureMaps twig_sprays() {
+  TexturePainter painter(2 * tuft_px, 2 * tuft_px, bark_color(96));
+  painter.cut_all();
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    Tuft tuft(painter, quarter, 641 + static_cast<uint32_t>(quarter));
+    for (int stem = 0; stem < 5; ++stem)
+      add_twig(64 * (28 + 18 * stem), 0, 4 + 2 * stem, 84 + static_cast<int>(tuft.draw(stem, 0) % 34), 0,
+               651 + 7 * static_cast<uint32_t>(quarter) + static_cast<uint32_t>(stem),
+               [&](int px, int up, const Rgb& color) { tuft.pixel(px, up, color); });
+  }
+  return painter.maps();
+}
+
+TextureMaps fallen_leaves() {
+  TexturePainter painter(2 * tuft_px, 2 * tuft_px, pale_color(70));
+  painter.cut_all();
+  constexpr int middle = tuft_px / 2;
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    Tuft tuft(painter, quarter, 671 + static_cast<uint32_t>(quarter));
+    for (int i = 0; i < 900; ++i) {
+      const int x = static_cast<int>(tuft.draw(i, 0) % (tuft_px - 16)) + 8 - middle,
+                y = static_cast<int>(tuft.draw(i, 1) % (tuft_px - 16)) + 8 - middle;
+      const int reach = middle * reach_towards(x, y, quarter) / 100, far = x * x + y * y;
+      // They lie in drifts, and are fewer towards the outline.
+      if (far > reach * reach || static_cast<int>(tuft.draw(i, 2) % 100) < 96 * far / (reach * reach))
+        continue;
+      if (hash((x + 64) / 14, (y + 64) / 14, 677 + static_cast<uint32_t>(quarter)) % 3 == 0) continue;
+      const int tone = 20 + static_cast<int>(tuft.draw(i, 3) % 110);
+      tuft.leaf(x + middle, y + middle, tuft.draw(i, 4) % directions.size(),
+                4 + static_cast<int>(tuft.draw(i, 5) % 4), pale_color(tone));
+    }
   }
   return painter.maps();
 }

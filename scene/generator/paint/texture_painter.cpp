@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/generator/paint/lettering.h"
+
 namespace greatx::scene::generator {
 
 uint32_t hash(int x, int y, uint32_t seed) {
@@ -41,6 +43,36 @@ void TexturePainter::rect(int x0, int y0, int x1, int y1, const Rgb& color, int 
 void TexturePainter::add(int x, int y, const Rgb& change) {
   Rgb& c = colors_[index(x, y)];
   c = {c.r + change.r, c.g + change.g, c.b + change.b};
+}
+
+void TexturePainter::mix(int x, int y, const Rgb& color, int share) {
+  Rgb& c = colors_[index(x, y)];
+  const auto mixed = [&](int from, int to) { return from + (to - from) * share / 16; };
+  c = {mixed(c.r, color.r), mixed(c.g, color.g), mixed(c.b, color.b)};
+}
+
+namespace {
+
+/// Writes a text with its middle at (x, y), not wider than `width`.
+void write_centered(std::string_view words, int x, int y, int width, int height, int thick,
+                    const InkPixel& ink) {
+  while (height > 5 && text_width(words, height) > width) --height;
+  write_text(words, x - (text_width(words, height) - height / 3) / 2, y - height / 2, height, thick, ink);
+}
+
+}  // namespace
+
+void TexturePainter::text(std::string_view words, int x, int y, int width, int height, int thick,
+                          const Rgb& color) {
+  write_centered(words, x, y, width, height, thick,
+                 [&](int px, int py, int share) { mix(px, py, color, share); });
+}
+
+void TexturePainter::lit_text(int layer, std::string_view words, int x, int y, int width, int height,
+                              int thick, const Rgb& color) {
+  write_centered(words, x, y, width, height, thick, [&](int px, int py, int share) {
+    if (share > 7) light(layer, px, py, px + 1, py + 1, color);
+  });
 }
 
 void TexturePainter::shade(int x0, int y0, int x1, int y1, int change) {

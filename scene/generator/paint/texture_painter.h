@@ -7,6 +7,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <string_view>
 
 #include "scene/generator/paint/textures.h"
 
@@ -32,6 +34,14 @@ class TexturePainter {
   /// Paints a rectangle that has its own roughness (0...255) and is not metallic.
   void rect(int x0, int y0, int x1, int y1, const Rgb& color, int roughness);
   void add(int x, int y, const Rgb& change);
+  /// Mixes a share (0 to 16, of 16) of a colour into a pixel.
+  void mix(int x, int y, const Rgb& color, int share);
+  /// Writes capitals and digits (lettering.h) that are `height` pixels high, with the middle of the text at
+  /// (x, y), at most `width` pixels wide: a longer text becomes smaller.
+  void text(std::string_view words, int x, int y, int width, int height, int thick, const Rgb& color);
+  /// Writes the same text as light into the map `layer` (see light).
+  void lit_text(int layer, std::string_view words, int x, int y, int width, int height, int thick,
+                const Rgb& color);
   /// Makes a rectangle lighter or darker by `change`.
   void shade(int x0, int y0, int x1, int y1, int change);
   /// Adds noise to each pixel: five levels within +-amount.

@@ -3,6 +3,8 @@
 #include "scene/generator/paint/textures.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <map>
 
 #include "core/error.h"
@@ -42,17 +44,42 @@ TextureMaps kerb() {
   return painter.maps();
 }
 
-/// Paints the bark of a plane tree: plates of three colours that flake off.
+/// Paints 1.6 m x 1.6 m of the bark of a plane tree: long flakes of four tones with uneven rims.
 TextureMaps bark_plane() {
-  TexturePainter painter(64, 64, {150, 142, 120});
-  for (int i = 0; i < 46; ++i) {
-    const int x = static_cast<int>(hash(i, 0, 75) % 64), y = static_cast<int>(hash(i, 1, 75) % 64);
-    const int w = 5 + static_cast<int>(hash(i, 2, 75) % 9), h = 6 + static_cast<int>(hash(i, 3, 75) % 12);
-    const Rgb color = i % 3 == 0 ? Rgb{112, 108, 88} : i % 3 == 1 ? Rgb{178, 170, 142} : Rgb{134, 130, 104};
-    painter.rect(x + 1, y, x + w - 1, y + h, color);
-    painter.rect(x, y + 1, x + w, y + h - 1, color);
-  }
-  painter.speckle(6, 76);
+  constexpr int size = 128, cell = 16;
+  TexturePainter painter(size, size, {0, 0, 0});
+  static constexpr std::array<Rgb, 4> tones{
+      {{126, 118, 96}, {154, 146, 120}, {170, 162, 136}, {138, 130, 106}}};
+  // Each flake is the surroundings of a point of a shaken grid. Rims wander by two pixels.
+  const auto point = [](int column, int row, int axis) {
+    const int wrapped = hash((column + 8) % 8, (row + 8) % 8, 75 + static_cast<uint32_t>(axis)) % cell;
+    return cell * (axis == 0 ? column : row) + wrapped;
+  };
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const int px = x + static_cast<int>(hash(x / 4, y / 4, 77) % 5) - 2,
+                py = y + static_cast<int>(hash(x / 4, y / 4, 78) % 5) - 2;
+      int nearest = 1 << 30, second = 1 << 30;
+      uint32_t flake = 0;
+      for (int row = y / cell - 2; row <= y / cell + 2; ++row)
+        for (int column = x / cell - 1; column <= x / cell + 1; ++column) {
+          const int dx = point(column, row, 0) - px, dy = point(column, row, 1) - py;
+          const int far = 3 * dx * dx + dy * dy;
+          if (far < nearest) {
+            second = nearest;
+            nearest = far;
+            flake = hash((column + 8) % 8, (row + 8) % 8, 79);
+          } else {
+            second = std::min(second, far);
+          }
+        }
+      Rgb color = tones[flake % tones.size()];
+      const int rim = second - nearest < 24 ? -18 : 0;
+      color = {color.r + rim, color.g + rim, color.b + rim};
+      painter.rect(x, y, x + 1, y + 1, color);
+    }
+  painter.blotches(32, 7, 74);
+  painter.speckle(7, 76);
   return painter.maps();
 }
 
@@ -173,6 +200,41 @@ TextureMaps brick() {
   return painter.maps();
 }
 
+/// Paints 1.2 m x 1.3 m of a cabinet's front: two doors that meet at u = 0, louvres, locks, a sticker, a
+/// scrawl that somebody has half wiped off, and dirt that splashed up from v = 0.
+TextureMaps cabinet() {
+  TexturePainter painter(128, 128, {186, 190, 186});
+  painter.blotches(64, 7, 791);
+  painter.blotches(16, 4, 792);
+  for (const int left : {6, 70}) {
+    for (int slat = 0; slat < 5; ++slat) {
+      painter.shade(left + 12, 16 + 6 * slat, left + 40, 18 + 6 * slat, -58);
+      painter.shade(left + 12, 18 + 6 * slat, left + 40, 19 + 6 * slat, 22);
+    }
+  }
+  painter.rect(76, 66, 92, 76, {214, 196, 60});
+  painter.text("8", 84, 71, 12, 6, 2, {40, 40, 38});
+  painter.rect(4, 66, 7, 74, {64, 66, 68});
+  // A scrawl: two waves of spray paint.
+  for (int i = 0; i < 88; ++i) {
+    const int wave = std::abs(i % 22 - 11);
+    for (const int line : {0, 1})
+      for (int dy = 0; dy < 3; ++dy)
+        painter.mix(22 + i, 84 + (line == 0 ? wave : 13 - wave / 2) + dy,
+                    line == 0 ? Rgb{52, 60, 96} : Rgb{120, 56, 66}, 9 - i / 16);
+  }
+  painter.shade(0, 2, 1, 128, -74);  // the joint of the doors
+  painter.shade(1, 2, 2, 128, 18);
+  painter.shade(63, 2, 65, 128, -26);
+  for (int x = 0; x < 128; ++x) {
+    const int high = 10 + static_cast<int>(hash(x / 5, 0, 793) % 13);
+    for (int k = 0; k < high; ++k) painter.shade(x, 127 - k, x + 1, 128 - k, -58 * (high - k) / high);
+    if (hash(x, 1, 794) % 9 == 0)  // rust and rain from the lid
+      painter.shade(x, 2, x + 1, 10 + static_cast<int>(hash(x, 2, 795) % 40), -10);
+  }
+  return painter.maps();
+}
+
 }  // namespace
 
 TextureMaps make_texture(const std::string& name) {
@@ -186,6 +248,11 @@ TextureMaps make_texture(const std::string& name) {
       {"crop", crop},
       {"leaves", leaves},
       {"leaf_sprays", leaf_sprays},
+      {"leaves_pale", leaves_pale},
+      {"leaf_sprays_pale", leaf_sprays_pale},
+      {"twigs", twigs},
+      {"twig_sprays", twig_sprays},
+      {"fallen_leaves", fallen_leaves},
       {"needle_sprays", needle_sprays},
       {"grass_tufts", grass_tufts},
       {"solar", solar},
@@ -223,6 +290,7 @@ TextureMaps make_texture(const std::string& name) {
       {"tree_grate", tree_grate},
       {"mesh_fence", mesh_fence},
       {"plinth", plinth},
+      {"cabinet", cabinet},
   };
   const auto found = painters.find(name);
   GREATX_CHECK(found != painters.end(), "no texture called \"{}\"", name);

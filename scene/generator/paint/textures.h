@@ -51,6 +51,15 @@ TextureMaps leaves();
 TextureMaps leaf_sprays();
 /// Paints four boughs with needles, each some 1.5 m long, from the lower edge of their quarters upwards.
 TextureMaps needle_sprays();
+// Those of autumn are pale, since the material colours them. In winter twigs stand in place of leaves.
+TextureMaps leaves_pale();
+TextureMaps leaf_sprays_pale();
+/// Paints 3 m x 3 m of twigs with holes between them.
+TextureMaps twigs();
+/// Paints four sprays of twigs, each some 1.5 m wide, from the lower edge of their quarters upwards.
+TextureMaps twig_sprays();
+/// Paints four drifts of leaves on the ground, each some 2.4 m wide.
+TextureMaps fallen_leaves();
 /// Paints four tufts of grass, each some 0.8 m wide, which stand on the lower edges of their quarters.
 TextureMaps grass_tufts();
 
@@ -78,7 +87,7 @@ TextureMaps facade_ribbon();
 TextureMaps facade_glass();
 TextureMaps facade_metal();
 TextureMaps facade_balcony();
-/// Paints four shops of 6.0 m x 4.2 m.
+/// Paints six shops of 6.0 m x 4.2 m, each with its name over the window.
 TextureMaps shopfront();
 /// Paints four bays of 4.0 m x 3.0 m of a farmhouse: whitewash and small windows.
 TextureMaps farm_wall();

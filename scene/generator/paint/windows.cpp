@@ -92,10 +92,14 @@ void window(TexturePainter& painter, int x0, int y0, int x1, int y1, const Windo
 void streaks(TexturePainter& painter, int x0, int x1, int y, uint32_t seed) {
   for (int x = x0; x < x1; ++x) {
     const uint32_t h = hash(x / 2, y, seed);
-    if (h % 4 != 0) continue;
-    const int length = 8 + static_cast<int>(h / 4 % 24);
-    painter.shade(x, y, x + 1, y + length, -7);
-    painter.shade(x, y, x + 1, y + length / 2, -5);
+    if (h % 3 != 0) continue;
+    // Some streaks run far down. A few are the rust of a screw.
+    const int length = 8 + static_cast<int>(h / 4 % (h / 128 % 7 == 0 ? 60 : 26));
+    const bool rust = h / 1024 % 23 == 0;
+    for (int k = 0; k < length; ++k) {
+      const int soot = 14 * (length - k) / length;
+      painter.add(x, y + k, rust ? Rgb{-soot / 2, -2 * soot, -3 * soot} : Rgb{-soot, -soot, -soot});
+    }
   }
 }
 

@@ -19,6 +19,7 @@
 #include "scene/place/assemble/bands.h"
 #include "scene/place/assemble/building_mesh.h"
 #include "scene/place/assemble/picture_cover.h"
+#include "scene/place/assemble/street_network.h"
 #include "scene/place/buildings/complex.h"
 #include "scene/place/buildings/make_buildings.h"
 #include "scene/place/ground/bridges.h"
@@ -181,6 +182,9 @@ class Assembly {
         input_, config_.vegetation, out_.ground, covers, box,
         [&](const dvec2& p) { return built.at(p) != Cover::base; },
         [&](const dvec2& p) { return terrain_->height_at(p); }, out_.report.findings);
+    streets_ = place_streets(
+        input_, out_.ground, box, [&](const dvec2& p) { return terrain_->height_at(p); },
+        [&](const dvec2& p) { return built.at(p) != Cover::base; });
   }
 
   void write() {
@@ -209,7 +213,15 @@ class Assembly {
             member("source", objects_.hedges[i].source) + "," + member("source_id", objects_.hedges[i].id),
             "objects");
     write_objects(writer);
-    out_.glb = writer.finish(config_.name, georeference_extras(input_.reference));
+    out_.glb = writer.finish(config_.name, extras());
+  }
+
+  /// Where the place lies on the Earth, and its streets if there are any.
+  std::string extras() const {
+    std::string json = georeference_extras(input_.reference);
+    if (streets_.lanes.empty() && streets_.walks.empty()) return json;
+    json.pop_back();  // of its closing brace
+    return fmt::format(R"({},"{}":{}}})", json, street_network_key, street_network_json(streets_));
   }
 
   /// Returns a name that no other node has.
@@ -404,6 +416,7 @@ class Assembly {
   Complex complex_;
   std::optional<TerrainMesh> terrain_;
   ObjectPlan objects_;
+  StreetNetwork streets_;
   bool streets_unknown_ = false;
   std::set<std::string> names_;
   std::map<std::string, SemanticClass> ground_class_;

@@ -91,6 +91,8 @@ GnssConfig parse_gnss(const FieldMap& map) {
   if (const auto f = map.find("mask_deg")) gnss.receiver.mask = radians(f->between(0.0, 90.0));
   if (const auto f = map.find("most_pdop")) gnss.receiver.most_pdop = f->between(1.0, 1e6);
   if (const auto f = map.find("reflections")) gnss.reflections = f->boolean();
+  if (const auto f = map.find("integrity")) gnss.receiver.integrity = f->boolean();
+  if (const auto f = map.find("false_alarm")) gnss.receiver.false_alarm = f->between(1e-12, 0.5);
   if (const auto f = map.find("errors")) parse_gnss_errors(*f, gnss.receiver.errors);
   return gnss;
 }

@@ -22,6 +22,7 @@ constexpr std::array semantic_classes = {"unlabeled",   "ground", "road",    "pa
 /// library does not link, has the same lists. A test compares them.
 std::vector<std::string_view> variants_of(const std::string& kind) {
   if (kind == "car") return {"hatchback", "van"};
+  if (kind == "city" || kind == "country") return {"summer", "spring", "autumn", "winter"};
   if (kind == "room") return {"bare", "office"};
   std::vector<std::string_view> names;
   for (const TrafficVariant& variant : traffic_variants())
@@ -38,13 +39,18 @@ Generated parse_generated(const Field& field) {
   Generated generated;
   generated.kind = kinds[kind];
   if (kind == city || kind == country || kind == canyon) {  // the others look the same for every seed
-    const FieldMap map(field, {"kind", "seed", "size_m"});
+    const FieldMap map(
+        field, kind == canyon ? Keys{"kind", "seed", "size_m"} : Keys{"kind", "seed", "size_m", "season"});
     if (const auto f = map.find("seed")) generated.seed = f->integer(0);
     if (const auto f = map.find("size_m"))
       generated.size_m = f->between(kind == canyon    ? 60.0
                                     : kind == country ? 160.0
                                                       : 100.0,
                                     kind == country ? 2000.0 : 1000.0);
+    if (kind == canyon) return generated;
+    const std::vector<std::string_view> seasons = variants_of(generated.kind);
+    generated.variant = seasons.front();
+    if (const auto f = map.find("season")) generated.variant = seasons[f->choice(seasons)];
     return generated;
   }
   if (kind == mast) {

@@ -100,7 +100,7 @@ SensorParsers sensor_parsers() {
           Keys{"device", "samples_per_record", "output", "earth_rotation", "accelerometer", "gyroscope"},
       [](const FieldMap& map, const SensorContext&) -> SensorSettings { return parse_imu(map); }};
   parsers[sensor_kind_index<GnssConfig>()] = {
-      mounted + Keys{"time", "mask_deg", "most_pdop", "reflections", "errors"},
+      mounted + Keys{"time", "mask_deg", "most_pdop", "reflections", "integrity", "false_alarm", "errors"},
       [](const FieldMap& map, const SensorContext&) -> SensorSettings { return parse_gnss(map); }};
   parsers[sensor_kind_index<BarometerConfig>()] = {
       mounted + Keys{"sea_level_hpa", "noise_pa", "bias_pa", "drift_pa", "drift_time_s", "resolution_pa"},

@@ -44,6 +44,9 @@ GnssSensor::GnssSensor(const Experiment& experiment, uint32_t node, uint32_t sen
                           {"mask_deg", degrees(gnss_config_.receiver.mask)},
                           {"most_pdop", gnss_config_.receiver.most_pdop},
                           {"reflections", gnss_config_.reflections},
+                          {"integrity", gnss_config_.receiver.integrity},
+                          {"false_alarm", gnss_config_.receiver.false_alarm},
+                          {"integrity_states", {"unknown", "agree", "disagree"}},
                           {"satellite_states", {"below the mask", "direct", "reflected", "blocked"}},
                           {"errors",
                            {{"code_m", e.code_m},
@@ -58,7 +61,7 @@ GnssSensor::GnssSensor(const Experiment& experiment, uint32_t node, uint32_t sen
                             {"troposphere_time_s", e.troposphere_time_s}}},
                           {"non_finite",
                            {"position", "geodetic", "velocity", "position_covariance", "velocity_covariance",
-                            "dop", "pseudorange_error", "range_rate_error"}}};
+                            "dop", "pseudorange_error", "range_rate_error", "satellite_cn0"}}};
   for (size_t i = 0; i < navigation::satellite_count; ++i)
     metadata["satellites"].push_back(navigation::slot_name(i));
   describe(std::move(metadata));
@@ -73,17 +76,21 @@ void GnssSensor::declare_arrays() {
   declare("velocity_covariance", DType::f64, {3, 3}, "m^2/s^2", "[xyz, xyz] as the receiver takes it");
   declare("dop", DType::f64, {5}, "1", "[geometry position horizontal vertical time] dilution of precision");
   declare("fix", DType::u8, {1}, "1", "1: position and velocity are known; 0: they are not");
-  declare("satellites_used", DType::u8, {1}, "1", "satellites tracked");
+  declare("satellites_used", DType::u8, {1}, "1", "satellites of the fix, or tracked without one");
+  declare("integrity", DType::u8, {1}, "1", "ranges: 0 not checked, 1 agree, 2 disagree (wider covariance)");
   declare("position_true", DType::f64, {3}, "m", "[xyz] position of the antenna in the world");
   declare("geodetic_true", DType::f64, {3}, "deg, deg, m", "[latitude longitude height] of the antenna");
   declare("velocity_true", DType::f64, {3}, "m/s", "[xyz] velocity of the antenna in the world");
   declare("satellite_state", DType::u8, {satellites}, "1",
           "[satellite] 0 below the mask, 1 direct, 2 reflected, 3 blocked");
+  declare("satellite_used", DType::u8, {satellites}, "1", "[satellite] 1: of the fix; 0: it is not");
   declare("satellite_azimuth", DType::f64, {satellites}, "rad",
           "[satellite] from x (east) towards y (north)");
   declare("satellite_elevation", DType::f64, {satellites}, "rad", "[satellite] above the horizon");
   declare("pseudorange_error", DType::f64, {satellites}, "m", "[satellite] NaN if it is not tracked");
   declare("range_rate_error", DType::f64, {satellites}, "m/s", "[satellite] NaN if it is not tracked");
+  declare("satellite_cn0", DType::f64, {satellites}, "dB-Hz",
+          "[satellite] measured carrier-to-noise density; NaN if it is not tracked");
 }
 
 void GnssSensor::begin(uint32_t sequence) {
@@ -110,14 +117,16 @@ std::vector<Array> GnssSensor::measure(const TickContext& context) {
   }
   ++records_;
   fixes_ += epoch.fix.has_value();
-  std::vector<uint8_t> states;
-  std::vector<double> azimuths, elevations, range_errors, rate_errors;
+  std::vector<uint8_t> states, used;
+  std::vector<double> azimuths, elevations, range_errors, rate_errors, strengths;
   for (const navigation::SatelliteView& view : epoch.satellites) {
     states.push_back(static_cast<uint8_t>(view.path.state));
     azimuths.push_back(view.azimuth);
     elevations.push_back(view.elevation);
     range_errors.push_back(view.range_error_m);
     rate_errors.push_back(view.rate_error);
+    strengths.push_back(view.cn0);
+    used.push_back(view.used ? 1 : 0);
     direct_ += view.path.state == navigation::SignalPath::State::direct;
     reflected_ += view.path.state == navigation::SignalPath::State::reflected;
     blocked_ += view.path.state == navigation::SignalPath::State::blocked;
@@ -137,11 +146,13 @@ std::vector<Array> GnssSensor::measure(const TickContext& context) {
   arrays.push_back(Array::of<double>({5}, dop));
   arrays.push_back(byte(epoch.fix.has_value()));
   arrays.push_back(byte(epoch.used));
+  arrays.push_back(byte(static_cast<size_t>(epoch.integrity)));
   arrays.push_back(array_of_vector(antenna.pose.position));
   arrays.push_back(array_of_vector(vector_of(place_.frame.place(antenna.pose.position))));
   arrays.push_back(array_of_vector(antenna.velocity));
   arrays.push_back(Array::of<uint8_t>({satellites}, states));
-  for (const std::vector<double>* column : {&azimuths, &elevations, &range_errors, &rate_errors})
+  arrays.push_back(Array::of<uint8_t>({satellites}, used));
+  for (const std::vector<double>* column : {&azimuths, &elevations, &range_errors, &rate_errors, &strengths})
     arrays.push_back(Array::of<double>({satellites}, *column));
   return arrays;
 }

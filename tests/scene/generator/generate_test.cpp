@@ -15,6 +15,7 @@
 #include "scene/generator/city/city.h"
 #include "scene/generator/mesh/materials.h"
 #include "scene/generator/mesh/mesh_builder.h"
+#include "scene/generator/paint/lettering.h"
 #include "scene/generator/paint/textures.h"
 #include "tests/scene/generator/soup.h"
 
@@ -64,12 +65,14 @@ TEST(Generate, RotationsAreFloats) {
 }
 
 TEST(Generate, EmptyVariantIsTheFirst) {
-  for (const std::string kind : {"car", "quadrotor"}) {
+  for (const std::string kind : {"car", "quadrotor", "city", "country"}) {
     const std::vector<std::string> variants = generator_variants(kind);
-    const auto first = generate_glb({.kind = kind, .variant = variants[0]});
-    EXPECT_EQ(generate_glb({.kind = kind}), first);
-    for (size_t i = 1; i < variants.size(); ++i)
-      EXPECT_NE(generate_glb({.kind = kind, .variant = variants[i]}), first);
+    const auto make = [&](const std::string& variant) {
+      return generate_glb({.kind = kind, .size_m = 160, .variant = variant});
+    };
+    const auto first = make(variants[0]);
+    EXPECT_EQ(make(""), first);
+    for (size_t i = 1; i < variants.size(); ++i) EXPECT_NE(make(variants[i]), first);
   }
 }
 
@@ -83,7 +86,9 @@ TEST(Generate, NamesWhatIsAllowed) {
   EXPECT_THAT(message_of({.kind = "car", .variant = "tank"}),
               AllOf(HasSubstr("hatchback, van"), HasSubstr("tank")));
   EXPECT_THAT(message_of({.kind = "quadrotor", .variant = "huge"}), HasSubstr("medium, small, large"));
-  EXPECT_THAT(message_of({.kind = "city", .variant = "x"}), HasSubstr("has none"));
+  EXPECT_THAT(message_of({.kind = "mast", .variant = "x"}), HasSubstr("has none"));
+  EXPECT_THAT(message_of({.kind = "city", .variant = "monsoon"}),
+              AllOf(HasSubstr("season of city"), HasSubstr("summer, spring, autumn, winter")));
   EXPECT_THAT(message_of({.kind = "city", .size_m = 99}), AllOf(HasSubstr("100 to 1000"), HasSubstr("99")));
   EXPECT_THAT(message_of({.kind = "city", .size_m = 1001}), HasSubstr("100 to 1000"));
   EXPECT_THAT(message_of({.kind = "country", .size_m = 2001}), HasSubstr("160 to 2000"));
@@ -189,6 +194,36 @@ TEST(Generate, LibraryNamesAreUniqueAndTexturesExist) {
   }
   EXPECT_THROW(generator::material("unobtainium"), ContractError);
   EXPECT_THROW(generator::make_texture("unobtainium"), ContractError);
+}
+
+TEST(Lettering, EveryGlyphHasInkWithinItsGrid) {
+  std::set<std::vector<int>> shapes;
+  for (const char letter : std::string("ABCDEFGHIJKLMNOPQRSTUVWXYZ123456789")) {
+    std::vector<int> shape;
+    generator::write_text(std::string(1, letter), 10, 20, 24, 2, [&](int x, int y, int share) {
+      // An I has no room at its left.
+      EXPECT_GE(x, letter == 'I' ? 4 : 8) << letter;
+      EXPECT_LE(x, 10 + 16 + 2) << letter;
+      EXPECT_GE(y, 18) << letter;
+      EXPECT_LE(y, 46) << letter;
+      EXPECT_GE(share, 1) << letter;
+      EXPECT_LE(share, 16) << letter;
+      shape.insert(shape.end(), {x, y, share});
+    });
+    // A stroke as long as the letter is high, 2 pixels wide.
+    EXPECT_GT(shape.size() / 3, 40u) << letter;
+    EXPECT_TRUE(shapes.insert(shape).second) << letter << " looks like another glyph";
+  }
+  EXPECT_EQ(generator::text_width("BOOKS", 18), 5 * 18);
+  EXPECT_THROW(generator::write_text("a", 0, 0, 10, 1, [](int, int, int) {}), ContractError);
+}
+
+// A stroke down of 24 pixels with round ends: its area is 24 * 4 + pi * 2^2, of which the samples see the
+// pixels' shares.
+TEST(Lettering, AStrokeHasItsArea) {
+  int sixteenths = 0;
+  generator::write_text("I", 0, 10, 24, 4, [&](int, int, int share) { sixteenths += share; });
+  EXPECT_NEAR(sixteenths / 16.0, 24.0 * 4.0 + 3.14159 * 4.0, 1.0);
 }
 
 class Painted : public ::testing::TestWithParam<const char*> {};

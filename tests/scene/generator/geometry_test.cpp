@@ -32,6 +32,9 @@ std::vector<GenerateOptions> everything() {
                                        {.kind = "quadrotor", .variant = "small"},
                                        {.kind = "quadrotor", .variant = "medium"},
                                        {.kind = "quadrotor", .variant = "large"}};
+  for (const char* kind : {"city", "country"})
+    for (const char* season : {"spring", "autumn", "winter"})
+      list.push_back({.kind = kind, .seed = 3, .size_m = 200, .variant = season});
   for (const char* kind : {"vehicle", "person"})
     for (const std::string& variant : generator_variants(kind))
       list.push_back({.kind = kind, .seed = 3, .variant = variant});

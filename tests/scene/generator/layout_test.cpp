@@ -155,6 +155,27 @@ TEST(City, CrownsLeaveRoomForLorries) {
   }
 }
 
+TEST(City, ItsExtrasKeepTheirBudgets) {
+  size_t scaffolds = 0, fences = 0;
+  for (const uint64_t seed : {1u, 2u, 3u, 5u, 7u, 11u}) {
+    const Soup soup = load_soup({.kind = "city", .seed = seed, .size_m = 300});
+    std::map<std::string, size_t> triangles;
+    for (const SoupTriangle& t : soup.triangles) ++triangles[soup.model.instances[t.instance].name];
+    size_t extra = 0;
+    for (const auto& [name, count] : triangles) {
+      const bool scaffold = name.ends_with("_scaffold"), fence = name.starts_with("site_fence_");
+      scaffolds += scaffold;
+      fences += fence;
+      if (scaffold || fence || name.starts_with("grass_")) extra += count;
+    }
+    EXPECT_GT(triangles["grass_000"], 200u) << "seed " << seed;
+    EXPECT_LE(triangles["grass_000"], 600u) << "seed " << seed;
+    EXPECT_LE(extra, 3500u) << "seed " << seed;
+  }
+  EXPECT_GE(scaffolds, 3u);
+  EXPECT_GE(fences, scaffolds);
+}
+
 TEST(City, NothingStandsWherePeopleWalk) {
   // People walk within 0.6 m of a line at these distances from the kerb (city_street.h).
   for (const uint64_t seed : {1u, 7u}) {

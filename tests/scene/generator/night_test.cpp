@@ -232,10 +232,10 @@ TEST(Night, ADrivingCarHasLowBeamsAndTailLights) {
       EXPECT_EQ(head.type, PunctualLight::Type::spot);
       EXPECT_NEAR(candelas(head, 0.0), 12000.0, 30.0);
       const double tilt = -std::asin(head.direction.z) * 180.0 / pi;
-      EXPECT_GT(tilt, 1.0);
-      EXPECT_LT(tilt, 2.0);
+      EXPECT_NEAR(tilt, 0.573, 1e-3) << "the elbow of the cut-off lies 1 % below the horizon";
+      EXPECT_EQ(head.beam, PunctualLight::Beam::passing);
       EXPECT_GT(head.direction.x, 0.99);
-      EXPECT_LE(head.outer_cone, 0.44f);
+      EXPECT_LE(head.outer_cone, 0.62f);
       EXPECT_EQ(head.range_m, 60.0f);
       EXPECT_LT(candelas(tail, 0.0), 10.0);
       EXPECT_GT(tail.color.r, 20.0f * tail.color.g);

@@ -4,17 +4,16 @@
 // Satellites, dilutions, positions from ranges, and the errors of a receiver.
 #include "sim/navigation/gnss.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/units.h"
+#include "tests/sim/navigation/gnss_places.h"
 
 namespace greatx::navigation {
 namespace {
-
-constexpr double noon_unix_s = 1782043200.0;  // 2026-06-21T12:00:00Z
-const Georeference delft{{52.0, 4.37, 45.0}, 43.0, "NAP"};
 
 Sky open_sky() {
   return [](const dvec3&) { return SignalPath{}; };
@@ -224,18 +223,35 @@ TEST(Gnss, AReflectedPathIsLongerByTheImagesDistance) {
   EXPECT_NEAR(path.excess_m, image, 1e-5);
 }
 
-TEST(Gnss, AReflectionMovesThePositionAndIsNotInTheCovariance) {
+TEST(Gnss, AReflectionMovesThePositionOfAReceiverThatBelievesItAndIsNotInTheCovariance) {
   const LocalFrame frame(delft);
   const auto one_reflected = [](const dvec3& direction) {
     SignalPath path;
     if (direction.x > 0.0 && direction.z < 0.7) path = {SignalPath::State::reflected, 40.0, 0.0};
     return path;
   };
-  Gnss gnss(without_errors(), frame, 1, "g", 0, 1.0);
+  GnssReceiver believer = without_errors();
+  believer.integrity = false;
+  Gnss gnss(believer, frame, 1, "g", 0, 1.0), checked(without_errors(), frame, 1, "g", 0, 1.0);
   const GnssEpoch epoch = gnss.measure(noon_unix_s, {}, {}, one_reflected, 0);
   ASSERT_TRUE(epoch.fix);
   EXPECT_GT(glm::length(epoch.fix->position_m), 5.0);
   EXPECT_LT(epoch.fix->position_covariance[0][0], 1e-9);
+  EXPECT_EQ(epoch.integrity, Integrity::unknown);
+  // One that checks its ranges leaves a single reflection out.
+  const SatelliteView& chosen = *std::ranges::find(epoch.satellites, true, &SatelliteView::used);
+  const Sky single = [&](const dvec3& direction) {
+    return std::abs(std::asin(direction.z) - chosen.elevation) < 1e-12
+               ? SignalPath{SignalPath::State::reflected, 40.0, 0.0}
+               : SignalPath{};
+  };
+  const GnssEpoch without = checked.measure(noon_unix_s, {}, {}, single, 0);
+  ASSERT_TRUE(without.fix);
+  EXPECT_LT(glm::length(without.fix->position_m), 1e-6);
+  EXPECT_EQ(without.integrity, Integrity::agree);
+  EXPECT_EQ(without.used + 1, epoch.used);
+  for (const SatelliteView& view : without.satellites)
+    EXPECT_EQ(view.used, view.path.state == SignalPath::State::direct);
 }
 
 TEST(Gnss, ObliquitiesAreOneAtTheZenithAndGrowTowardsTheHorizon) {

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lists what a camera draws: the primitives of a scene in pieces, each of which takes one draw. Most objects
+// have a few triangles of each material, so a primitive for itself is a small draw.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+#include "renderer/camera/camera_view.h"
+#include "scene/description/scene.h"
+
+namespace greatx::render {
+
+/// Primitives of one body that follow one another.
+struct DrawPiece {
+  uint32_t first_index = 0, index_count = 0;
+  uint32_t body = 0;
+  uint32_t primitive = 0;  ///< the first of them
+  /// The piece belongs to closed surfaces (renderer/surface/closed_bodies.h). Seen from outside of them, its
+  /// back faces need not be drawn.
+  bool closed = false;
+  scene::Bounds hull;  ///< of these surfaces, if they stand still
+  dvec3 center{0.0};   ///< of the bounding sphere, in the body's frame
+  double radius = 0.0;
+};
+
+class DrawList {
+ public:
+  /// `closed` has a value for each body, `closed_instances` for each instance of the static world. The body
+  /// `excluded` and its parts are left out. With `alpha_mask`, primitives with holes are listed apart.
+  DrawList(const scene::Scene& scene, const std::vector<bool>& closed,
+           const std::vector<bool>& closed_instances, std::optional<uint32_t> excluded, bool alpha_mask);
+
+  /// Opaque pieces of the static world. Primitives share a piece if its sphere stays small, or hardly larger
+  /// than the largest of theirs.
+  std::span<const DrawPiece> still() const { return still_; }
+  std::span<const DrawPiece> moving() const { return moving_; }  ///< opaque
+  std::span<const DrawPiece> masked() const { return masked_; }  ///< one primitive each
+  bool any_closed() const;                                       ///< of those that move
+  bool any_closed_still() const;                                 ///< of the static world
+
+  /// What the materials of the listed primitives need.
+  bool textured() const { return textured_; }
+  bool normal_mapped() const { return normal_mapped_; }
+  bool emissive() const { return emissive_; }
+
+ private:
+  void add(std::vector<DrawPiece>& pieces, DrawPiece next, bool any_size);
+
+  const scene::Scene* scene_;
+  std::vector<DrawPiece> still_, moving_, masked_;
+  bool textured_ = false, normal_mapped_ = false, emissive_ = false;
+};
+
+/// Returns whether a view sees a closed piece of the static world from outside, so that front faces hide its
+/// back faces, and the nearest visible depth cuts no front face off.
+bool sees_from_outside(const DrawPiece& piece, const CameraView& view);
+
+/// Returns the numbers of the pieces that the view may see, front to back. `poses` has one for each body.
+std::vector<uint32_t> visible_pieces(std::span<const DrawPiece> pieces, std::span<const Pose> poses,
+                                     const CameraView& view);
+
+}  // namespace greatx::render
