@@ -70,6 +70,22 @@ TEST(TrafficScenario, DrawsFromItsMix) {
   EXPECT_NEAR(taxis, 300, 40);  // 4.6 standard deviations
 }
 
+/// Few streets of other scenes are wide enough for buses.
+TEST(TrafficScenario, LongVehiclesAreOfGeneratedCitiesAlone) {
+  const auto longest = [](std::string text) {
+    double most_m = 0.0;
+    for (const TrafficMember& member : parse_scenario(text, "test.yaml", ".", "").traffic->members)
+      for (const TrafficVariant& variant : traffic_variants())
+        if (variant.name == member.variant) most_m = std::max(most_m, variant.length_m);
+    return most_m;
+  };
+  const std::string text = city("{vehicles: 400}");
+  EXPECT_EQ(longest(text), 12.0) << "a bus";
+  const size_t kind = text.find("kind: city");
+  ASSERT_NE(kind, std::string::npos);
+  EXPECT_LE(longest(std::string(text).replace(kind, 10, "kind: canyon")), 6.0);
+}
+
 TEST(TrafficScenario, RefusesWhatIsWrong) {
   EXPECT_THAT(message_of(city("{vehicles: -1}")), HasSubstr("test.yaml:7: traffic.vehicles: expected"));
   EXPECT_THAT(message_of(city("{cars: 1}")), HasSubstr("traffic.cars"));

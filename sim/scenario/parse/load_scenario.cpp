@@ -102,6 +102,12 @@ void check_names(const Field& root, const Scenario& scenario) {
                             node.name);
 }
 
+bool is_generated_city(const SceneConfig& scene) {
+  if (scene.objects.empty()) return false;
+  const auto* const made = std::get_if<Generated>(&scene.objects.front().model.source);
+  return made != nullptr && made->kind == "city";
+}
+
 }  // namespace
 
 Scenario parse_scenario(const std::string& text, const std::string& name, const std::filesystem::path& folder,
@@ -124,7 +130,8 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   if (const auto f = map.find("environment"))
     scenario.environment = parse_environment(*f, scenario.scene.georeference, scenario.warnings);
   if (const auto f = map.find("traffic"))
-    scenario.nodes = parse_traffic(*f, scenario.seed, scenario.traffic.emplace());
+    scenario.nodes =
+        parse_traffic(*f, scenario.seed, is_generated_city(scenario.scene), scenario.traffic.emplace());
   if (const auto f = map.find("nodes"))
     scenario.nodes = parse_nodes(*f, scenario.tick_rate_hz, EarthPositions(scenario.scene), scenario.nodes);
   if (const auto f = map.find("channels")) {

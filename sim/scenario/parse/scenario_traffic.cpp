@@ -3,6 +3,7 @@
 //
 // Parses `traffic`, and makes a node of everyone who takes part.
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "core/expected.h"
@@ -16,6 +17,8 @@ namespace greatx::sim {
 namespace {
 
 constexpr uint32_t most_members = 5000;
+/// Longer vehicles need streets on which their body stays in its lane, as sim/traffic has it.
+constexpr double narrow_street_m = 6.0;
 constexpr uint32_t mix_stream = 0x6d697874;  // apart from the streams of nodes' names
 constexpr uint32_t looks = 12;               // of each variant
 
@@ -33,14 +36,16 @@ std::vector<std::pair<std::string, double>> parse_mix(const Field& field) {
   return mix;
 }
 
-/// Returns the shares of the variants of one kind: those of the mix if it names one of them.
-std::vector<std::pair<std::string, double>> shares_of(
-    Kind kind, const std::vector<std::pair<std::string, double>>& mix) {
+/// Returns the shares of the variants of one kind: those of the mix if it names one of them, else those of
+/// the variants that are not longer than most_m.
+std::vector<std::pair<std::string, double>> shares_of(Kind kind,
+                                                      const std::vector<std::pair<std::string, double>>& mix,
+                                                      double most_m) {
   std::vector<std::pair<std::string, double>> shares, standard;
   double sum = 0.0;
   for (const TrafficVariant& variant : traffic_variants()) {
     if (variant.kind != kind) continue;
-    standard.emplace_back(variant.name, variant.share);
+    if (variant.length_m <= most_m) standard.emplace_back(variant.name, variant.share);
     for (const auto& [name, share] : mix)
       if (name == variant.name) {
         shares.emplace_back(name, share);
@@ -71,7 +76,7 @@ NodeConfig node_of(const std::string& name, Kind kind, const std::string& varian
   return node;
 }
 
-std::vector<NodeConfig> simulated(const FieldMap& map, TrafficConfig& traffic) {
+std::vector<NodeConfig> simulated(const FieldMap& map, bool wide_streets, TrafficConfig& traffic) {
   std::vector<NodeConfig> nodes;
   const auto mix =
       map.has("mix") ? parse_mix(*map.find("mix")) : std::vector<std::pair<std::string, double>>();
@@ -80,7 +85,8 @@ std::vector<NodeConfig> simulated(const FieldMap& map, TrafficConfig& traffic) {
     const auto field = map.find(key);
     if (!field) return;
     const uint32_t count = field->integer32(0, most_members);
-    const auto shares = shares_of(kind, mix);
+    const auto shares =
+        shares_of(kind, mix, wide_streets ? std::numeric_limits<double>::infinity() : narrow_street_m);
     for (uint32_t i = 0; i < count; ++i) {
       const auto number = static_cast<uint32_t>(traffic.members.size());
       traffic.members.push_back({kind, drawn(shares, random), number});
@@ -143,7 +149,8 @@ std::vector<NodeConfig> recorded(const FieldMap& map, TrafficConfig& traffic) {
 
 }  // namespace
 
-std::vector<NodeConfig> parse_traffic(const Field& field, uint64_t seed, TrafficConfig& traffic) {
+std::vector<NodeConfig> parse_traffic(const Field& field, uint64_t seed, bool wide_streets,
+                                      TrafficConfig& traffic) {
   const FieldMap map(field, {"vehicles", "cyclists", "pedestrians", "seed", "warm_up_s", "limbs", "mix",
                              "fcd", "xosc", "offset_m", "start_s", "types"});
   traffic.where = field.where();
@@ -158,7 +165,7 @@ std::vector<NodeConfig> parse_traffic(const Field& field, uint64_t seed, Traffic
   if (map.has("fcd") || map.has("xosc")) return recorded(map, traffic);
   for (const char* key : {"offset_m", "start_s", "types"})
     if (const auto f = map.find(key)) f->fail("a 'fcd' or 'xosc' beside it", "none");
-  return simulated(map, traffic);
+  return simulated(map, wide_streets, traffic);
 }
 
 }  // namespace greatx::sim
