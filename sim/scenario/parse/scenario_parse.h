@@ -87,8 +87,8 @@ void resolve_event_cameras(std::vector<NodeConfig>& nodes);
 /// Parses the nodes. Those of the traffic follow them.
 std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz,
                                     const EarthPositions& earth, const std::vector<NodeConfig>& traffic);
-/// Parses `traffic`. Returns its nodes. `seed` is the scenario's. With `wide_streets`, a scenario without a mix
-/// of its own has vehicles of more than 6 m, too.
+/// Parses `traffic`. Returns its nodes. `seed` is the scenario's. With `wide_streets`, a scenario without a
+/// mix of its own has vehicles of more than 6 m, too.
 std::vector<NodeConfig> parse_traffic(const Field& field, uint64_t seed, bool wide_streets,
                                       TrafficConfig& traffic);
 /// Parse parts of a receiver and of its processing, which radars and sensing channels share.
