@@ -72,9 +72,10 @@ TEST(TrafficScenario, DrawsFromItsMix) {
 
 /// Few streets of other scenes are wide enough for buses.
 TEST(TrafficScenario, LongVehiclesAreOfGeneratedCitiesAlone) {
-  const auto longest = [](std::string text) {
+  const auto longest = [](const std::string& text) {
     double most_m = 0.0;
-    for (const TrafficMember& member : parse_scenario(text, "test.yaml", ".", "").traffic->members)
+    const Scenario scenario = parse_scenario(text, "test.yaml", ".", "");
+    for (const TrafficMember& member : scenario.traffic->members)
       for (const TrafficVariant& variant : traffic_variants())
         if (variant.name == member.variant) most_m = std::max(most_m, variant.length_m);
     return most_m;
