@@ -392,8 +392,9 @@ void CameraPass::draw_pieces(gpu::Cmd& cmd, const CameraView& view, const gpu::G
 /// Draws what is seen from outside without its back faces, and then the rest, most of which is ground.
 void CameraPass::draw_still(gpu::Cmd& cmd, const CameraView& view) {
   std::vector<uint32_t> order = visible(draws_->still(), view);
+  const double room = nearest_room(view);
   const auto rest = std::ranges::stable_partition(
-      order, [&](uint32_t i) { return sees_from_outside(draws_->still()[i], view); });
+      order, [&](uint32_t i) { return sees_from_outside(draws_->still()[i], view.eye, room); });
   const auto closed = static_cast<size_t>(rest.begin() - order.begin());
   draw_pieces(cmd, view, visibility_still_closed_, draws_->still(), std::span(order).first(closed));
   draw_pieces(cmd, view, visibility_still_, draws_->still(), std::span(order).subspan(closed));
@@ -413,8 +414,8 @@ void CameraPass::draw_moving(gpu::Cmd& cmd, const CameraView& view) {
     const DrawPiece& piece = draws_->moving()[i];
     const Pose& pose = lighting_->body_poses()[piece.body];
     // Where the eye is outside of a closed body, its back faces are left out.
-    const double room = piece.radius + 1e-3 + 2.0 * double(view.constants.near_m);
-    const bool culled = piece.closed && glm::distance(pose.apply(piece.center), view.eye) > room;
+    const double room = piece.radius() + 1e-3 + 2.0 * double(view.constants.near_m);
+    const bool culled = piece.closed && glm::distance(pose.apply(piece.center()), view.eye) > room;
     const gpu::GraphicsPipeline& with = culled ? visibility_closed_ : visibility_moving_;
     if (bound != &with) {
       cmd.bind(with);

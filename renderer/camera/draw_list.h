@@ -24,9 +24,11 @@ struct DrawPiece {
   /// The piece belongs to closed surfaces (renderer/surface/closed_bodies.h). Seen from outside of them, its
   /// back faces need not be drawn.
   bool closed = false;
-  scene::Bounds hull;  ///< of these surfaces, if they stand still
-  dvec3 center{0.0};   ///< of the bounding sphere, in the body's frame
-  double radius = 0.0;
+  scene::Bounds hull;    ///< of these surfaces, if they stand still
+  scene::Bounds bounds;  ///< in the body's frame
+  /// The sphere around the bounds.
+  dvec3 center() const { return bounds.center(); }
+  double radius() const { return 0.5 * glm::length(bounds.size()); }
 };
 
 class DrawList {
@@ -50,16 +52,16 @@ class DrawList {
   bool emissive() const { return emissive_; }
 
  private:
-  void add(std::vector<DrawPiece>& pieces, DrawPiece next, bool any_size);
-
-  const scene::Scene* scene_;
   std::vector<DrawPiece> still_, moving_, masked_;
   bool textured_ = false, normal_mapped_ = false, emissive_ = false;
 };
 
-/// Returns whether a view sees a closed piece of the static world from outside, so that front faces hide its
-/// back faces, and the nearest visible depth cuts no front face off.
-bool sees_from_outside(const DrawPiece& piece, const CameraView& view);
+/// Returns how far from the eye the nearest visible depth may cut faces off, with room for roundings.
+double nearest_room(const CameraView& view);
+
+/// Returns whether an eye sees a closed piece of the static world from outside and from more than `room`
+/// (nearest_room), so that front faces hide its back faces, and none of them is cut off.
+bool sees_from_outside(const DrawPiece& piece, const dvec3& eye, double room);
 
 /// Returns the numbers of the pieces that the view may see, front to back. `poses` has one for each body.
 std::vector<uint32_t> visible_pieces(std::span<const DrawPiece> pieces, std::span<const Pose> poses,

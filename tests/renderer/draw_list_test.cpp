@@ -74,11 +74,11 @@ TEST(DrawList, EveryTriangleIsInOnePieceAndItsSphere) {
   const DrawList list = list_of(scene);
   std::vector<int> drawn(scene.indices.size(), 0);
   for (const DrawPiece& piece : list.still()) {
-    EXPECT_LE(piece.radius, std::max(4.0, 1.2 * largest * std::sqrt(3.0) / 2.0));
+    EXPECT_LE(piece.radius(), std::max(4.0, 1.2 * largest * std::sqrt(3.0) / 2.0));
     for (uint32_t i = piece.first_index; i < piece.first_index + piece.index_count; ++i) {
       ++drawn[i];
       const dvec3 vertex(scene.positions[scene.indices[i]]);
-      EXPECT_LE(glm::distance(vertex, piece.center), piece.radius + 1e-6);
+      EXPECT_LE(glm::distance(vertex, piece.center()), piece.radius() + 1e-6);
     }
   }
   EXPECT_THAT(drawn, testing::Each(1));
