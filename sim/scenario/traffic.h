@@ -35,6 +35,9 @@ struct TrafficVariant {
   double share = 0.0;
   double length_m = 0.0;  ///< of scene::VehicleShape; 0: a person
 };
+/// Longer vehicles need streets on which their body stays in its lane (sim/traffic/streets.h).
+inline constexpr double longer_than_m = 6.0;
+
 /// Returns all variants of vehicles, two-wheelers and people. A test compares them with the generator's.
 /// Trams and articulated lorries have share 0: the ways of the city have no room for them.
 const std::vector<TrafficVariant>& traffic_variants();

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scene/network/network.h"
+#include "sim/scenario/traffic.h"
 #include "sim/traffic/curve.h"
 
 namespace greatx::sim {
@@ -24,7 +25,6 @@ struct Extent {
 
 /// Vehicles of more than longer_than_m (buses, lorries) keep to ways on which their body stays.
 enum class VehicleSize : uint8_t { ordinary, longer };
-inline constexpr double longer_than_m = 6.0;
 inline VehicleSize size_of(const Extent& extent) {
   return extent.front_m + extent.rear_m > longer_than_m ? VehicleSize::longer : VehicleSize::ordinary;
 }

@@ -8,8 +8,9 @@
 #include <map>
 #include <string_view>
 
-#include "core/units.h"
 #include "scene/network/ways.h"
+#include "scene/place/assemble/polyline.h"
+#include "scene/place/assemble/walking_lines.h"
 #include "scene/place/input/osm_values.h"
 
 namespace greatx::scene::place {
@@ -20,8 +21,6 @@ constexpr double least_lane_m = 14.0;    // a vehicle waits on it with room on b
 constexpr double most_trim_share = 0.3;  // of an edge at each of its ends
 constexpr double loop_reach_m = 7.0;
 constexpr double pavement_m = 2.1;  // of the walking line's middle from the edge of the carriageway
-constexpr double band_m = 1.3;      // half the width of the band that a walking line surrounds
-constexpr double walks_apart_m = 4.0, off_road_m = 2.0, least_walk_m = 12.0;
 
 struct SpeedRule {
   std::string_view highway;
@@ -33,58 +32,6 @@ constexpr std::array speed_rules{SpeedRule{"motorway", 120}, SpeedRule{"trunk", 
                                  SpeedRule{"service", 20}};
 
 double cross_of(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
-
-double line_length(const std::vector<dvec2>& line) {
-  double length = 0.0;
-  for (size_t i = 1; i < line.size(); ++i) length += glm::distance(line[i - 1], line[i]);
-  return length;
-}
-
-/// Returns the part of a line between two lengths from its start.
-std::vector<dvec2> part_of_line(const std::vector<dvec2>& line, double from_m, double to_m) {
-  std::vector<dvec2> part;
-  double at = 0.0;
-  const auto add = [&](const dvec2& point) {
-    if (part.empty() || glm::distance(part.back(), point) > 0.05) part.push_back(point);
-  };
-  for (size_t i = 1; i < line.size(); ++i) {
-    const double step = glm::distance(line[i - 1], line[i]);
-    if (at + step > from_m && at < to_m && step > 0.0) {
-      add(glm::mix(line[i - 1], line[i], std::clamp((from_m - at) / step, 0.0, 1.0)));
-      add(glm::mix(line[i - 1], line[i], std::clamp((to_m - at) / step, 0.0, 1.0)));
-    }
-    at += step;
-  }
-  return part;
-}
-
-/// Cuts the corners within a line four times (Chaikin 1974); the ends stay.
-std::vector<dvec2> without_corners(std::vector<dvec2> line) {
-  for (int round = 0; round < 4 && line.size() > 2; ++round) {
-    std::vector<dvec2> cut{line.front()};
-    for (size_t i = 0; i + 1 < line.size(); ++i) {
-      if (i > 0) cut.push_back(glm::mix(line[i], line[i + 1], 0.25));
-      if (i + 2 < line.size()) cut.push_back(glm::mix(line[i], line[i + 1], 0.75));
-    }
-    cut.push_back(line.back());
-    line = std::move(cut);
-  }
-  return line;
-}
-
-/// Returns a line moved to its right.
-std::vector<dvec2> moved_right(const std::vector<dvec2>& line, double by_m) {
-  std::vector<dvec2> moved;
-  for (size_t i = 0; i < line.size(); ++i) {
-    const dvec2 before = glm::normalize(line[std::max<size_t>(i, 1)] - line[std::max<size_t>(i, 1) - 1]);
-    const size_t next = std::min(i + 1, line.size() - 1);
-    const dvec2 after = glm::normalize(line[next] - line[next - 1]);
-    const dvec2 along = glm::normalize(before + after + 1e-9 * before);
-    const double miter = 1.0 / std::max(glm::dot(along, before), 0.5);
-    moved.push_back(line[i] + by_m * miter * dvec2(along.y, -along.x));
-  }
-  return moved;
-}
 
 struct Edge {
   std::vector<dvec2> line;
@@ -359,7 +306,7 @@ class PlaceStreets {
     if (from.empty() || to.empty()) return;
     const std::vector<dvec2> line =
         loop_line(end(from[0]), start(to[0]), end_direction(from[0]), loop_reach_m);
-    if (std::ranges::any_of(sampled(line), built_)) return;
+    if (std::ranges::any_of(points_along(line, 1.0), built_)) return;
     StreetLane loop;
     loop.width_m = network_.lanes[from[0]].width_m;
     loop.speed_mps = network_.lanes[from[0]].speed_mps;
@@ -372,111 +319,30 @@ class PlaceStreets {
 
   /// Gives a line the heights of the ground, at points at most 6 m apart.
   std::vector<dvec3> on_ground(const std::vector<dvec2>& line) const {
-    constexpr double step_m = 6.0;
     std::vector<dvec3> points;
-    const auto add = [&](const dvec2& p) {
+    for (const dvec2& p : points_along(line, 6.0)) {
       const dvec2 within = glm::clamp(p, rectangle_.low + 0.01, rectangle_.high - 0.01);
       points.emplace_back(p, height_(within));
-    };
-    for (size_t i = 0; i + 1 < line.size(); ++i) {
-      const int parts =
-          std::max(1, static_cast<int>(std::ceil(glm::distance(line[i], line[i + 1]) / step_m)));
-      for (int k = 0; k < parts; ++k) add(glm::mix(line[i], line[i + 1], static_cast<double>(k) / parts));
     }
-    add(line.back());
     return points;
   }
 
-  // ------------------------------------------------------------------------------------------- walking lines
-
   void make_walks() {
+    WalkingLines walks(rectangle_, height_, built_);
     for (const GroundLine& line : ground_.lines)
-      if (line.cover == Cover::road) mark(carriageway_, line.line, 0.5 * line.width_m + off_road_m);
+      if (line.cover == Cover::road) walks.keep_off(line.line, 0.5 * line.width_m);
     for (const Edge& edge : edges_) {
       if (edge.gone || edge.line.size() < 2) continue;
       for (const double side : {1.0, -1.0})
-        walk_along(moved_right(edge.line, side * (0.5 * edge.width_m + pavement_m)));
+        walks.add(moved_right(edge.line, side * (0.5 * edge.width_m + pavement_m)));
     }
     for (const GroundLine& line : ground_.lines)
       if (const Feature* feature = feature_of(line); feature && line.line.size() > 1) {
         const std::string highway = value(*feature, "highway");
         if (highway == "footway" || highway == "pedestrian" || highway == "path")
-          walk_along(without_corners(line.line));
+          walks.add(without_corners(line.line));
       }
-  }
-
-  struct Spot {
-    dvec2 place;
-    double radius_m = 0.0;
-  };
-  using Spots = std::map<std::pair<int64_t, int64_t>, std::vector<Spot>>;
-  static constexpr double cell_m = 8.0;
-  static std::pair<int64_t, int64_t> cell_of(const dvec2& p) {
-    return {std::llround(std::floor(p.x / cell_m)), std::llround(std::floor(p.y / cell_m))};
-  }
-  static bool near(const Spots& spots, const dvec2& p) {
-    const auto [x, y] = cell_of(p);
-    for (int64_t i = x - 2; i <= x + 2; ++i)
-      for (int64_t j = y - 2; j <= y + 2; ++j)
-        if (const auto found = spots.find({i, j}); found != spots.end())
-          for (const Spot& spot : found->second)
-            if (glm::distance(spot.place, p) < spot.radius_m) return true;
-    return false;
-  }
-  static std::vector<dvec2> sampled(const std::vector<dvec2>& line) {
-    std::vector<dvec2> points;
-    for (size_t i = 0; i + 1 < line.size(); ++i) {
-      const int parts = std::max(1, static_cast<int>(std::ceil(glm::distance(line[i], line[i + 1]))));
-      for (int k = 0; k < parts; ++k)
-        points.push_back(glm::mix(line[i], line[i + 1], static_cast<double>(k) / parts));
-    }
-    points.push_back(line.back());
-    return points;
-  }
-  static void mark(Spots& spots, const std::vector<dvec2>& line, double radius_m) {
-    for (const dvec2& p : sampled(line)) spots[cell_of(p)].push_back({p, std::min(radius_m, 15.0)});
-  }
-
-  /// Leads from the right of a line's end round to its left. Those who walk inside and outside of the band
-  /// then stay apart by the same distance: with a step of 0.9 m and a width of 0.55 m they have 3 cm.
-  static void add_half_circle(std::vector<dvec2>& band, const dvec2& middle, const dvec2& ahead) {
-    constexpr int parts = 8;
-    const dvec2 right(ahead.y, -ahead.x);
-    for (int i = 1; i < parts; ++i) {
-      const double angle = pi * i / parts;
-      band.push_back(middle + band_m * (std::cos(angle) * right + std::sin(angle) * ahead));
-    }
-  }
-
-  /// Makes walking lines of those parts of a line that are off carriageways, houses and other walking lines.
-  void walk_along(const std::vector<dvec2>& line) {
-    std::vector<dvec2> run;
-    std::vector<std::vector<dvec2>> runs;
-    const auto finish = [&] {
-      if (run.size() > 1 && line_length(run) >= least_walk_m) runs.push_back(run);
-      run.clear();
-    };
-    for (const dvec2& p : sampled(line)) {
-      const bool free = rectangle_.holds(p) && !near(carriageway_, p) && !near(walked_, p) && !built_(p);
-      free ? run.push_back(p) : finish();
-    }
-    finish();
-    for (const std::vector<dvec2>& free : runs) {
-      mark(walked_, free, walks_apart_m);
-      // Every few metres are enough for the line; its ends are round.
-      std::vector<dvec2> middle;
-      for (size_t i = 0; i + 1 < free.size(); i += 4) middle.push_back(free[i]);
-      middle.push_back(free.back());
-      std::vector<dvec2> band = moved_right(middle, band_m), back = moved_right(middle, -band_m);
-      std::ranges::reverse(back);
-      const size_t n = middle.size();
-      add_half_circle(band, middle[n - 1], glm::normalize(middle[n - 1] - middle[n - 2]));
-      band.insert(band.end(), back.begin(), back.end());
-      add_half_circle(band, middle[0], glm::normalize(middle[0] - middle[1]));
-      StreetWalk walk;
-      for (const dvec2& p : band) walk.line.emplace_back(p, height_(p));
-      network_.walks.push_back(std::move(walk));
-    }
+    network_.walks = walks.take();
   }
 
   const GroundPlan& ground_;
@@ -488,7 +354,6 @@ class PlaceStreets {
   std::vector<size_t> merged_;
   std::vector<Edge> edges_;
   std::map<std::pair<size_t, int>, double> trims_;
-  Spots carriageway_, walked_;
   StreetNetwork network_;
 };
 

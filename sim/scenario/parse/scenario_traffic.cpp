@@ -17,8 +17,6 @@ namespace greatx::sim {
 namespace {
 
 constexpr uint32_t most_members = 5000;
-/// Longer vehicles need streets on which their body stays in its lane, as sim/traffic has it.
-constexpr double narrow_street_m = 6.0;
 constexpr uint32_t mix_stream = 0x6d697874;  // apart from the streams of nodes' names
 constexpr uint32_t looks = 12;               // of each variant
 
@@ -86,7 +84,7 @@ std::vector<NodeConfig> simulated(const FieldMap& map, bool wide_streets, Traffi
     if (!field) return;
     const uint32_t count = field->integer32(0, most_members);
     const auto shares =
-        shares_of(kind, mix, wide_streets ? std::numeric_limits<double>::infinity() : narrow_street_m);
+        shares_of(kind, mix, wide_streets ? std::numeric_limits<double>::infinity() : longer_than_m);
     for (uint32_t i = 0; i < count; ++i) {
       const auto number = static_cast<uint32_t>(traffic.members.size());
       traffic.members.push_back({kind, drawn(shares, random), number});
