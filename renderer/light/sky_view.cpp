@@ -10,6 +10,7 @@
 
 #include "core/parallel.h"
 #include "core/units.h"
+#include "renderer/light/azimuth_looks.h"
 
 namespace greatx::render {
 
@@ -73,21 +74,12 @@ class Raiser {
   HeightField& field_;
 };
 
-/// Holds the places where a horizon is looked up, from a cell's middle and in cells. They are the same for
-/// all cells of a field.
-struct Looks {
-  explicit Looks(const HeightField& field) {
-    for (double distance = field.cell_m; distance < farthest_m; distance = distance * step_growth + 0.1)
-      distances.push_back(distance);
-    for (int k = 0; k < azimuths; ++k) {
-      const double azimuth = (k + 0.5) * 2.0 * pi / azimuths;
-      const dvec2 along(std::cos(azimuth), std::sin(azimuth));
-      for (const double distance : distances) steps[k].push_back(along * (distance / field.cell_m));
-    }
+/// Holds the places where a horizon is looked up, from a cell's middle.
+struct Looks : AzimuthLooks<azimuths> {
+  explicit Looks(const HeightField& field)
+      : AzimuthLooks(field.cell_m, field.cell_m, farthest_m, step_growth) {
     for (const float height : field.heights) highest = std::max(highest, height);
   }
-  std::vector<double> distances;
-  std::array<std::vector<dvec2>, azimuths> steps;
   float highest = 0.0f;  ///< of the whole field
 };
 

@@ -19,6 +19,12 @@
 
 namespace greatx::render {
 
+class GatherBands;
+struct GatherLooks;
+
+/// What stands lower than this over the ground is part of it, m.
+inline constexpr float low_thing_m = 1.0f;
+
 /// One column of the static world. Heights are above HeightField::floor.
 struct SurroundingCell {
   float top = 0.0f;     ///< of the highest surface
@@ -79,10 +85,10 @@ class Surroundings {
   void cast_shadows();
   void shine(std::span<const scene::PunctualLight> lamps);
   void put_places(std::vector<uint32_t>& words, uint32_t columns, uint32_t rows) const;
-  template <typename Bands, typename Looks>
-  void look_along(const dvec2& middle, double height, const Looks& looks, int azimuth, Bands& bands) const;
-  template <typename Looks>
-  BouncedLight gather_with(const Looks& looks, const dvec2& place, double height) const;
+  // In surroundings_light.cpp.
+  void look_along(const dvec2& middle, double height, const GatherLooks& looks, int azimuth,
+                  GatherBands& bands) const;
+  BouncedLight gather_with(const GatherLooks& looks, const dvec2& place, double height) const;
 
   /// What a gathering reads of each cell at which it looks, apart from the rest so that it stays in caches.
   struct CellColumn {

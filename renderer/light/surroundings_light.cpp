@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Gathers the light that the surroundings send to places, for the effect `bounced_light`.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <glm/gtc/packing.hpp>
+
+#include "core/parallel.h"
+#include "core/srgb.h"
+#include "core/units.h"
+#include "renderer/light/azimuth_looks.h"
+#include "renderer/light/surroundings.h"
+#include "shaders/shared/surroundings.h"
+
+namespace greatx::render {
+
+namespace {
+
+constexpr int gather_azimuths = 16, gather_bands = 24;
+
+/// Returns the sine of elevation at a place among the bands, which have equal steps of it.
+double sine_of(double band) { return 2.0 * band / gather_bands - 1.0; }
+
+/// Returns the band in which the tangent of an elevation lies.
+int band_of(double slope) {
+  const double sine = slope / std::sqrt(1.0 + slope * slope), place = 0.5 * (sine + 1.0) * gather_bands;
+  // This is std::lround of a number that is not negative.
+  const int whole = static_cast<int>(place);
+  return whole + static_cast<int>(place - whole >= 0.5);
+}
+
+/// Returns what a band's radiance counts in the sum: Y00^2 = 1 / 4 pi, Y1m^2 = 3 / 4 pi; the cosine lobe's
+/// factors over pi are 1 and 2/3.
+dvec3 weighted(const dvec3& radiance) {
+  return radiance * (4.0 * pi / (gather_azimuths * gather_bands)) / (4.0 * pi);
+}
+
+/// The directions of the middles of bands.
+struct BandDirections {
+  BandDirections() {
+    for (int i = 0; i < gather_bands; ++i) {
+      sine[i] = sine_of(i + 0.5);
+      level[i] = std::sqrt(1.0 - sine[i] * sine[i]);
+    }
+  }
+  std::array<double, gather_bands> sine, level;
+};
+
+/// Bounced light at the two heights over a place.
+struct BouncedPlace {
+  BouncedLight low, high;
+  float ground = 0.0f;
+  bool free = true;  ///< not within a house
+};
+
+void add_scaled(BouncedLight& sum, const BouncedLight& light, double factor) {
+  sum.constant += light.constant * factor;
+  for (int axis = 0; axis < 3; ++axis) sum.along[axis] += light.along[axis] * factor;
+}
+
+/// Gives the places within houses that touch others the mean of their neighbours' light.
+void fill_from_neighbours(std::vector<BouncedPlace>& places, uint32_t columns, uint32_t rows) {
+  const std::vector<BouncedPlace> before = places;
+  for (uint32_t row = 0; row < rows; ++row)
+    for (uint32_t column = 0; column < columns; ++column) {
+      if (before[size_t{row} * columns + column].free) continue;
+      std::vector<const BouncedPlace*> near;
+      for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
+        const int64_t x = int64_t{column} + dx, y = int64_t{row} + dy;
+        if (x < 0 || y < 0 || x >= columns || y >= rows) continue;
+        const BouncedPlace& other = before[static_cast<size_t>(y) * columns + static_cast<size_t>(x)];
+        if (other.free) near.push_back(&other);
+      }
+      if (near.empty()) continue;
+      BouncedPlace mean;
+      for (const BouncedPlace* other : near) {
+        add_scaled(mean.low, other->low, 1.0 / double(near.size()));
+        add_scaled(mean.high, other->high, 1.0 / double(near.size()));
+        mean.ground += other->ground / float(near.size());
+      }
+      places[size_t{row} * columns + column] = mean;
+    }
+}
+
+/// The three signed bytes of a luminance's vector.
+uint32_t stored_vector(const BouncedLight& light) {
+  const double c = std::max(luminance(light.constant), 1e-30);
+  vec4 part(0.0f);
+  for (int axis = 0; axis < 3; ++axis)
+    part[axis] = float(luminance(light.along[axis]) / (double(shared::surroundings_vector_scale) * c));
+  return glm::packSnorm4x8(part);  // clamps
+}
+
+void put_place(std::vector<uint32_t>& words, const BouncedPlace& place) {
+  const dvec3 sum = place.low.constant + place.high.constant;
+  const double y = luminance(sum);
+  const double red = y > 0.0 ? sum.r / y : 1.0, blue = y > 0.0 ? sum.b / y : 1.0;
+  const dvec2 root =
+      glm::sqrt(glm::max(dvec2(red, blue), dvec2(0.0))) / double(shared::surroundings_color_scale);
+  const uint32_t color = glm::packUnorm4x8(vec4(0.0f, 0.0f, vec2(root)));  // clamps
+  words.push_back((glm::packHalf1x16(float(luminance(place.low.constant))) & 0xffffu) | color);
+  words.push_back(stored_vector(place.low));
+  words.push_back(glm::packHalf2x16(vec2(float(luminance(place.high.constant)), place.ground)));
+  words.push_back(stored_vector(place.high));
+}
+
+}  // namespace
+
+/// Light from the bands of one azimuth, weighted. What comes first along the azimuth hides what comes later.
+class GatherBands {
+ public:
+  /// Fills the free bands between two slopes with the radiance that `radiance` returns. It is not called if
+  /// no such band is free.
+  template <typename Radiance>
+  void fill(double low, double high, const Radiance& radiance) {
+    const uint32_t below_low = below(low), below_high = below(high),
+                   fresh = below_high & ~below_low & ~filled_;
+    if (fresh == 0) return;
+    filled_ |= fresh;
+    const dvec3 light = weighted(radiance());
+    for (uint32_t left = fresh; left != 0; left &= left - 1)
+      light_[static_cast<size_t>(std::countr_zero(left))] = light;
+  }
+  bool filled(int band) const { return (filled_ >> band & 1u) != 0; }
+  const dvec3& light(int band) const { return light_[static_cast<size_t>(band)]; }
+  /// Whether no band below a slope, which is not negative, is free.
+  bool full_below(double slope) {
+    constexpr uint32_t below_horizon = (1u << gather_bands / 2) - 1u;
+    return (below_horizon & ~filled_) == 0 && (below(slope) & ~filled_) == 0;
+  }
+
+ private:
+  /// Returns the bands below that of a slope, a bit each. The two slopes that were asked for last are known:
+  /// level ground ends at the slope at which it goes on in the next cell, and the parts of a wall meet.
+  uint32_t below(double slope) {
+    for (const Known& known : known_)
+      if (known.slope == slope) return known.below;
+    Known& known = known_[next_ ^= 1u];
+    known = {slope, (1u << band_of(slope)) - 1u};
+    return known.below;
+  }
+  struct Known {
+    double slope = 1e300;
+    uint32_t below = (1u << gather_bands) - 1u;
+  };
+  std::array<Known, 2> known_;
+  uint32_t next_ = 0, filled_ = 0;
+  std::array<dvec3, gather_bands> light_;
+};
+
+/// The places at which a gathering looks.
+struct GatherLooks : AzimuthLooks<gather_azimuths> {
+  explicit GatherLooks(double cell_m) : AzimuthLooks(cell_m, 0.6 * cell_m, 150.0, 1.2) {}
+};
+
+/// Fills the bands of one azimuth with what a point sees.
+void Surroundings::look_along(const dvec2& middle, double height, const GatherLooks& looks, int azimuth,
+                              GatherBands& bands) const {
+  const dvec2& along = looks.along[azimuth];
+  double nearer = 1e-3;  // m
+  for (size_t step = 0; step < looks.distances.size(); ++step) {
+    const double distance = looks.distances[step];
+    const dvec2 at = middle + looks.steps[azimuth][step];
+    if (at.x < 0.0 || at.y < 0.0 || at.x >= field_->width || at.y >= field_->height) break;
+    const size_t i = static_cast<size_t>(at.y) * field_->width + static_cast<size_t>(at.x);
+    const CellColumn& column = columns_[i];
+    // From above, the ground fills the slopes between its nearer and its farther rim.
+    const double ground = column.ground - height;
+    if (ground < 0.0) bands.fill(ground / nearer, ground / distance, [&] { return ground_radiance_[i]; });
+    if (column.top > column.ground + low_thing_m) {
+      const double middle_height = 0.5 * (std::max<double>(column.bottom, column.ground) + column.top);
+      const double low = (column.bottom - height) / distance, high = (column.top - height) / distance;
+      const SurroundingCell& cell = cells_[i];
+      // The lower and the upper half of a wall may lie in shadow and in light.
+      const auto half = [&](double at_height) {
+        const bool faces = glm::dot(cell.wall_normal, along) < 0.0 || cell.wall_normal == dvec2(0.0);
+        return faces ? wall_radiance(cell, at_height) : dvec3(0.0);
+      };
+      bands.fill(low, (middle_height - height) / distance,
+                 [&] { return half(0.5 * (cell.bottom + middle_height)); });
+      bands.fill((middle_height - height) / distance, high,
+                 [&] { return half(0.5 * (middle_height + cell.top)); });
+      if (high < 0.0)
+        bands.fill(high, (cell.top - height) / looks.after(distance), [&] { return top_radiance_[i]; });
+    }
+    // What comes farther on is below the horizon, or below the slope of the highest top at this distance.
+    if (bands.full_below(std::max(most_top_ - height, 0.0) / distance)) break;
+    nearer = distance;
+  }
+}
+
+BouncedLight Surroundings::gather(const dvec2& place, double height) const {
+  return gather_with(GatherLooks(field_->cell_m), place, height);
+}
+
+BouncedLight Surroundings::gather_with(const GatherLooks& looks, const dvec2& place, double height) const {
+  static const BandDirections directions;
+  const dvec3 beyond = weighted(light_.beyond);
+  BouncedLight result;
+  const dvec2 middle = (place - field_->corner) / field_->cell_m;
+  for (int k = 0; k < gather_azimuths; ++k) {
+    GatherBands bands;
+    look_along(middle, height, looks, k, bands);
+    for (int i = 0; i < gather_bands; ++i) {
+      if (!bands.filled(i) && directions.sine[i] > 0.0) continue;
+      const dvec3& light = bands.filled(i) ? bands.light(i) : beyond;
+      const dvec3 direction(looks.along[k] * directions.level[i], directions.sine[i]);
+      result.constant += light;
+      for (int axis = 0; axis < 3; ++axis) result.along[axis] += light * (2.0 * direction[axis]);
+    }
+  }
+  return result;
+}
+
+void Surroundings::put_places(std::vector<uint32_t>& words, uint32_t columns, uint32_t rows) const {
+  std::vector<BouncedPlace> places(size_t{columns} * rows);
+  const GatherLooks looks(field_->cell_m);
+  parallel_for(rows, 0, [&](size_t row) {
+    for (uint32_t column = 0; column < columns; ++column) {
+      const dvec2 at = (dvec2(column, double(row)) + 0.5) * double(shared::surroundings_place_cells);
+      const size_t i = std::min(static_cast<uint32_t>(at.y), field_->height - 1) * size_t{field_->width} +
+                       std::min(static_cast<uint32_t>(at.x), field_->width - 1);
+      BouncedPlace& place = places[row * columns + column];
+      place.ground = cells_[i].ground;
+      place.free = !cells_[i].stands() || cells_[i].bottom > cells_[i].ground;
+      if (!place.free) continue;
+      const dvec2 middle = field_->corner + at * field_->cell_m;
+      place.low = gather_with(looks, middle, place.ground + double(shared::surroundings_low));
+      place.high = gather_with(looks, middle, place.ground + double(shared::surroundings_high));
+    }
+  });
+  // Surfaces at the rim of a house look up places behind it, too.
+  for (int round = 0; round < 3; ++round) fill_from_neighbours(places, columns, rows);
+  for (const BouncedPlace& place : places) put_place(words, place);
+}
+
+}  // namespace greatx::render
