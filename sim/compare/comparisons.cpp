@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "sim/compare/consistency.h"
+#include "sim/compare/record_reading.h"
 
 namespace greatx::sim {
 
@@ -51,22 +52,17 @@ void keep_sensing(const TickEvidence& tick, const KeepErrors& keep) {
       keep(witness, tick.poses, compare_sensing(witness.record, tick.poses->record, tick.boxes));
 }
 
-bool has_array(const Witness& witness, std::string_view name) {
-  return std::ranges::find(witness.record.spec.arrays, name, &ArraySpec::name) !=
-         witness.record.spec.arrays.end();
-}
-
 void keep_depth_boxes(const TickEvidence& tick, const KeepErrors& keep) {
   for (const Witness& camera : tick.witnesses)
-    if (camera.evidence.depth && tick.poses != nullptr && has_array(camera, "depth") &&
-        has_array(camera, "instance"))
+    if (camera.evidence.depth && tick.poses != nullptr && has(camera.record.spec, "depth") &&
+        has(camera.record.spec, "instance"))
       keep(camera, tick.poses, compare_depth_boxes(camera.record, tick.poses->record, tick.boxes));
 }
 
 void keep_lidar_boxes(const TickEvidence& tick, const KeepErrors& keep) {
   for (const Witness& lidar : tick.witnesses)
-    if (lidar.evidence.returns && tick.poses != nullptr && has_array(lidar, "points") &&
-        has_array(lidar, "instance"))
+    if (lidar.evidence.returns && tick.poses != nullptr && has(lidar.record.spec, "points") &&
+        has(lidar.record.spec, "instance"))
       keep(lidar, tick.poses, compare_lidar_boxes(lidar.record, tick.poses->record, tick.boxes));
 }
 
