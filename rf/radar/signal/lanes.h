@@ -14,7 +14,9 @@
 
 #include "core/phase.h"
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+// Sanitizers instrument the function that selects, which runs before they do.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
 #define GREATX_LANES [[gnu::target_clones("avx2", "default")]]
 #else
 #define GREATX_LANES
