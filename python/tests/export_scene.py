@@ -24,6 +24,7 @@ name: export
 ticks: 5
 tick_rate_hz: 10
 scene: {generate: {kind: canyon, seed: 9, size_m: 80}}
+environment: {clouds: 0}
 nodes:
   - name: ego
     trajectory:
@@ -71,6 +72,7 @@ name: plain
 ticks: 2
 tick_rate_hz: 10
 scene: {generate: {kind: canyon, seed: 9, size_m: 80}, optical_only: true}
+environment: {clouds: 0}
 nodes:
   - name: pole
     trajectory: {type: static, position_m: [-2, -26, 1.6], rotation_deg: [75, 0, 0]}

@@ -17,6 +17,7 @@ seed: 3
 ticks: 12
 tick_rate_hz: 10
 scene: {generate: {kind: canyon, seed: 9, size_m: 60}}
+environment: {clouds: 0}
 nodes:
   - name: bs
     trajectory: {type: static, position_m: [5.5, 0, 3], rotation_deg: [180, 0, 0]}

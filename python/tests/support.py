@@ -22,6 +22,7 @@ name: street
 ticks: 4
 tick_rate_hz: 20
 scene: {generate: {kind: canyon, seed: 9, size_m: 120}}
+environment: {clouds: 0}
 nodes:
   - name: bs
     trajectory: {type: static, position_m: [6.3, -21.7, 9.4], rotation_deg: [90, 0, 0]}
@@ -58,6 +59,7 @@ name: truth
 ticks: 3
 tick_rate_hz: 10
 scene: {generate: {kind: canyon, seed: 9, size_m: 80}, optical_only: true}
+environment: {clouds: 0}
 nodes:
   - name: van
     trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2.4, -30, 0]}, \
@@ -81,6 +83,7 @@ name: events
 ticks: 100
 tick_rate_hz: 1000
 scene: {generate: {kind: canyon, seed: 9, size_m: 80}, optical_only: true}
+environment: {clouds: 0}
 nodes:
   - name: car
     trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2.4, -30, 1.5], rotation_deg: [90, 0, 0]},
@@ -102,6 +105,7 @@ scene:
   generate: {kind: canyon, seed: 9, size_m: 80}
   georeference: {latitude_deg: 52.0116, longitude_deg: 4.3571, height_m: 45, undulation_m: 43.4, \
 vertical_datum: NAP}
+environment: {clouds: 0}
 nodes:
   - name: bs
     trajectory: {type: static, position_m: [6.3, -21.7, 9.4], rotation_deg: [90, 0, 0]}

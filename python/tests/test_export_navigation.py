@@ -27,7 +27,7 @@ seed: 3
 ticks: 11
 tick_rate_hz: 10
 scene: {generate: {kind: canyon, seed: 9, size_m: 80}, optical_only: true}
-environment: {place: {latitude_deg: 52, longitude_deg: 4.4}, time: 2026-06-21T12:00:00Z}
+environment: {clouds: 0, place: {latitude_deg: 52, longitude_deg: 4.4}, time: 2026-06-21T12:00:00Z}
 nodes:
   - name: car
     trajectory: {type: waypoints, interpolation: smooth, points: [{t_s: 0, position_m: [2.4, -30, 0], \

@@ -19,6 +19,7 @@ tick_rate_hz: 10
 scene: {generate: {kind: canyon, seed: 9, size_m: 60}, optical_only: true,
   georeference: {latitude_deg: -17, longitude_deg: 179.99999, height_m: 60, undulation_m: 61.5,
                  vertical_datum: MSL}}
+environment: {clouds: 0}
 nodes:
   - name: mast
     trajectory: {type: static, position_deg: [-17.0001, -179.9999, 8]}

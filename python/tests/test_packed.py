@@ -18,6 +18,7 @@ name: packed
 ticks: 6
 tick_rate_hz: 20
 scene: {generate: {kind: canyon, seed: 9, size_m: 80}, optical_only: true}
+environment: {clouds: 0}
 nodes:
   - name: car
     trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2.4, -30, 1.5], rotation_deg: [90, 0, 0]},

@@ -37,6 +37,7 @@ ticks: 4
 tick_rate_hz: 2
 storage: {compression: fast}
 scene: {generate: {kind: canyon, seed: 3, size_m: 60}}
+environment: {clouds: 0}
 nodes:
   - name: bs
     trajectory: {type: static, position_m: [1, -28, 6], rotation_deg: [90, 0, 0]}

@@ -27,6 +27,7 @@ seed: 4
 ticks: 6
 tick_rate_hz: 20
 scene: {generate: {kind: canyon, seed: 9, size_m: 80}}
+environment: {clouds: 0}
 nodes:
   - name: bs
     trajectory: {type: static, position_m: [6.3, -21.7, 9.4], rotation_deg: [90, 0, 0]}

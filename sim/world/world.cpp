@@ -220,6 +220,7 @@ World load_world(const Scenario& scenario) {
                           semantic_class(object.semantic_class, object.model.where),
                           {}});
   }
+  check_traffic(scenario, world);  // before as many models as the scenario asks for
   GeneratedModels generated;
   for (size_t index = 0; index < scenario.nodes.size(); ++index) {
     const NodeConfig& node = scenario.nodes[index];
@@ -258,7 +259,6 @@ World load_world(const Scenario& scenario) {
   }
   find_bodies(world);
   check_radio(scenario, world.scene);
-  check_traffic(scenario, world);
   return world;
 }
 

@@ -495,6 +495,7 @@ def data_scenario(ticks: int) -> dict:
         "ticks": ticks,
         "tick_rate_hz": 10,
         "scene": {"file": "scene.gltf"},
+        "environment": {"clouds": 0},
         "nodes": [
             {
                 "name": "bs",
