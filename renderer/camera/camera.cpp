@@ -17,6 +17,7 @@
 #include "renderer/camera/meter.h"
 #include "renderer/camera/mirror.h"
 #include "renderer/camera/streaks.h"
+#include "renderer/camera/thin_lines.h"
 #include "shaders/shared/film.h"
 
 namespace greatx::render {
@@ -63,6 +64,7 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
                                       lighting_->surfaces().closed_instances(), desc_.excluded_body,
                                       effects_.alpha_mask);
   if (effects_.shadow_cascades && shaded) near_shadows_ = std::make_unique<NearShadows>(lighting_->shadows());
+  if (wants_lines(effects_, desc_)) lines_ = std::make_unique<ThinLines>(scene_->scene());
   build_pipelines();
   create_images();
   create_pictures();
@@ -187,6 +189,7 @@ void CameraPass::build_pipelines() {
   shade.specialization[shared::spec_haze] = effects_.haze;
   shade.specialization[shared::spec_night_sky] = effects_.night_sky;
   shade.specialization[shared::spec_markings] = effects_.markings;
+  shade.specialization[shared::spec_thin_lines] = lines_ != nullptr;
   shade.specialization[shared::spec_clouds] = effects_.clouds;
   shade.specialization[shared::spec_horizon] = static_cast<uint32_t>(lighting_->horizon_kind());
   shade.specialization[shared::spec_ambient_occlusion] = effects_.ambient_occlusion;
@@ -307,13 +310,15 @@ void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, cons
   view.constants.size = desc_.width | desc_.height << 16;
   draw_shadows(slot, view);
   record_visibility(*slot.cmd, view);
-  record_shading(slot, view, seen_.slice());
+  std::optional<gpu::Slice> lines;
+  if (lines_) lines = slot.upload.put(std::span<const uint32_t>(lines_->words(view)));
+  record_shading(slot, view, lines.value_or(seen_.slice()));
   if (!part.last) return;
   if (mirror_) mirror_->record(slot, view, {seen_, dry_, mirrors_, edges_ ? shaded_.color : picture_.color});
   if (cells_) cells_->see(view.constants);
   if (edges_)
     edges_->record(slot, view, gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_),
-                   {shaded_, seen_, picture_}, nullptr);
+                   {shaded_, seen_, picture_, lines ? &*lines : nullptr}, nullptr);
   if (streaks_) streaks_->record(slot, view, seen_, picture_.color, frame);
   if (glare_) glare_->record(slot, picture_.color);
   if (develop_) develop_->record(slot, picture_.color, seen_, frame);
@@ -338,7 +343,7 @@ void CameraPass::record_faces(gpu::TickSlot& slot, const Pose& local_from_sensor
   if (!edges_ || (desc_.bands == 0 && !part.last)) return;
   for (const auto& [face, view] : views)
     edges_->record(slot, view, gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_),
-                   {shaded_, seen_, picture_}, &face->pixels);
+                   {shaded_, seen_, picture_, nullptr}, &face->pixels);
 }
 
 uint32_t CameraPass::bands() const {

@@ -149,6 +149,7 @@ class FaceTable;
 class GlarePass;
 class MirrorPass;
 class StreakPass;
+class ThinLines;
 struct PinholeView;
 
 class CameraPass {
@@ -213,7 +214,8 @@ class CameraPass {
   void draw_shadows(gpu::TickSlot& slot, const CameraView& view);
   void record_visibility(gpu::Cmd& cmd, const CameraView& view);
   void draw_moving(gpu::Cmd& cmd, const CameraView& view);
-  /// `pixels` lists those that look through this view. Without a FaceTable all do.
+  /// `pixels` lists those that look through this view. Without a FaceTable all do; then these are the words
+  /// of its thin lines, if there are any.
   void record_shading(gpu::TickSlot& slot, const CameraView& view, const gpu::Slice& pixels);
 
   const SceneLighting* lighting_;
@@ -221,6 +223,7 @@ class CameraPass {
   CameraDesc desc_;
   CameraEffects effects_;
   std::unique_ptr<DrawList> draws_;
+  std::unique_ptr<ThinLines> lines_;  ///< null without the effect
   gpu::GraphicsPipeline visibility_still_, visibility_still_closed_, visibility_moving_, visibility_closed_,
       visibility_masked_;
   gpu::ComputePipeline shade_;

@@ -4,6 +4,7 @@
 
 #include "renderer/camera/camera_view.h"
 #include "renderer/camera/faces.h"
+#include "renderer/camera/thin_lines.h"
 #include "shaders/shared/camera.h"
 
 namespace greatx::render {
@@ -26,6 +27,7 @@ EdgePass::EdgePass(const SceneLighting& lighting, const CameraDesc& desc)
   edges.specialization[shared::spec_luminance] = desc.outputs.luminance;
   edges.specialization[shared::spec_distortion] = desc.distortion.any();
   edges.specialization[shared::spec_faces] = has_faces(desc);
+  edges.specialization[shared::spec_thin_lines] = wants_lines(lighting.effects(), desc);
   edges.specialization[shared::spec_band_rows] = desc.bands > 0 ? rows_of_band(desc) : 0;
   pipeline_ = gpu::ComputePipeline(lighting.scene().device(), edges, scope_);
 }
@@ -37,8 +39,10 @@ void EdgePass::record(gpu::TickSlot& slot, const CameraView& view, const gpu::De
   cmd.barrier(gpu::sync::compute, gpu::sync::compute);
   std::vector<gpu::Descriptor> descriptors = lighting_->surface_descriptors();
   descriptors.push_back(lens);
-  descriptors.push_back(
-      gpu::Descriptor::buffer(shared::face_pixels_binding, pixels ? *pixels : pictures.seen.slice()));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::face_pixels_binding, pixels ? *pixels
+                                                                             : pictures.lines
+                                                                                 ? *pictures.lines
+                                                                                 : pictures.seen.slice()));
   for (const auto& [binding, buffer] : {std::pair{shared::edges_seen_binding, &pictures.seen},
                                         {shared::edges_from_binding, &pictures.from.color},
                                         {shared::edges_to_binding, &pictures.to.color},

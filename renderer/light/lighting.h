@@ -92,6 +92,7 @@ struct CameraEffects {
   bool clouds = false;        ///< renderer/light/clouds.h
   bool horizon = false;       ///< the land beyond the scene, renderer/light/horizon.h
   bool markings = false;      ///< far markings by their share of a pixel, renderer/surface/mark_map.h
+  bool thin_lines = false;    ///< renderer/camera/thin_lines.h
   bool wet_surfaces = false;  ///< renderer/light/weather.h
   bool snow_cover = false;
   bool rain_streaks = false;       ///< renderer/camera/streaks.h; darkens haze by what the streaks take

@@ -8,6 +8,7 @@
 // of each pixel (after E. Persson, "Geometry Buffer Anti-Aliasing", 2011).
 #include "camera/effects.glsl"
 #include "camera/lens_ray.glsl"
+#include "camera/lines.glsl"
 #include "camera/picture.glsl"
 #include "camera/reach.glsl"
 
@@ -88,6 +89,14 @@ void main() {
     uint row = uint(at.y) % band_rows;
     if (row == 0u) differing &= ~4u;
     if (row == band_rows - 1u) differing &= ~8u;
+  }
+  if (lines_on && differing != 0u) {  // shading gave the pixels of thin lines their shares
+    uvec2 entries = lines_near(at);
+    if (of_lines(mine.y, entries)) differing = 0u;
+    for (int k = 0; k < 4; ++k) {
+      bool ask = (differing & 1u << k) != 0u && entries.x < entries.y;
+      if (ask && of_lines(picture_seen[neighbor(at, k)].y, entries)) differing &= ~(1u << k);
+    }
   }
   Shaded pixel = shaded(at);
   if (differing != 0u) pixel = smoothed(at, mine, differing, pixel);

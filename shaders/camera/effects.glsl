@@ -23,6 +23,7 @@ layout(constant_id = spec_haze) const bool haze_on = false;
 layout(constant_id = spec_night_sky) const bool night_sky_on = false;
 layout(constant_id = spec_ambient_occlusion) const bool ambient_occlusion_on = false;
 layout(constant_id = spec_markings) const bool markings_on = false;
+layout(constant_id = spec_thin_lines) const bool lines_on = false;
 layout(constant_id = spec_clouds) const bool clouds_on = false;
 layout(constant_id = spec_horizon) const uint horizon_kind = 0u;
 layout(constant_id = spec_wet_surfaces) const bool wet_on = false;

@@ -31,6 +31,7 @@ uint visible_at(ivec2 at, uint s) {
   return imageLoad(visibility, at).r;
 #endif
 }
+#include "camera/behind_lines.glsl"
 #include "camera/through_lens.glsl"
 layout(set = 0, binding = shade_color_binding, scalar) buffer ColorBlock { uvec2 picture_color[]; };
 layout(set = 0, binding = shade_seen_binding, scalar) writeonly buffer SeenBlock { uvec2 picture_seen[]; };
@@ -86,6 +87,18 @@ Center rim_of(Seen seen, vec3 ray) {
   return Center(dot(camera.forward, seen.p0 + seen.e1 * b.x + seen.e2 * b.y), seen.triangle + 1u);
 }
 
+/// Sees the triangle at the centre, and puts in its place what stands behind the lines.
+void look_behind(inout LinesLeft lines, inout Center center, ivec2 at, vec3 ray, inout uint id) {
+  if (id != 0u) look(center, see(id - 1u), ray);
+  id = behind_lines(at, id, lines.entries);
+  lines.behind = center.depth;
+  if (id != lines.seen) {
+    Seen behind = see(max(id, 1u) - 1u);
+    float depth = dot(behind.p0, behind.normal) / dot(ray, behind.normal);
+    lines.behind = id == 0u ? uintBitsToFloat(0x7f800000u) : depth;
+  }
+}
+
 void main() {
   ivec2 at = own_pixel();
   if (outside_picture(at)) return;
@@ -107,22 +120,39 @@ void main() {
   if (looks_through) center = through_lens(pixel, ray);
   for (uint s = 0u; s < sample_count; ++s) ids[s] = visible_at(in_pinhole, s);
   if (looks_through && sample_count == 1u) ids[0] = center.id;
+  LinesLeft lines = LinesLeft(uvec2(0u), 0u, 1.0, ids[0], infinity);
+  if (lines_on) {
+    lines.entries = lines_near(at);
+    if (lines.entries.x < lines.entries.y) look_behind(lines, center, at, ray, ids[0]);
+  }
+  bool looked = lines.entries.x < lines.entries.y;
   float sky = 0.0;  // share of the samples
   uint left = (1u << sample_count) - 1u;  // samples not yet accounted for
   while (left != 0u) {
     uint id = 0u, same = 0u;
-    for (uint s = sample_count; s-- > 0u;) id = (left >> s & 1u) != 0u ? ids[s] : id;
-    for (uint s = 0u; s < sample_count; ++s) same |= uint(ids[s] == id) << s;
-    left &= ~same;
-    float weight = float(bitCount(same)) / float(sample_count);
+    float weight = 0.0;
+    vec3 toward = ray;
+    if (lines_on) {
+      LinePart part = next_part(lines, pixel);
+      id = part.id;
+      weight = part.share;
+      toward = weight > 0.0 ? part.ray : ray;
+    }
+    bool of_sample = weight == 0.0;
+    if (of_sample) {
+      for (uint s = sample_count; s-- > 0u;) id = (left >> s & 1u) != 0u ? ids[s] : id;
+      for (uint s = 0u; s < sample_count; ++s) same |= uint(ids[s] == id) << s;
+      left &= ~same;
+      weight = lines.through * (float(bitCount(same)) / float(sample_count));
+    }
     if (id == 0u) {
       sky += weight;
       if (color_on || luminance_on) radiance += weight * sky_radiance(ray);
     } else {
       Seen seen = see(id - 1u);
-      if (ids_on && !distortion_on) look(center, seen, ray);
+      if (ids_on && !distortion_on && !looked) look(center, seen, ray);
       if (ids_on && !distortion_on && sample_count > 1u && id == ids[0]) first = rim_of(seen, ray);
-      if (color_on || luminance_on) radiance += weight * surface_radiance(seen, ray, weight, mirror);
+      if (color_on || luminance_on) radiance += weight * surface_radiance(seen, toward, weight, mirror);
     }
   }
   // If samples around the centre hit and the centre itself slips through, the first sample stands for the

@@ -31,7 +31,8 @@ const uint edges_from_binding = 5u;
 const uint edges_to_binding = 6u;
 const uint edges_luminance_from_binding = 7u;
 const uint edges_luminance_to_binding = 8u;
-// shade and edges, of a camera with several views (renderer/camera/faces.h): storage, FacePixel
+// shade and edges, of a camera with several views (renderer/camera/faces.h): storage, FacePixel; of one with
+// thin lines: storage, the words of shaders/shared/lines.h, this tick's
 const uint face_pixels_binding = 27u;
 const uint horizon_binding = 28u;   // uniform: GpuHorizon (shaders/shared/horizon.h)
 const uint panorama_binding = 29u;  // sampled: the sky's radiance with clouds, and what they let through
@@ -72,7 +73,7 @@ const uint spec_base_color_arrays = 17u;  // lib/textures.glsl
 const uint spec_metallic_roughness_arrays = 18u;
 const uint spec_normal_arrays = 19u;
 const uint spec_emissive_arrays = 20u;
-// (21 is free.)
+const uint spec_thin_lines = 21u;
 // The records of triangles may be larger than the part of a buffer that a shader sees at once. Their address
 // is then bound.
 const uint spec_triangle_address = 22u;

@@ -9,6 +9,7 @@
 
 #include "core/units.h"
 #include "renderer/camera/camera_view.h"
+#include "renderer/camera/thin_lines.h"
 #include "renderer/lens/lens_rays.h"
 #include "renderer/light/horizon.h"
 #include "renderer/light/sky.h"
@@ -39,6 +40,8 @@ double lamp_illuminance(const scene::PunctualLight& light, double ground) {
 
 Offers offers_of(const scene::Scene& scene) {
   Offers offers;
+  for (uint32_t i = 0; i < scene.primitives.size(); ++i)
+    offers.thin_lines = offers.thin_lines || render::may_hold_lines(scene, i);
   for (const scene::Primitive& primitive : scene.primitives) {
     const scene::PbrMaterial& pbr = scene.materials[primitive.material].pbr;
     const bool moving = scene.instances[primitive.instance].body != 0;
@@ -225,6 +228,9 @@ void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shad
   const bool camera = asks.cameras + asks.event_cameras > 0;
   shading.decide(plan.textures, offers.textures, "materials have them", "no material has one");
   shading.decide(plan.markings, offers.markings, "roads have them", "no road has one");
+  shading.decide(plan.thin_lines, offers.thin_lines && asks.smooth_edges, "poles and the like are there",
+                 offers.thin_lines ? "no camera smooths edges" : "the scene has no poles, lamps or furniture",
+                 "not behind lenses that distort, nor with a rolling shutter");
   shading.decide(plan.normal_maps, offers.normal_maps && plan.textures.on, "materials have them",
                  offers.normal_maps ? "textures are off" : "no material has one");
   planner.decide(plan.alpha_mask, camera && offers.alpha_mask,

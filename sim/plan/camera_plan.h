@@ -19,6 +19,7 @@ struct Offers {
   bool textures = false, normal_maps = false, reflectance_textures = false, alpha_mask = false,
        emissive = false;
   bool markings = false;         ///< static lane markings
+  bool thin_lines = false;       ///< static meshes that may hold poles, wires and rails
   bool smooth = false;           ///< a material may be smooth enough to mirror
   double width_m = 0.0;          ///< the diagonal of its bounds, seen from above
   double brightest_cd_m2 = 0.0;  ///< the highest luminance that a material emits

@@ -48,6 +48,7 @@
   X(clouds, true, camera, "clouds in the sky, in its light and in its mirror images") \
   X(horizon, true, camera, "the land beyond the scene, as a background of pictures") \
   X(markings, true, camera, "far markings of roads keep their share of each pixel") \
+  X(thin_lines, true, camera, "poles and wires narrower than pixels keep their share of each") \
   X(wet_surfaces, true, camera, "water on surfaces: dark, smooth ground, puddles, mirror images") \
   X(snow_cover, true, camera, "snow on what faces upwards") \
   X(rain_streaks, true, camera, "falling drops as streaks") \

@@ -80,6 +80,7 @@ TEST(CameraPlan, CloudsAndLandFollowTheSkyAndTheScene) {
   EXPECT_FALSE(plan_with("sky_illuminance_lux: 0").clouds.on);
   EXPECT_FALSE(plan_with("").horizon.on) << "there is no scene";
   EXPECT_FALSE(plan_with("").markings.on);
+  EXPECT_FALSE(plan_with("").thin_lines.on);
   EXPECT_TRUE(plan_with("horizon: city").horizon.on);
   EXPECT_THAT(plan_with("horizon: city").horizon.reason, ::testing::HasSubstr("city"));
   EXPECT_FALSE(plan_with("horizon: city, sky_illuminance_lux: 0").horizon.on);

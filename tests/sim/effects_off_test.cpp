@@ -285,6 +285,7 @@ const std::map<std::string, Tried> tried{
     {"clouds", {camera_sensor, {"sky"}}},
     {"horizon", {camera_sensor, {"sky"}}},
     {"markings", {camera_sensor, {"sky"}}},
+    {"thin_lines", {camera_sensor, {"sky"}}},
     {"wet_surfaces", {camera_sensor, {"sky"}}},
     {"snow_cover", {camera_sensor, {"sky"}}},
     {"rain_streaks", {camera_sensor, {"sky"}}},

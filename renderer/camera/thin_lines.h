@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Finds poles, wires and rails, and lists those that are too thin for the samples of a picture. A pixel's
+// centre sees a wire of 0.2 pixels in one pixel of five, so that the picture shows specks that come and go.
+// Shading takes the exact share of each pixel that the outline of such a line covers instead
+// (shaders/camera/lines.glsl). Depth and ids stay those of the pixel's centre.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/vec.h"
+#include "gpu/tick_ring.h"
+#include "renderer/camera/camera.h"
+#include "renderer/camera/camera_view.h"
+#include "scene/description/scene.h"
+
+namespace greatx::render {
+
+/// Returns whether a primitive may hold thin lines: it stands still, has no holes, and is of a pole, a lamp,
+/// a mast or street furniture.
+bool may_hold_lines(const scene::Scene& scene, uint32_t primitive);
+
+/// Returns whether the pictures of a camera show thin lines by their shares: it smooths edges, its lens does
+/// not distort, its rows are exposed at once, and no event camera looks at its pictures from other instants.
+bool wants_lines(const CameraEffects& effects, const CameraDesc& desc);
+
+class ThinLines {
+ public:
+  /// Finds the slim prisms of the primitives that may hold lines: closed rings of at least three
+  /// quadrilaterals of two triangles each, at least six times as long as wide, which is 0.25 m at most. Their
+  /// triangles follow each other in the scene, but for the ends.
+  explicit ThinLines(const scene::Scene& scene);
+
+  size_t size() const { return prisms_.size(); }
+  /// Returns the words that shaders/camera/lines.glsl reads (shaders/shared/lines.h has their layout): the
+  /// prisms that are no wider than `line_most_pixels` all along in this view, near ones first.
+  std::vector<uint32_t> words(const CameraView& view) const;
+
+ private:
+  /// Holds an edge along a prism, in local coordinates, and the first triangle of the side between it and the
+  /// next one.
+  struct Edge {
+    dvec3 from, to;
+    uint32_t triangle = 0;
+  };
+  struct Prism {
+    uint32_t first_edge = 0, edge_count = 0;
+    uint32_t first_triangle = 0, triangle_count = 0;
+    dvec3 from{0.0}, to{0.0};  ///< the middles of its ends
+    double radius = 0.0;       ///< of its edges around the axis between them, at most
+  };
+  struct Line;
+  void add_primitive(const scene::Scene& scene, const scene::Primitive& primitive);
+  bool project(const Prism& prism, const CameraView& view, Line& line) const;
+
+  std::vector<Prism> prisms_;
+  std::vector<Edge> edges_;
+};
+
+}  // namespace greatx::render

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Finds what stands behind thin lines. The including shader has visible_at().
+#ifndef GREATX_CAMERA_BEHIND_LINES_GLSL
+#define GREATX_CAMERA_BEHIND_LINES_GLSL
+#include "camera/lines.glsl"
+
+/// Returns triangle + 1 that stands behind the lines at a pixel whose centre sees `id`: that itself, or what
+/// a neighbour sees across the line.
+uint behind_lines(ivec2 at, uint id, uvec2 entries) {
+  uint behind = id;
+  for (uint entry = entries.x; entry < entries.y; ++entry) {
+    if (!of_line(id, entry)) continue;
+    uint quad = line_words[entry];
+    vec2 direction = line_quads[quad].zw;
+    float away = dot(vec2(at) + 0.5 - line_quads[quad].xy, vec2(-direction.y, direction.x));
+    bool upright = abs(direction.y) > abs(direction.x);
+    // The normal's component along the way says to which side the nearer rim lies.
+    float to = (upright ? -direction.y : direction.x) * away;
+    ivec2 way = (upright ? ivec2(1, 0) : ivec2(0, 1)) * (to < 0.0 ? -1 : 1);
+    for (int k = 1; k <= 3; ++k) {
+      uint one = visible_at(clamp(at + k * way, ivec2(0), picture_size() - 1), 0u),
+           other = visible_at(clamp(at - k * way, ivec2(0), picture_size() - 1), 0u);
+      if (!of_lines(one, entries)) return one;
+      if (!of_lines(other, entries)) return other;
+    }
+    break;
+  }
+  return behind;
+}
+#endif
