@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes pipelines from embedded SPIR-V. Their constructors return before the driver has compiled the shaders:
-// threads of the device do that (gpu/pipeline_builds.h). Set 0 holds push descriptors, which are written while
-// recording. Set 1, if a pass asks for it, is a table of textures that lives as long as the scene.
+// Makes pipelines from embedded SPIR-V. Their constructors return before the driver has compiled the shaders,
+// which threads of the device do (gpu/pipeline_builds.h). Set 0 holds push descriptors, which are written
+// while recording. Set 1, if a pass asks for it, is a table of textures that lives as long as the scene.
 #pragma once
 
 #include <cstdint>
