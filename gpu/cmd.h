@@ -87,6 +87,8 @@ struct PassTime {
   double milliseconds = 0.0;
 };
 
+class Cmd;
+
 /// Represents the timestamps of one command buffer.
 class Timestamps {
  public:
@@ -95,7 +97,11 @@ class Timestamps {
   ~Timestamps();
   Timestamps(Timestamps&& other) noexcept;
   Timestamps& operator=(Timestamps&& other) noexcept;
-  /// Returns the times in recording order. The submission must be done.
+  /// Records that the timestamps so far are copied to `to`, of bytes(). The submission then holds its own
+  /// times: to ask the driver for them would make some drivers (lavapipe) wait for all later submissions.
+  void record_copy(Cmd& cmd, const Slice& to);
+  VkDeviceSize bytes() const { return 2 * sizeof(uint64_t) * names_.size(); }
+  /// Returns the times in recording order. record_copy() was recorded, and the submission must be done.
   std::vector<PassTime> read() const;
   /// Resets the timestamps. Called before the command buffer is recorded anew.
   void reset();
@@ -106,6 +112,7 @@ class Timestamps {
   VkQueryPool pool_ = VK_NULL_HANDLE;
   uint32_t max_scopes_ = 0;
   std::vector<std::string> names_;
+  Slice copy_;
 };
 
 /// Represents a command buffer that is being recorded. The caller records barriers and image transitions, one

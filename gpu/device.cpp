@@ -112,6 +112,7 @@ Device::Device(const DeviceOptions& options) {
 }
 
 Device::~Device() {
+  pipeline_builds_.reset();
   vkDeviceWaitIdle(device_);
   vkDestroyPipelineCache(device_, pipeline_cache_, nullptr);
   vkDestroyDevice(device_, nullptr);
@@ -211,6 +212,7 @@ void Device::create_logical() {
 #undef GREATX_LOAD
   const VkPipelineCacheCreateInfo cache{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
   GREATX_VK(vkCreatePipelineCache(device_, &cache, nullptr, &pipeline_cache_));
+  pipeline_builds_ = std::make_unique<PipelineBuilds>();
   spdlog::debug("device {}: {} ({}), tracer: {}", info_.index, info_.name, info_.driver, name_of(tracer_));
 }
 

@@ -18,6 +18,8 @@
 
 namespace greatx::gpu {
 
+class PipelineBuilds;
+
 /// Selects how rays meet triangles (shaders/lib/trace.glsl).
 enum class Tracer : uint32_t {
   automatic,  ///< what Device::tracer says
@@ -145,6 +147,8 @@ class Device {
   Counters& counters() { return counters_; }
   const Counters& counters() const { return counters_; }
   VkPipelineCache pipeline_cache() const { return pipeline_cache_; }
+  /// Returns the threads that build this device's pipelines.
+  PipelineBuilds& pipeline_builds() { return *pipeline_builds_; }
   std::shared_ptr<ValidationLog> validation_log() const { return validation_log_; }
 
   /// Returns a memory type with all of `required`, preferably with `preferred`. Throws UserError if there is
@@ -187,6 +191,7 @@ class Device {
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
+  std::unique_ptr<PipelineBuilds> pipeline_builds_;
   uint32_t queue_family_ = 0;
   uint32_t scratch_alignment_ = 256;
   bool debug_utils_ = false;

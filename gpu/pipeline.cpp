@@ -64,6 +64,84 @@ std::string variant_of(const std::string& shader, const TextureTable* textures) 
   return textures != nullptr && textures->few() ? shader + ".few" : shader;
 }
 
+VkPipeline make_compute(Device& device, const std::string& shader, std::span<const uint32_t> constants,
+                        VkPipelineLayout layout) {
+  const Module module(device, shader);
+  const Specialization specialization(constants);
+  VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+  info.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, &specialization.info);
+  info.layout = layout;
+  VkPipeline made = VK_NULL_HANDLE;
+  GREATX_VK(vkCreateComputePipelines(device.handle(), device.pipeline_cache(), 1, &info, nullptr, &made));
+  return made;
+}
+
+/// `desc` names the variant of its fragment shader.
+VkPipeline make_graphics(Device& device, const GraphicsDesc& desc, VkPipelineLayout layout) {
+  const Specialization specialization(desc.specialization);
+  const Module vertex(device, desc.vertex_shader);
+  std::vector<VkPipelineShaderStageCreateInfo> stages{
+      vertex.stage(VK_SHADER_STAGE_VERTEX_BIT, &specialization.info)};
+  std::vector<std::unique_ptr<Module>> fragment;
+  if (!desc.fragment_shader.empty()) {
+    fragment.push_back(std::make_unique<Module>(device, desc.fragment_shader));
+    stages.push_back(fragment[0]->stage(VK_SHADER_STAGE_FRAGMENT_BIT, &specialization.info));
+  }
+
+  const VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+  VkPipelineInputAssemblyStateCreateInfo assembly{
+      VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+  assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+  VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+  viewport.viewportCount = 1;
+  viewport.scissorCount = 1;
+  VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+  raster.polygonMode = VK_POLYGON_MODE_FILL;
+  raster.cullMode = desc.cull;
+  raster.frontFace = desc.front_face;
+  raster.depthBiasEnable = desc.depth_bias_constant != 0.0f || desc.depth_bias_slope != 0.0f;
+  raster.depthBiasConstantFactor = desc.depth_bias_constant;
+  raster.depthBiasSlopeFactor = desc.depth_bias_slope;
+  raster.lineWidth = 1.0f;
+  VkPipelineMultisampleStateCreateInfo multisample{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+  multisample.rasterizationSamples = desc.samples;
+  VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+  depth.depthTestEnable = desc.depth_format != VK_FORMAT_UNDEFINED;
+  depth.depthWriteEnable = desc.depth_write;
+  depth.depthCompareOp = desc.depth_compare;
+  VkPipelineColorBlendAttachmentState attachment{};
+  attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
+                              VK_COLOR_COMPONENT_A_BIT;
+  const std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.color_formats.size(), attachment);
+  VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+  blend.attachmentCount = static_cast<uint32_t>(attachments.size());
+  blend.pAttachments = attachments.data();
+  const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+  VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+  dynamic.dynamicStateCount = 2;
+  dynamic.pDynamicStates = states;
+  VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+  rendering.colorAttachmentCount = static_cast<uint32_t>(desc.color_formats.size());
+  rendering.pColorAttachmentFormats = desc.color_formats.data();
+  rendering.depthAttachmentFormat = desc.depth_format;
+
+  VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
+  info.stageCount = static_cast<uint32_t>(stages.size());
+  info.pStages = stages.data();
+  info.pVertexInputState = &input;
+  info.pInputAssemblyState = &assembly;
+  info.pViewportState = &viewport;
+  info.pRasterizationState = &raster;
+  info.pMultisampleState = &multisample;
+  info.pDepthStencilState = &depth;
+  info.pColorBlendState = &blend;
+  info.pDynamicState = &dynamic;
+  info.layout = layout;
+  VkPipeline made = VK_NULL_HANDLE;
+  GREATX_VK(vkCreateGraphicsPipelines(device.handle(), device.pipeline_cache(), 1, &info, nullptr, &made));
+  return made;
+}
+
 }  // namespace
 
 std::span<const uint32_t> spirv(std::string_view name) {
@@ -158,14 +236,28 @@ void Pipeline::create_layout(Device& device, std::span<const Binding> bindings, 
   if (textures != nullptr) texture_set_ = textures->set();
 }
 
-void Pipeline::created(std::string_view name) {
-  device_->set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline_), name);
+void Pipeline::begin_build(std::string_view name, std::function<VkPipeline()> make) {
   ++device_->counters().pipelines_built;
   device_->counters().pipelines.emplace_back(name);
+  build_ =
+      std::make_shared<PipelineBuild>([device = device_, name = std::string(name), make = std::move(make)] {
+        const VkPipeline made = make();
+        device->set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(made), name);
+        return made;
+      });
+  device_->pipeline_builds().add(build_);
+}
+
+VkPipeline Pipeline::handle() const {
+  if (build_ == nullptr) return pipeline_;
+  pipeline_ = build_->get();
+  build_ = nullptr;
+  return pipeline_;
 }
 
 Pipeline::~Pipeline() {
   if (device_ == nullptr) return;
+  if (build_ != nullptr) pipeline_ = build_->give_up();
   device_->finish();
   vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
   vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
@@ -174,6 +266,7 @@ Pipeline::~Pipeline() {
 Pipeline::Pipeline(Pipeline&& other) noexcept { *this = std::move(other); }
 Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
   std::swap(device_, other.device_);
+  std::swap(build_, other.build_);
   std::swap(pipeline_, other.pipeline_);
   std::swap(layout_, other.layout_);
   std::swap(set_layout_, other.set_layout_);
@@ -187,81 +280,22 @@ Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
 ComputePipeline::ComputePipeline(Device& device, const ComputeDesc& desc, std::string_view name) {
   bind_point_ = VK_PIPELINE_BIND_POINT_COMPUTE;
   create_layout(device, desc.bindings, desc.push_constant_bytes, desc.textures, VK_SHADER_STAGE_COMPUTE_BIT);
-  const Module module(device, variant_of(desc.shader, desc.textures));
-  const Specialization specialization(desc.specialization);
-  VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-  info.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, &specialization.info);
-  info.layout = layout_;
-  GREATX_VK(
-      vkCreateComputePipelines(device.handle(), device.pipeline_cache(), 1, &info, nullptr, &pipeline_));
-  created(name);
+  spirv(variant_of(desc.shader, desc.textures));  // throws here if there is none
+  begin_build(name,
+              [&device, shader = variant_of(desc.shader, desc.textures), constants = desc.specialization,
+               layout = layout_] { return make_compute(device, shader, constants, layout); });
 }
 
 GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsDesc& desc, std::string_view name) {
   bind_point_ = VK_PIPELINE_BIND_POINT_GRAPHICS;
   create_layout(device, desc.bindings, desc.push_constant_bytes, desc.textures, graphics_stages);
-  const Specialization specialization(desc.specialization);
-  const Module vertex(device, desc.vertex_shader);
-  std::vector<VkPipelineShaderStageCreateInfo> stages{
-      vertex.stage(VK_SHADER_STAGE_VERTEX_BIT, &specialization.info)};
-  std::vector<std::unique_ptr<Module>> fragment;
-  if (!desc.fragment_shader.empty()) {
-    fragment.push_back(std::make_unique<Module>(device, variant_of(desc.fragment_shader, desc.textures)));
-    stages.push_back(fragment[0]->stage(VK_SHADER_STAGE_FRAGMENT_BIT, &specialization.info));
-  }
-
-  const VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-  VkPipelineInputAssemblyStateCreateInfo assembly{
-      VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
-  assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-  VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
-  viewport.viewportCount = 1;
-  viewport.scissorCount = 1;
-  VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
-  raster.polygonMode = VK_POLYGON_MODE_FILL;
-  raster.cullMode = desc.cull;
-  raster.frontFace = desc.front_face;
-  raster.depthBiasEnable = desc.depth_bias_constant != 0.0f || desc.depth_bias_slope != 0.0f;
-  raster.depthBiasConstantFactor = desc.depth_bias_constant;
-  raster.depthBiasSlopeFactor = desc.depth_bias_slope;
-  raster.lineWidth = 1.0f;
-  VkPipelineMultisampleStateCreateInfo multisample{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
-  multisample.rasterizationSamples = desc.samples;
-  VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
-  depth.depthTestEnable = desc.depth_format != VK_FORMAT_UNDEFINED;
-  depth.depthWriteEnable = desc.depth_write;
-  depth.depthCompareOp = desc.depth_compare;
-  VkPipelineColorBlendAttachmentState attachment{};
-  attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
-                              VK_COLOR_COMPONENT_A_BIT;
-  const std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.color_formats.size(), attachment);
-  VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
-  blend.attachmentCount = static_cast<uint32_t>(attachments.size());
-  blend.pAttachments = attachments.data();
-  const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-  VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
-  dynamic.dynamicStateCount = 2;
-  dynamic.pDynamicStates = states;
-  VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
-  rendering.colorAttachmentCount = static_cast<uint32_t>(desc.color_formats.size());
-  rendering.pColorAttachmentFormats = desc.color_formats.data();
-  rendering.depthAttachmentFormat = desc.depth_format;
-
-  VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
-  info.stageCount = static_cast<uint32_t>(stages.size());
-  info.pStages = stages.data();
-  info.pVertexInputState = &input;
-  info.pInputAssemblyState = &assembly;
-  info.pViewportState = &viewport;
-  info.pRasterizationState = &raster;
-  info.pMultisampleState = &multisample;
-  info.pDepthStencilState = &depth;
-  info.pColorBlendState = &blend;
-  info.pDynamicState = &dynamic;
-  info.layout = layout_;
-  GREATX_VK(
-      vkCreateGraphicsPipelines(device.handle(), device.pipeline_cache(), 1, &info, nullptr, &pipeline_));
-  created(name);
+  GraphicsDesc own = desc;
+  if (!own.fragment_shader.empty()) own.fragment_shader = variant_of(desc.fragment_shader, desc.textures);
+  for (const std::string& shader : {own.vertex_shader, own.fragment_shader})
+    if (!shader.empty()) spirv(shader);  // throws here if there is none
+  own.textures = nullptr;                // may be gone when a thread comes to the build
+  begin_build(
+      name, [&device, own = std::move(own), layout = layout_] { return make_graphics(device, own, layout); });
 }
 
 }  // namespace greatx::gpu

@@ -1,17 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes pipelines from embedded SPIR-V. Set 0 holds push descriptors, which are written while recording. Set
-// 1, if a pass asks for it, is a table of textures that lives as long as the scene.
+// Makes pipelines from embedded SPIR-V. Their constructors return before the driver has compiled the shaders,
+// which threads of the device do (gpu/pipeline_builds.h). Set 0 holds push descriptors, which are written
+// while recording. Set 1, if a pass asks for it, is a table of textures that lives as long as the scene.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "gpu/pipeline_builds.h"
 #include "gpu/resources.h"
 
 namespace greatx::gpu {
@@ -59,21 +62,25 @@ class Pipeline {
   ~Pipeline();
   Pipeline(Pipeline&& other) noexcept;
   Pipeline& operator=(Pipeline&& other) noexcept;
-  VkPipeline handle() const { return pipeline_; }
+  /// Waits until the pipeline is built, and throws VulkanError if that fails. Only one thread at a time calls
+  /// this.
+  VkPipeline handle() const;
   VkPipelineLayout layout() const { return layout_; }
   VkPipelineBindPoint bind_point() const { return bind_point_; }
   VkShaderStageFlags push_constant_stages() const { return stages_; }
   uint32_t push_constant_bytes() const { return push_bytes_; }
   VkDescriptorSet texture_set() const { return texture_set_; }
-  explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
+  explicit operator bool() const { return layout_ != VK_NULL_HANDLE; }
 
  protected:
   void create_layout(Device& device, std::span<const Binding> bindings, uint32_t push_bytes,
                      const TextureTable* textures, VkShaderStageFlags stages);
-  void created(std::string_view name);
+  /// Counts the pipeline and has `make` called once, on any thread. `make` outlives this object.
+  void begin_build(std::string_view name, std::function<VkPipeline()> make);
 
   Device* device_ = nullptr;
-  VkPipeline pipeline_ = VK_NULL_HANDLE;
+  mutable std::shared_ptr<PipelineBuild> build_;  ///< null once handle() has taken the pipeline
+  mutable VkPipeline pipeline_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkDescriptorSet texture_set_ = VK_NULL_HANDLE;

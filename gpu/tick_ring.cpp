@@ -88,6 +88,7 @@ TickSlot& TickRing::begin() {
 }
 
 void TickRing::submit(TickSlot& slot, Kind kind) {
+  slot.timestamps.record_copy(*slot.cmd, slot.readback.allocate(slot.timestamps.bytes()));
   slot.cmd->barrier({VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT}, sync::host_read);
   GREATX_VK(vkEndCommandBuffer(slot.cmd->handle()));
   slot.submission = ++submitted_;

@@ -24,20 +24,26 @@ Timestamps& Timestamps::operator=(Timestamps&& other) noexcept {
   std::swap(pool_, other.pool_);
   std::swap(max_scopes_, other.max_scopes_);
   std::swap(names_, other.names_);
+  std::swap(copy_, other.copy_);
   return *this;
 }
 
 void Timestamps::reset() {
   vkResetQueryPool(device_->handle(), pool_, 0, 2 * max_scopes_);
   names_.clear();
+  copy_ = {};
+}
+
+void Timestamps::record_copy(Cmd& cmd, const Slice& to) {
+  copy_ = to;
+  if (names_.empty()) return;
+  vkCmdCopyQueryPoolResults(cmd.handle(), pool_, 0, static_cast<uint32_t>(2 * names_.size()), to.buffer,
+                            to.offset, sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
 }
 
 std::vector<PassTime> Timestamps::read() const {
-  std::vector<uint64_t> stamps(2 * names_.size());
   if (names_.empty()) return {};
-  GREATX_VK(vkGetQueryPoolResults(device_->handle(), pool_, 0, static_cast<uint32_t>(stamps.size()),
-                                  stamps.size() * sizeof(uint64_t), stamps.data(), sizeof(uint64_t),
-                                  VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+  const std::span<const uint64_t> stamps = copy_.as<uint64_t>();
   const double milliseconds = static_cast<double>(device_->limits().timestampPeriod) * 1e-6;
   std::vector<PassTime> times;
   for (size_t i = 0; i < names_.size(); ++i)

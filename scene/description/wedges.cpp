@@ -201,7 +201,8 @@ class EdgeFinder {
     near_.clear();
     tree_.near_segment(a, b, 2.0 * weld, near_);
     contacts_.clear();
-    std::vector<double> cuts{0.0, length};
+    std::vector<double>& cuts = cuts_;
+    cuts.assign({0.0, length});
     for (const uint32_t triangle : near_) {
       const uint32_t facet = facet_of_[triangle];
       const auto contact =
@@ -249,6 +250,7 @@ class EdgeFinder {
   TriangleTree tree_;
   std::vector<uint32_t> near_;
   std::vector<Contact> contacts_;
+  std::vector<double> cuts_;
   std::vector<Direction> around_;
 };
 

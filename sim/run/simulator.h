@@ -104,11 +104,11 @@ class Simulator {
   const Scenario& scenario_;
   const World& world_;
   gpu::Device& device_;
+  std::unique_ptr<RadioAhead> radio_;  ///< exists while the scene is uploaded and the sensors are made
   scene::GpuScene gpu_scene_;
   gpu::TickRing ring_;
   Clock clock_;
   Schedule schedule_;
-  std::unique_ptr<RadioAhead> radio_;  ///< exists while the sensors are made
   SharedPasses passes_;
   std::vector<RunSensor> sensors_;
   std::vector<SensorSpec> specs_;  ///< [sensor]

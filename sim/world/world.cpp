@@ -3,11 +3,13 @@
 #include "sim/world/world.h"
 
 #include <algorithm>
-#include <deque>
-#include <set>
+#include <exception>
+#include <map>
+#include <optional>
 #include <tuple>
 
 #include "core/expected.h"
+#include "core/parallel.h"
 #include "rf/surface/surfaces.h"
 #include "scene/build/build.h"
 #include "scene/generator/generate.h"
@@ -36,21 +38,57 @@ scene::Model load(const ModelSource& source, const SceneConfig& config) {
   }
 }
 
-/// Loads the models of nodes. A generated one that several nodes have alike is made once.
-class GeneratedModels {
+/// Loads the models of objects and nodes, on all cores. A generated one that several nodes have alike is made
+/// once.
+class LoadedModels {
  public:
-  scene::Model& load(const ModelSource& source, const SceneConfig& config, std::deque<scene::Model>& models) {
-    const auto* made = std::get_if<Generated>(&source.source);
-    if (made != nullptr)
-      for (const auto& [known, model] : known_)
-        if (known == *made) return *model;
-    models.push_back(sim::load(source, config));
-    if (made != nullptr) known_.emplace_back(*made, &models.back());
-    return models.back();
+  explicit LoadedModels(const Scenario& scenario) {
+    for (const StaticObject& object : scenario.scene.objects) add(object.model);
+    const size_t objects = loads_.size();
+    for (const NodeConfig& node : scenario.nodes) {
+      if (!node.model) continue;
+      const auto known =
+          std::find_if(loads_.begin() + static_cast<std::ptrdiff_t>(objects), loads_.end(),
+                       [&](const Load& load) { return made_alike(*load.source, *node.model); });
+      if (known == loads_.end())
+        add(*node.model);
+      else
+        load_of_[&*node.model] = static_cast<size_t>(known - loads_.begin());
+    }
+    parallel_for(loads_.size(), 0, [&](size_t i) {
+      try {
+        loads_[i].model = load(*loads_[i].source, scenario.scene);
+      } catch (const Interrupted&) {
+        throw;
+      } catch (...) {
+        loads_[i].failure = std::current_exception();
+      }
+    });
+  }
+  /// Returns the model of an object or a node of the scenario. Throws what its loading has thrown: the first
+  /// fault in the scenario's order is then the one that is reported.
+  scene::Model& of(const ModelSource& source) {
+    Load& load = loads_[load_of_.at(&source)];
+    if (load.failure) std::rethrow_exception(load.failure);
+    return *load.model;
   }
 
  private:
-  std::vector<std::pair<Generated, scene::Model*>> known_;
+  struct Load {
+    const ModelSource* source;
+    std::optional<scene::Model> model;
+    std::exception_ptr failure;
+  };
+  static bool made_alike(const ModelSource& a, const ModelSource& b) {
+    return std::holds_alternative<Generated>(a.source) && a.source == b.source;
+  }
+  void add(const ModelSource& source) {
+    load_of_[&source] = loads_.size();
+    loads_.push_back({&source, std::nullopt, nullptr});
+  }
+
+  std::vector<Load> loads_;  ///< placements point at the models
+  std::map<const ModelSource*, size_t> load_of_;
 };
 
 std::optional<scene::SemanticClass> semantic_class(const std::optional<std::string>& name,
@@ -206,14 +244,14 @@ void check_world(const Scenario& scenario, const World& world) {
 World load_world(const Scenario& scenario) {
   check_optical_only(scenario);
   World world;
-  std::deque<scene::Model> models;  // placements point at them
+  LoadedModels models(scenario);
   std::vector<scene::ModelPlacement> placements;
   for (const StaticObject& object : scenario.scene.objects) {
-    models.push_back(load(object.model, scenario.scene));
-    check_georeference(models.back(), object, scenario.scene);
-    if (scenario.traffic && !world.streets) world.streets = streets_of(scenario, models.back(), object);
+    scene::Model& model = models.of(object.model);
+    check_georeference(model, object, scenario.scene);
+    if (scenario.traffic && !world.streets) world.streets = streets_of(scenario, model, object);
     placements.push_back({object.name,
-                          &models.back(),
+                          &model,
                           {object.position_m, orientation_of(object.rotation)},
                           object.scale,
                           false,
@@ -221,12 +259,11 @@ World load_world(const Scenario& scenario) {
                           {}});
   }
   check_traffic(scenario, world);  // before as many models as the scenario asks for
-  GeneratedModels generated;
   for (size_t index = 0; index < scenario.nodes.size(); ++index) {
     const NodeConfig& node = scenario.nodes[index];
     const bool fixed_in_world = never_moves(scenario, index);
     if (!node.model) continue;
-    scene::Model& model = generated.load(*node.model, scenario.scene, models);
+    scene::Model& model = models.of(*node.model);
     if (model.georeference)
       model.notes.push_back(fmt::format("{}: its georeference is not used, since node '{}' places it",
                                         model.file.string(), node.name));

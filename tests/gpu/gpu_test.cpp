@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <future>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -163,6 +165,74 @@ TEST(Compute, AddsWithSpecializationAndPushConstants) {
     EXPECT_GE(times[0].milliseconds, 0.0);
   }
   EXPECT_EQ(device.counters().submits - submits, 5u);
+}
+
+/// A packet is handed over while the next tick is at work, so nothing that it needs may wait for that tick.
+TEST(Ticks, TimesAreReadWhileALaterSubmissionWaits) {
+  Device& device = test::device();
+  const ComputePipeline pipeline = add_pipeline(1);
+  TickRing ring(device, 2, 1 << 16, 1 << 16);
+  TickSlot& slot = ring.begin();
+  {
+    const auto scope = slot.cmd->scope("add");
+    slot.cmd->bind(pipeline);
+    slot.cmd->push(
+        {Descriptor::buffer(0, slot.upload.allocate(64)), Descriptor::buffer(1, slot.readback.allocate(64))});
+    slot.cmd->constants(AddConstants{16, 1});
+    slot.cmd->dispatch(1);
+  }
+  ring.submit(slot);
+  ring.wait(slot);
+  VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
+  type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
+  const VkSemaphoreCreateInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
+  VkSemaphore host = VK_NULL_HANDLE;
+  GREATX_VK(vkCreateSemaphore(device.handle(), &info, nullptr, &host));
+  VkSemaphoreSubmitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+  wait.semaphore = host;
+  wait.value = 1;
+  wait.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  VkSubmitInfo2 later{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+  later.waitSemaphoreInfoCount = 1;
+  later.pWaitSemaphoreInfos = &wait;
+  GREATX_VK(vkQueueSubmit2(device.queue(), 1, &later, VK_NULL_HANDLE));
+
+  std::future<std::vector<PassTime>> times =
+      std::async(std::launch::async, [&] { return slot.timestamps.read(); });
+  const bool read = times.wait_for(std::chrono::seconds(20)) == std::future_status::ready;
+  VkSemaphoreSignalInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO};
+  signal.semaphore = host;
+  signal.value = 1;
+  GREATX_VK(vkSignalSemaphore(device.handle(), &signal));
+  EXPECT_TRUE(read) << "the times wait for the later submission";
+  EXPECT_EQ(times.get().size(), 1u);
+  device.wait_idle();
+  vkDestroySemaphore(device.handle(), host, nullptr);
+}
+
+TEST(Compute, AnUnknownShaderIsAnErrorAtOnce) {
+  ComputeDesc desc;
+  desc.shader = "tests/none.comp";
+  EXPECT_THROW(ComputePipeline(test::device(), desc, "none"), ContractError);
+}
+
+TEST(Compute, PipelinesAreCountedInTheOrderAskedFor) {
+  Device& device = test::device();
+  const size_t before = device.counters().pipelines.size();
+  const uint64_t built = device.counters().pipelines_built;
+  for (const uint32_t addend : {1u, 2u, 3u}) {
+    ComputeDesc desc;
+    desc.shader = "tests/add.comp";
+    desc.bindings = {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}};
+    desc.push_constant_bytes = sizeof(AddConstants);
+    desc.specialization = {addend};
+    const ComputePipeline unused(device, desc, fmt::format("add {}", addend));
+    EXPECT_TRUE(static_cast<bool>(unused));
+  }
+  const std::vector<std::string>& all = device.counters().pipelines;
+  EXPECT_THAT(std::vector(all.begin() + static_cast<std::ptrdiff_t>(before), all.end()),
+              testing::ElementsAre("add 1", "add 2", "add 3"));
+  EXPECT_EQ(device.counters().pipelines_built, built + 3);
 }
 
 TEST(Compute, GroupsAreLaidOutInRows) {

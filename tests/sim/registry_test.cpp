@@ -47,9 +47,9 @@ channels:
 
 TEST(Registry, EverySensorIsMadeInTheScenariosOrderByTheMakerOfItsKind) {
   const Experiment experiment = make_experiment(parse_scenario(all_kinds, "kinds.yaml", "."));
+  RadioAhead radio(test::device(), experiment);
   scene::GpuScene gpu_scene(test::device(), experiment.world->scene, gpu_scene_options(experiment.plan));
-  RadioAhead radio(gpu_scene, experiment);
-  SharedPasses passes(gpu_scene, experiment);
+  SharedPasses passes(radio.begin_radars(gpu_scene), experiment);
   const std::vector<RunSensor> sensors = make_sensors({gpu_scene, passes, experiment, radio});
   std::vector<std::string> made;
   for (const RunSensor& run : sensors) {

@@ -23,6 +23,8 @@ constexpr uint32_t tubes_at_once = 256;
 /// lib/trace.glsl uses the same value. A facet that lies in the same plane, except for the rounding of its
 /// fp32 corners, is then not met.
 constexpr double lift = 4.2e-7;
+/// Length by which cones are followed past the farthest point of a body, metres.
+constexpr double past_m = 1e-3;
 
 double largest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
@@ -246,56 +248,79 @@ GREATX_LANES void EchoTracer::meet(const Node* nodes, const Piece* pieces, const
   }
 }
 
-std::vector<EchoTracer::Standing> EchoTracer::standing(const FacetWorld& world, const Hidden& hidden) const {
-  std::vector<Standing> all;
+EchoTracer::Poses EchoTracer::standing(const FacetWorld& world, const Hidden& hidden) const {
+  Poses all;
+  uint32_t owner = 0;  // of the last group
   for (const Tree& tree : trees_) {
     if (tree.body != 0 && (tree.owner == hidden[0] || tree.owner == hidden[1])) continue;
-    Standing& one = all.emplace_back();
+    Standing& one = all.trees.emplace_back();
     one.tree = &tree;
-    if (tree.body == 0) continue;
-    const Pose& pose = world.motion(tree.body).pose;
-    const dvec3 size = tree.bounds.size();
-    one.back = pose.inverse();
-    one.center = pose.apply(tree.bounds.center());
-    one.squared_radius = 0.25 * glm::dot(size, size);
+    if (tree.body != 0) {
+      const Pose& pose = world.motion(tree.body).pose;
+      const dvec3 size = tree.bounds.size();
+      one.back = pose.inverse();
+      one.center = pose.apply(tree.bounds.center());
+      one.squared_radius = 0.25 * glm::dot(size, size);
+    }
+    if (all.groups.empty() || tree.body == 0 || all.groups.back().is_static || owner != tree.owner)
+      all.groups.push_back({static_cast<uint32_t>(all.trees.size()) - 1, 0, tree.body == 0});
+    ++all.groups.back().count;
+    owner = tree.owner;
+  }
+  for (Group& group : all.groups) {
+    if (group.is_static) continue;
+    const std::span<const Standing> trees = std::span(all.trees).subspan(group.first, group.count);
+    for (const Standing& one : trees) group.center += one.center / double(group.count);
+    for (const Standing& one : trees)
+      group.radius =
+          std::max(group.radius, glm::distance(group.center, one.center) + std::sqrt(one.squared_radius));
+    group.radius += 1e-9 * (group.radius + largest(group.center));  // more than the rounding errors
   }
   return all;
 }
 
-void EchoTracer::meet_all(std::span<const Standing> trees, Query& query, uint32_t guess) const {
+void EchoTracer::meet_body(const Standing& one, double squared, Query& query) const {
+  const dvec3 across = glm::cross(one.center - query.origin, query.direction);
+  if (glm::dot(across, across) > one.squared_radius * squared) return;
+  Query own = query;
+  own.origin = one.back.apply(query.origin), own.direction = one.back.rotate(query.direction);
+  meet(nodes_.data(), pieces_.data(), sides_.data(), one.tree->root, own);
+  query.nearest = own.nearest;
+  if (query.facet != own.facet) query.facet = own.facet, query.piece = Query::none;
+}
+
+void EchoTracer::meet_all(const Poses& poses, Query& query, uint32_t guess) const {
   const double squared = glm::dot(query.direction, query.direction);
-  for (const Standing& one : trees) {
-    if (one.tree->body == 0) {
+  for (const Group& group : poses.groups) {
+    if (group.is_static) {
       if (guess != Query::none) test(pieces_.data(), guess, sides_.data(), query);
-      meet(nodes_.data(), pieces_.data(), sides_.data(), one.tree->root, query);
-    } else {
-      const dvec3 across = glm::cross(one.center - query.origin, query.direction);
-      if (glm::dot(across, across) > one.squared_radius * squared) continue;
-      Query own = query;
-      own.origin = one.back.apply(query.origin), own.direction = one.back.rotate(query.direction);
-      meet(nodes_.data(), pieces_.data(), sides_.data(), one.tree->root, own);
-      query.nearest = own.nearest;
-      if (query.facet != own.facet) query.facet = own.facet, query.piece = Query::none;
+      meet(nodes_.data(), pieces_.data(), sides_.data(), poses.trees[group.first].tree->root, query);
+      if (query.any && query.facet != ~0u) return;
+      continue;
     }
-    if (query.any && query.facet != ~0u) return;
+    const dvec3 across = glm::cross(group.center - query.origin, query.direction);
+    if (glm::dot(across, across) > group.radius * group.radius * squared) continue;
+    for (uint32_t i = group.first; i < group.first + group.count; ++i) {
+      meet_body(poses.trees[i], squared, query);
+      if (query.any && query.facet != ~0u) return;
+    }
   }
 }
 
-bool EchoTracer::sees(std::span<const Standing> trees, const dvec3& from, const dvec3& to,
-                      uint32_t leaving) const {
+bool EchoTracer::sees(const Poses& poses, const dvec3& from, const dvec3& to, uint32_t leaving) const {
   Query query{from, to - from, 1.0, leaving, ~0u, true};
-  meet_all(trees, query);
+  meet_all(poses, query);
   return query.facet == ~0u;
 }
 
 EchoTracer::View EchoTracer::view(const FacetWorld& world, uint32_t hidden_owner, uint32_t another) const {
   View view;
-  view.trees_ = standing(world, {hidden_owner, another});
+  view.poses_ = standing(world, {hidden_owner, another});
   return view;
 }
 
 bool EchoTracer::clear(const View& view, const dvec3& from, const dvec3& to, uint32_t leaving) const {
-  return sees(view.trees_, from, to, leaving);
+  return sees(view.poses_, from, to, leaving);
 }
 
 GREATX_LANES void EchoTracer::gather(const Node* nodes, const Piece* pieces, uint32_t root, const Cone& cone,
@@ -364,29 +389,42 @@ GREATX_LANES void EchoTracer::gather(const Node* nodes, const Piece* pieces, uin
   }
 }
 
+void EchoTracer::gather(const Standing& one, const Cone& cone, double squared,
+                        std::vector<FacetPiece>& pieces) const {
+  std::array<KeptSide, most_sides> sides;
+  Cone own = cone;
+  const scene::Bounds& box = one.tree->bounds;
+  if (one.tree->body != 0) {
+    own.origin = one.back.apply(cone.origin), own.direction = one.back.rotate(cone.direction);
+  }
+  // No point of the body is farther away than `most`.
+  const dvec3 arm = box.center() - own.origin;
+  const double around = 0.5 * glm::length(box.size()), most = glm::length(arm) + around;
+  own.to = std::min(cone.to, most + past_m);  // the axis is at least 1 m long a unit
+  const double radius = own.to * cone.slope;
+  if (one.tree->body != 0) {
+    const dvec3 across = glm::cross(arm, own.direction);
+    if (glm::dot(across, across) > (around + radius) * (around + radius) * squared) return;
+    const Pose pose = one.back.inverse();
+    for (size_t i = 0; i < cone.sides.size(); ++i) sides[i] = in_body(cone.sides[i], pose);
+    own.sides = std::span(sides).first(cone.sides.size());
+  }
+  gather(nodes_.data(), pieces_.data(), one.tree->root, own, pieces);
+}
+
 void EchoTracer::gather(const View& view, const Cone& cone, std::vector<FacetPiece>& pieces) const {
   const double squared = glm::dot(cone.direction, cone.direction);
   GREATX_CHECK(cone.sides.size() <= most_sides, "{} half-spaces", cone.sides.size());
-  std::array<KeptSide, most_sides> sides;
-  for (const Standing& one : view.trees_) {
-    Cone own = cone;
-    // No point of the body is farther away than `most`.
-    const scene::Bounds& box = one.tree->bounds;
-    if (one.tree->body != 0) {
-      own.origin = one.back.apply(cone.origin), own.direction = one.back.rotate(cone.direction);
+  for (const Group& group : view.poses_.groups) {
+    if (!group.is_static) {
+      // A body of the group that the cone comes near has its centre within `most` of the ball's.
+      const dvec3 arm = group.center - cone.origin, across = glm::cross(arm, cone.direction);
+      const double reach = std::min(cone.to, glm::length(arm) + group.radius + past_m),
+                   most = (group.radius + reach * cone.slope) * (1.0 + 1e-9);
+      if (glm::dot(across, across) > most * most * squared) continue;
     }
-    const dvec3 arm = box.center() - own.origin;
-    const double around = 0.5 * glm::length(box.size()), most = glm::length(arm) + around;
-    own.to = std::min(cone.to, most + 1e-3);  // the axis is at least 1 m long a unit
-    const double radius = own.to * cone.slope;
-    if (one.tree->body != 0) {
-      const dvec3 across = glm::cross(arm, own.direction);
-      if (glm::dot(across, across) > (around + radius) * (around + radius) * squared) continue;
-      const Pose pose = one.back.inverse();
-      for (size_t i = 0; i < cone.sides.size(); ++i) sides[i] = in_body(cone.sides[i], pose);
-      own.sides = std::span(sides).first(cone.sides.size());
-    }
-    gather(nodes_.data(), pieces_.data(), one.tree->root, own, pieces);
+    for (uint32_t i = group.first; i < group.first + group.count; ++i)
+      gather(view.poses_.trees[i], cone, squared, pieces);
   }
   std::sort(pieces.begin(), pieces.end());
 }
@@ -397,7 +435,7 @@ EchoTracer::Met EchoTracer::first(const View& view, const dvec3& origin, const d
                                   uint32_t leaving) const {
   Query query{origin, direction};
   query.leaving = leaving;
-  meet_all(view.trees_, query);
+  meet_all(view.poses_, query);
   return {query.facet, query.nearest};
 }
 
@@ -409,8 +447,8 @@ EchoTracer::Answer EchoTracer::trace(const FacetWorld& world, const EchoRays& ra
   Answer answer;
   const uint32_t tubes = grid.size();
   answer.words.assign(size_t{tubes} * max_bounces, shared::radar_none);
-  const std::vector<Standing> own = standing(world, {rays.source_body, 0}),
-                              both = standing(world, {rays.source_body, rays.receiver_body});
+  const Poses own = standing(world, {rays.source_body, 0}),
+              both = standing(world, {rays.source_body, rays.receiver_body});
   answer.direct = !monostatic && sees(both, rays.source, rays.receiver, ~0u);
   parallel_for((tubes + tubes_at_once - 1) / tubes_at_once, threads, [&](size_t part) {
     const uint32_t first = static_cast<uint32_t>(part) * tubes_at_once;

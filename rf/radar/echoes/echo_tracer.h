@@ -108,6 +108,18 @@ class EchoTracer {
     uint32_t piece = none;  ///< index of the piece that was met last
     static constexpr uint32_t none = ~0u;
   };
+  /// Holds the trees of one owner, one behind the other, and a ball around them: a cyclist has a dozen bodies
+  /// that turn, and most rays come near none of them.
+  struct Group {
+    uint32_t first = 0, count = 0;  ///< in Poses::trees
+    bool is_static = false;         ///< has the tree of body 0, and no ball
+    dvec3 center{0.0};
+    double radius = 0.0;
+  };
+  struct Poses {
+    std::vector<Standing> trees;
+    std::vector<Group> groups;
+  };
   using Hidden = std::array<uint32_t, 2>;  ///< owners of the bodies that rays pass through; 0: none
 
   Piece piece_of(const scene::Facet& facet, FacetPiece index, std::span<const dvec3> corners);
@@ -117,11 +129,13 @@ class EchoTracer {
   static void gather(const Node* nodes, const Piece* pieces, uint32_t root, const Cone& cone,
                      std::vector<FacetPiece>& found);
   /// Returns all trees except those of hidden bodies.
-  std::vector<Standing> standing(const FacetWorld& world, const Hidden& hidden) const;
+  Poses standing(const FacetWorld& world, const Hidden& hidden) const;
   /// Tests the ray against all bodies. `query` is in local coordinates. `guess` is a piece of the static body
   /// that the ray probably meets, or Query::none: it is tested first, so that farther boxes are passed over.
-  void meet_all(std::span<const Standing> trees, Query& query, uint32_t guess = Query::none) const;
-  bool sees(std::span<const Standing> trees, const dvec3& from, const dvec3& to, uint32_t leaving) const;
+  void meet_all(const Poses& poses, Query& query, uint32_t guess = Query::none) const;
+  void meet_body(const Standing& one, double squared, Query& query) const;
+  void gather(const Standing& one, const Cone& cone, double squared, std::vector<FacetPiece>& pieces) const;
+  bool sees(const Poses& poses, const dvec3& from, const dvec3& to, uint32_t leaving) const;
 
   std::vector<Node> nodes_;
   std::vector<Piece> pieces_;  ///< in the order of the leaves
@@ -131,7 +145,7 @@ class EchoTracer {
 
 class EchoTracer::View {
   friend class EchoTracer;
-  std::vector<Standing> trees_;
+  Poses poses_;
 };
 
 }  // namespace greatx::rf

@@ -24,16 +24,17 @@ void over_radars(const Scenario& scenario, const Visit& visit) {
 
 }  // namespace
 
-RadioAhead::RadioAhead(scene::GpuScene& gpu_scene, const Experiment& experiment) : experiment_(experiment) {
+RadioAhead::RadioAhead(const gpu::Device& device, const Experiment& experiment)
+    : experiment_(experiment), gpu_scene_(uploaded_.get_future()) {
   const Scenario& scenario = experiment.scenario;
   const EffectPlan& plan = experiment.plan;
   size_t users = plan.finite_reflectors.on || plan.diffraction.on ? scenario.channels.size() : 0;
   over_radars(scenario, [&](SensorPlace at, const RadarConfig& config) {
-    if (!rf::EchoFinder::traces_on_host(gpu_scene.device(), config.echoes)) return;
+    if (!rf::EchoFinder::traces_on_host(device, config.echoes)) return;
     users += plan.radar_edges.on ? 1 : 0;
-    radars_.push_back({at, Task<std::unique_ptr<Sensor>>([this, &gpu_scene, at] {
-                         return std::make_unique<RadarSensor>(gpu_scene, experiment_, at.node, at.sensor,
-                                                              survey());
+    radars_.push_back({at, Task<std::unique_ptr<Sensor>>([this, at] {
+                         return std::make_unique<RadarSensor>(*gpu_scene_.get(), experiment_, at.node,
+                                                              at.sensor, survey());
                        })});
   });
   for (uint32_t channel = 0; channel < scenario.channels.size(); ++channel)
@@ -43,16 +44,24 @@ RadioAhead::RadioAhead(scene::GpuScene& gpu_scene, const Experiment& experiment)
   if (usable_cores() > 1 && !(radars_.empty() && worlds_.empty())) thread_ = start_beside([this] { run(); });
 }
 
+scene::GpuScene& RadioAhead::begin_radars(scene::GpuScene& gpu_scene) {
+  begun_ = true;
+  uploaded_.set_value(&gpu_scene);
+  return gpu_scene;
+}
+
 RadioAhead::~RadioAhead() {
   stop_ = true;
+  if (!begun_) uploaded_.set_value(nullptr);
   if (thread_.joinable()) thread_.join();
 }
 
 void RadioAhead::run() {
-  for (Radar& radar : radars_)
-    if (!stop_) radar.task.make();
   for (auto& task : worlds_)
     if (!stop_) task.make();
+  if (radars_.empty() || gpu_scene_.get() == nullptr) return;
+  for (Radar& radar : radars_)
+    if (!stop_) radar.task.make();
 }
 
 const scene::EdgeSurvey* RadioAhead::survey() {

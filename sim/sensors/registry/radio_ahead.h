@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes what radars and channels know of the scene on a thread of its own, while the caller sets up the
-// device's passes. It takes a third of a city's set-up and uses the host alone.
+// Makes what radars and channels know of the scene on a thread of its own, while the caller uploads the scene
+// and sets up the device's passes. It takes a third of a city's set-up and uses the host alone.
 #pragma once
 
 #include <atomic>
@@ -24,8 +24,12 @@ namespace greatx::sim {
 
 class RadioAhead {
  public:
-  /// Begins. On one core, everything is made when it is asked for. The scene and the experiment outlive this.
-  RadioAhead(scene::GpuScene& gpu_scene, const Experiment& experiment);
+  /// Begins with what needs no device. On one core, everything is made when it is asked for. The experiment
+  /// outlives this.
+  RadioAhead(const gpu::Device& device, const Experiment& experiment);
+  /// Begins the radars, which keep a reference to the scene on the device, and returns that scene. Called
+  /// once, before radar().
+  scene::GpuScene& begin_radars(scene::GpuScene& gpu_scene);
   /// Leaves out what is not begun and waits for the rest.
   ~RadioAhead();
   RadioAhead(const RadioAhead&) = delete;
@@ -54,6 +58,9 @@ class RadioAhead {
   void run();
 
   const Experiment& experiment_;
+  std::promise<scene::GpuScene*> uploaded_;  ///< null if the upload failed
+  std::shared_future<scene::GpuScene*> gpu_scene_;
+  bool begun_ = false;  ///< uploaded_ has its value
   bool surveys_ = false;
   std::once_flag surveyed_;
   std::unique_ptr<const scene::EdgeSurvey> survey_;
