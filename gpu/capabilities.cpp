@@ -34,7 +34,7 @@ struct FeatureUse {
 #bit, why, false, [](FeatureChain & chain) { return &chain.part.bit; } \
   }
 
-constexpr const char* texture_table = "textures of any number of sizes (else at most 24)";
+constexpr const char* texture_table = "textures of any number of sizes (else at most 16)";
 constexpr const char* driver_rays = "rays traced by the driver (else by greatx's own trees)";
 
 const FeatureUse feature_uses[] = {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "shaders/shared/scene.h"
 #include "shaders/spirv.h"
 
@@ -142,6 +143,15 @@ VkPipeline make_graphics(Device& device, const GraphicsDesc& desc, VkPipelineLay
   return made;
 }
 
+/// Some drivers crash beyond their limit (lavapipe of Mesa 22.3 with 35 samplers of 32).
+void check_samplers(const Device& device, std::span<const Binding> bindings, const TextureTable* textures) {
+  const auto own = std::ranges::count(bindings, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, &Binding::type);
+  const auto samplers = static_cast<uint32_t>(own) + (textures != nullptr ? textures->count() : 0);
+  if (samplers > device.limits().maxPerStageDescriptorSamplers)
+    throw_user_error("a shader reads {} textures, '{}' lets it read {} (maxPerStageDescriptorSamplers)",
+                     samplers, device.info().name, device.limits().maxPerStageDescriptorSamplers);
+}
+
 }  // namespace
 
 std::span<const uint32_t> spirv(std::string_view name) {
@@ -159,6 +169,7 @@ TextureTable::TextureTable(Device& device, std::span<const VkDescriptorImageInfo
     images.resize(shared::most_tried_arrays, images[0]);
   }
   const uint32_t count = std::max<uint32_t>(1, static_cast<uint32_t>(images.size()));
+  count_ = count;
   const VkDescriptorBindingFlags partially = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT;
   VkDescriptorSetLayoutBindingFlagsCreateInfo flags{
       VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO};
@@ -204,6 +215,7 @@ TextureTable::TextureTable(TextureTable&& other) noexcept { *this = std::move(ot
 TextureTable& TextureTable::operator=(TextureTable&& other) noexcept {
   std::swap(device_, other.device_);
   std::swap(few_, other.few_);
+  std::swap(count_, other.count_);
   std::swap(layout_, other.layout_);
   std::swap(pool_, other.pool_);
   std::swap(set_, other.set_);
@@ -213,6 +225,7 @@ TextureTable& TextureTable::operator=(TextureTable&& other) noexcept {
 void Pipeline::create_layout(Device& device, std::span<const Binding> bindings, uint32_t push_bytes,
                              const TextureTable* textures, VkShaderStageFlags stages) {
   GREATX_CHECK(push_bytes <= 128, "{} bytes of push constants", push_bytes);
+  check_samplers(device, bindings, textures);
   device_ = &device;
   stages_ = stages;
   push_bytes_ = push_bytes;

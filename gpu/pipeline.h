@@ -46,10 +46,12 @@ class TextureTable {
   VkDescriptorSetLayout layout() const { return layout_; }
   VkDescriptorSet set() const { return set_; }
   bool few() const { return few_; }
+  uint32_t count() const { return count_; }
 
  private:
   Device* device_ = nullptr;
   bool few_ = false;
+  uint32_t count_ = 0;  ///< of descriptors
   VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   VkDescriptorSet set_ = VK_NULL_HANDLE;

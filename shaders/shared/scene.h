@@ -26,8 +26,9 @@ const uint has_moving_bodies_id = 15u;
 // Another one: whether the trees are larger than a storage buffer may be, and so are read by their address.
 const uint trees_by_address_id = 16u;
 
-/// The most texture arrays that a shader tests one by one (scene/device/gpu_textures.h).
-const uint most_tried_arrays = 24u;
+/// The most texture arrays that a shader tests one by one (scene/device/gpu_textures.h). Some drivers have 32
+/// samplers in a stage (Mesa before 23), of which shading needs a dozen for itself.
+const uint most_tried_arrays = 16u;
 /// The reference of a texture (scene/device/texture_layers.h). It holds its layer in the lowest 12 bits, then
 /// the binary logarithms of how often it lies side by side in the layer along u and v, then its array.
 const uint texture_tiles_u_shift = 12u;

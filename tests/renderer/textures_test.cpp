@@ -77,7 +77,7 @@ TEST(Textures, ADeviceWithoutTheTableHoldsAFewAndSaysSo) {
     const scene::GpuScene gpu(test::device(), scene, {.acceleration_structure = false});
     ADD_FAILURE() << "more images than shaders may try were accepted";
   } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("at most 24 different sizes"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("at most 16 different sizes"));
     EXPECT_THAT(error.what(), testing::HasSubstr("no table of textures"));
   }
 }
