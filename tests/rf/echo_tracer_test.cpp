@@ -15,8 +15,8 @@ namespace {
 
 using test::TinyScene;
 
-/// The bodies of one owner share a ball that rays and cones are tested against first. Tracers of one body each
-/// have no such ball around several of them.
+/// The bodies of one owner share a ball that rays and cones are tested against first. Tracers of one body
+/// each have no such ball around several of them.
 TEST(EchoTracer, BodiesOfOneOwnerAreMetAsEachAlone) {
   TinyScene tiny;
   std::vector<uint32_t> bodies{0};
