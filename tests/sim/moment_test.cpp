@@ -4,8 +4,13 @@
 // Tests where bodies are at the tick and at any other time.
 #include "sim/world/moment.h"
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "sim/scenario/parse/load_scenario.h"
 
 namespace greatx::sim {
@@ -49,6 +54,43 @@ TEST(Moment, BodiesAtTheTicksOwnTimeAreThoseOfTheTickToTheBit) {
       EXPECT_TRUE(same_bits(other.context.body_pose_at(body, clock.seconds(tick)), moment.bodies[body]));
     }
   }
+}
+
+/// Models are loaded on all cores, and chance decides which of them fails first.
+TEST(LoadWorld, TheFirstFaultInTheScenariosOrderIsReported) {
+  const Scenario sound = parse_scenario(three_nodes, "test.yaml", ".");
+  for (int round = 0; round < 20; ++round) {
+    Scenario scenario = sound;
+    scenario.nodes[1].model->source = std::filesystem::path("/no/such/car.glb");
+    scenario.nodes[3].model->source = std::filesystem::path("/no/such/uav.glb");
+    try {
+      load_world(scenario);
+      FAIL() << "no error";
+    } catch (const UserError& error) {
+      EXPECT_NE(std::string(error.what()).find("car.glb"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(LoadWorld, NodesWithTheSameGeneratedModelShareIt) {
+  const Scenario scenario =
+      parse_scenario(R"(greatx: 1
+name: test
+ticks: 2
+tick_rate_hz: 10
+scene: {generate: {kind: room}}
+nodes:
+  - {name: a, trajectory: {type: waypoints, points: [{t_s: 0, position_m: [0, 0, 1]}, )"
+                     R"({t_s: 1, position_m: [1, 0, 1]}]}, model: {generate: {kind: car}}}
+  - {name: b, trajectory: {type: waypoints, points: [{t_s: 0, position_m: [0, 3, 1]}, )"
+                     R"({t_s: 1, position_m: [1, 3, 1]}]}, model: {generate: {kind: car}}}
+)",
+                     "test.yaml", ".");
+  const World world = load_world(scenario);
+  ASSERT_EQ(world.scene.bodies.size(), 3u);
+  EXPECT_EQ(world.body_of_node, (std::vector<uint32_t>{1, 2}));
+  EXPECT_EQ(world.scene.bodies[1].primitive_count, world.scene.bodies[2].primitive_count);
+  EXPECT_GT(world.scene.bodies[1].primitive_count, 0u);
 }
 
 TEST(Moment, BodiesFollowTheirNodesBetweenTicks) {
