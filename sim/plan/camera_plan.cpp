@@ -228,8 +228,11 @@ void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shad
   const bool camera = asks.cameras + asks.event_cameras > 0;
   shading.decide(plan.textures, offers.textures, "materials have them", "no material has one");
   shading.decide(plan.markings, offers.markings, "roads have them", "no road has one");
-  shading.decide(plan.thin_lines, offers.thin_lines && asks.smooth_edges, "poles and the like are there",
-                 offers.thin_lines ? "no camera smooths edges" : "the scene has no poles, lamps or furniture",
+  // Every pixel passes a loop for its lines, so that a CPU driver takes a sixth longer for all of them.
+  shading.decide(plan.thin_lines, false, "",
+                 !offers.thin_lines   ? "the scene has no poles, lamps or furniture"
+                 : !asks.smooth_edges ? "no camera smooths edges"
+                                      : "costs a sixth of a picture; asked for by switching it on",
                  "not behind lenses that distort, nor with a rolling shutter");
   shading.decide(plan.normal_maps, offers.normal_maps && plan.textures.on, "materials have them",
                  offers.normal_maps ? "textures are off" : "no material has one");

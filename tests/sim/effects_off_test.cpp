@@ -46,8 +46,8 @@ scene::Material surface(const std::string& name, const std::string& itu, double 
 }
 
 /// Returns a yard with a ground that is textured, bumpy, rough and scatters, a wall, a pane, a fence with
-/// holes, a marking, a sign that glows, a lamp, the crown of a tree with a plate behind it, and body 1, a
-/// van.
+/// holes, a marking, a sign that glows, a lamp, a pole, the crown of a tree with a plate behind it, and body
+/// 1, a van.
 scene::Scene yard() {
   TinyScene tiny;
   scene::Material ground = surface("ground", "concrete");
@@ -83,10 +83,14 @@ scene::Scene yard() {
   tiny.object("crown", 0, l).box({-2, -0.6, 1.0}, {2, 1.2, 3.2});
   tiny.object("plate", 0, v).quad({8, 0.6, 1.6}, {8, 0.1, 1.6}, {8, 0.1, 2.1}, {8, 0.6, 2.1});
   tiny.object("line", 0, w).quad({-2, 2, 0.02}, {3, 2, 0.02}, {3, 2.2, 0.02}, {-2, 2.2, 0.02});
+  tiny.object("pole", 0, w).box({12, 5, 0}, {12.1, 5.1, 5});
   tiny.object("van", van, v).box({-1, -2, 0}, {1, 2, 5});
   scene::Scene scene = tiny.build();
   for (scene::Instance& instance : scene.instances)
-    if (instance.name == "line") instance.semantic_class = scene::SemanticClass::lane_marking;
+    if (instance.name == "line")
+      instance.semantic_class = scene::SemanticClass::lane_marking;
+    else if (instance.name == "pole")
+      instance.semantic_class = scene::SemanticClass::pole;
   for (vec4& tangent : scene.tangents) tangent = vec4(1, 0, 0, 1);
   scene::PunctualLight lamp;
   lamp.name = "lamp";

@@ -21,6 +21,7 @@
 #include "scene/generator/objects/street_furniture.h"
 #include "scene/generator/objects/trees.h"
 #include "scene/generator/objects/vehicles.h"
+#include "scene/generator/objects/wires.h"
 
 namespace greatx::scene::generator {
 
@@ -370,11 +371,13 @@ void Country::add_poles() {
                       .position = dvec3(at, z),
                       .yaw = std::atan2(along.y, along.x),
                       .semantic_class = SemanticClass::pole});
-    for (const double arm : {-0.8, 0.8}) tops.emplace_back(at + arm * side, snap(z) + 6.78);
+    for (const double arm : {-pole_wire_y_m, pole_wire_y_m})
+      tops.emplace_back(at + arm * side, snap(z) + pole_wire_z_m);
   }
   for (size_t i = 2; i < tops.size(); i += 2) {
     MeshBuilder wires;
-    for (const size_t arm : {size_t{0}, size_t{1}}) add_wire(wires, tops[i - 2 + arm], tops[i + arm], 0.7);
+    for (const size_t arm : {size_t{0}, size_t{1}})
+      add_wire(wires, material("wire"), hanging_wire(tops[i - 2 + arm], tops[i + arm], 0.7, 8), 0.02);
     add(fmt::format("wires_{:03}", i / 2 - 1), wires, SemanticClass::pole);
   }
 }

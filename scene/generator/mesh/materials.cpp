@@ -181,7 +181,8 @@ std::vector<MaterialSpec> make_library() {
       {"door_boards", "boards", dvec2(1.5), 0, vec3(0.75f, 0.72f, 0.66f), 0.8f, 0.0f, vec3(0), timber},
       {"farm_plaster", "farm_wall", dvec2(16.0, 3.0), 4, vec3(1.0f), 1.0f, 1.0f, home_light, brick_wall, 0},
       {"straw", "crop", dvec2(8.0), 0, vec3(0.7f, 0.54f, 0.24f), 1.0f, 0.0f, vec3(0), timber},
-      {"wire", "", dvec2(1.0), 0, vec3(0.03f), 0.6f, 0.0f, vec3(0), carbon_fibre},
+      {"wire", "", dvec2(1.0), 0, vec3(0.03f), 0.6f, 0.0f, vec3(0), unseen},
+      {"insulator", "", dvec2(1.0), 0, vec3(0.3f, 0.17f, 0.1f), 0.4f, 0.0f, vec3(0), unseen},
       {"wood_pole", "bark", dvec2(1.0), 0, vec3(0.9f), 0.95f, 0.0f, vec3(0), trunk},
 
       {"bark", "bark", dvec2(1.0), 0, vec3(0.8f), 1.0f, 0.0f, vec3(0), trunk},

@@ -80,36 +80,16 @@ MeshBuilder make_silo(double scale) {
   return mesh;
 }
 
-void add_wire(MeshBuilder& mesh, const dvec3& from, const dvec3& to, double sag) {
-  // The wire is a thin prism of three sides along a parabola, in three pieces.
-  const int wire = material("wire");
-  const dvec2 along = glm::normalize(dvec2(to - from)), left(-along.y, along.x);
-  const auto section = [&](int i) {
-    const double t = i / 3.0;
-    const dvec3 middle = glm::mix(from, to, t) - dvec3(0.0, 0.0, 4.0 * sag * t * (1.0 - t));
-    return std::array<dvec3, 3>{snap(middle - dvec3(0.02 * left, 0.012)),
-                                snap(middle + dvec3(0.0, 0.0, 0.024)),
-                                snap(middle + dvec3(0.02 * left, -0.012))};
-  };
-  const auto first = section(0), last = section(3);
-  mesh.polygon(wire, first);
-  mesh.polygon(wire, std::array{last[2], last[1], last[0]});
-  for (int i = 0; i < 3; ++i) {
-    const auto a = section(i), b = section(i + 1);
-    for (size_t k = 0; k < 3; ++k) {
-      // The sides are triangles, since rounding to millimetres would bend a quadrilateral.
-      const size_t j = (k + 1) % 3;
-      mesh.polygon(wire, std::array{a[k], b[k], b[j]});
-      mesh.polygon(wire, std::array{a[k], b[j], a[j]});
-    }
-  }
-}
-
 MeshBuilder make_pole() {
   MeshBuilder mesh;
   const int wood = material("wood_pole");
   mesh.prism(wood, wood, regular_polygon(6, 0.13), -0.6, 7.2);
   mesh.box(wood, {-0.05, -0.9, 6.6}, {0.05, 0.9, 6.74});
+  const int glaze = material("insulator");
+  for (const double y : {-pole_wire_y_m, pole_wire_y_m}) {
+    mesh.prism(glaze, glaze, regular_polygon(6, 0.045, dvec2(0.0, y)), 6.72, 6.84);
+    mesh.prism(glaze, glaze, regular_polygon(6, 0.03, dvec2(0.0, y)), 6.83, 6.9);
+  }
   return mesh;
 }
 

@@ -10,9 +10,10 @@ namespace greatx::scene::generator {
 MeshBuilder make_farmhouse(double scale);
 MeshBuilder make_barn(double scale, bool red);
 MeshBuilder make_silo(double scale);
+/// Makes a wooden pole along z, whose cross-arm along y carries two insulators.
 MeshBuilder make_pole();
-/// Adds a wire 4 cm thick between two points. It sags by `sag` in the middle, metres.
-void add_wire(MeshBuilder& mesh, const dvec3& from, const dvec3& to, double sag);
+/// Where the wires lie on the insulators of a pole: metres to its left and right, and above its foot.
+inline constexpr double pole_wire_y_m = 0.8, pole_wire_z_m = 6.92;
 /// Makes a round bale of straw, 1.3 m in diameter, which lies along y.
 MeshBuilder make_bale();
 /// Makes a trailer of two axles, 5 m along x without its drawbar.
