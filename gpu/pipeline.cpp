@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "gpu/capabilities.h"
 #include "shaders/shared/scene.h"
 #include "shaders/spirv.h"
 
@@ -135,6 +136,7 @@ TextureTable& TextureTable::operator=(TextureTable&& other) noexcept {
 void Pipeline::create_layout(Device& device, std::span<const Binding> bindings, uint32_t push_bytes,
                              const TextureTable* textures, VkShaderStageFlags stages) {
   GREATX_CHECK(push_bytes <= 128, "{} bytes of push constants", push_bytes);
+  GREATX_CHECK(bindings.size() <= most_push_descriptors, "{} push descriptors", bindings.size());
   device_ = &device;
   stages_ = stages;
   push_bytes_ = push_bytes;
@@ -234,6 +236,12 @@ GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsDesc& desc, std
   VkPipelineColorBlendAttachmentState attachment{};
   attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
                               VK_COLOR_COMPONENT_A_BIT;
+  if (desc.multiply) {
+    attachment.blendEnable = VK_TRUE;
+    attachment.srcColorBlendFactor = attachment.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+    attachment.dstColorBlendFactor = VK_BLEND_FACTOR_SRC_COLOR;
+    attachment.dstAlphaBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+  }
   const std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.color_formats.size(), attachment);
   VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
   blend.attachmentCount = static_cast<uint32_t>(attachments.size());

@@ -13,6 +13,7 @@
 #include "renderer/light/horizon.h"
 #include "renderer/light/sky.h"
 #include "renderer/surface/mark_map.h"
+#include "renderer/surface/pane_color.h"
 #include "shaders/shared/camera.h"
 #include "shaders/shared/surroundings.h"
 #include "sim/plan/camera_desc.h"
@@ -49,6 +50,7 @@ Offers offers_of(const scene::Scene& scene) {
     const scene::Material& material = scene.materials[primitive.material];
     offers.reflectance_textures |=
         pbr.base_color_texture >= 0 && !(material.reflectance_905nm && material.reflectance_1550nm);
+    offers.panes |= render::pane_color(pbr).has_value();
     offers.normal_maps |= pbr.normal_texture >= 0;
     offers.markings |= render::marks_of(scene, primitive) == shared::triangle_of_mark;
     offers.smooth |=
@@ -225,6 +227,8 @@ void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shad
   const bool camera = asks.cameras + asks.event_cameras > 0;
   shading.decide(plan.textures, offers.textures, "materials have them", "no material has one");
   shading.decide(plan.markings, offers.markings, "roads have them", "no road has one");
+  shading.decide(plan.panes, offers.panes, "materials let light through", "no material lets light through",
+                 "panes near a camera are drawn and shaded once more");
   shading.decide(plan.normal_maps, offers.normal_maps && plan.textures.on, "materials have them",
                  offers.normal_maps ? "textures are off" : "no material has one");
   planner.decide(plan.alpha_mask, camera && offers.alpha_mask,

@@ -18,6 +18,7 @@ struct Offers {
   bool triangles = false, static_triangles = false, moving_triangles = false;
   bool textures = false, normal_maps = false, reflectance_textures = false, alpha_mask = false,
        emissive = false;
+  bool panes = false;            ///< a camera may see through a material
   bool markings = false;         ///< static lane markings
   bool smooth = false;           ///< a material may be smooth enough to mirror
   double width_m = 0.0;          ///< the diagonal of its bounds, seen from above

@@ -38,6 +38,7 @@
   X(contact_occlusion, true, camera, "light of the sky that meshes hide which move near a place") \
   X(bounced_light, true, camera, "light that the static world reflects once") \
   X(glass, true, camera, "the static world mirrored in smooth surfaces") \
+  X(panes, true, camera, "what stands behind panes of glass is seen through them") \
   X(textures, true, camera, "textures of materials") \
   X(normal_maps, true, camera, "relief of surfaces from textures") \
   X(alpha_mask, true, camera, "holes in materials") \
