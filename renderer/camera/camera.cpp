@@ -14,6 +14,7 @@
 #include "renderer/camera/faces.h"
 #include "renderer/camera/glare.h"
 #include "renderer/camera/lamps.h"
+#include "renderer/camera/lens_drops.h"
 #include "renderer/camera/meter.h"
 #include "renderer/camera/mirror.h"
 #include "renderer/camera/panes.h"
@@ -73,6 +74,8 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
   if (desc_.smooth_edges) edges_ = std::make_unique<EdgePass>(*lighting_, desc_);
   if (mirrors) mirror_ = std::make_unique<MirrorPass>(*lighting_, desc_);
   if (streaks) streaks_ = std::make_unique<StreakPass>(*lighting_, desc_);
+  if (desc_.drops.any() && desc_.outputs.color())
+    lens_drops_ = std::make_unique<LensDropPass>(*lighting_, desc_);
   if (desc_.glare > 0.0 && desc_.outputs.color()) glare_ = std::make_unique<GlarePass>(*lighting_, desc_);
   if (desc_.outputs.cells) cells_ = std::make_unique<CellPass>(*lighting_, desc_);
   if (desc_.outputs.arrays()) develop_ = std::make_unique<DevelopPass>(*lighting_, desc_);
@@ -105,6 +108,8 @@ void CameraPass::check() const {
   require(desc_.msaa == 1 || !desc_.smooth_edges, "msaa", "1, for edges are smoothed", desc_.msaa);
   require(!desc_.outputs.cells || !(desc_.distortion.any() || has_faces(desc_)), "distortion",
           "none, for an event camera reconstructs instants from its pictures", 1);
+  require(!(desc_.drops.any() && desc_.wide.any()), "drops",
+          "none behind a fisheye or an equirectangular lens", 1);
   require(!desc_.parts || desc_.bands == 0, "bands", "none, for the exposure has parts", desc_.bands);
   require(desc_.exposure_ev100 >= -20.0 && desc_.exposure_ev100 <= 24.0, "exposure_ev100", "-20 to 24",
           desc_.exposure_ev100);
@@ -244,6 +249,7 @@ void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, cons
   drawn_ = culled_ = 0;
   if (faces_) {
     record_faces(slot, local_from_sensor, part);
+    if (part.last && lens_drops_) lens_drops_->record(slot, picture_.color, frame);
     if (part.last && glare_) glare_->record(slot, picture_.color);
     if (part.last && develop_) develop_->record(slot, picture_.color, seen_, frame);
     return;
@@ -263,6 +269,7 @@ void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, cons
     edges_->record(slot, view, gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_),
                    {shaded_, seen_, picture_}, nullptr);
   if (streaks_) streaks_->record(slot, view, seen_, picture_.color, frame);
+  if (lens_drops_) lens_drops_->record(slot, picture_.color, frame);
   if (glare_) glare_->record(slot, picture_.color);
   if (develop_) develop_->record(slot, picture_.color, seen_, frame);
 }

@@ -92,6 +92,8 @@ struct CameraDesc {
   Vignetting vignetting;             ///< applies to rgb
   std::optional<SensorNoise> noise;  ///< applies to rgb
   double glare = 0.0;                ///< share of the light that the lens scatters; renderer/camera/glare.h
+  LensDrops drops;                   ///< drawn by RainView's numbers; renderer/camera/lens_drops.h
+  double drop_seconds_per_tick = 0.1;
   /// What streaks of rain depend on, beside the light (renderer/camera/streaks.h).
   RainView rain;
   CameraOutputs outputs;
@@ -147,6 +149,7 @@ struct DrawPiece;
 class EdgePass;
 class FaceTable;
 class GlarePass;
+class LensDropPass;
 class MirrorPass;
 class PanePass;
 class StreakPass;
@@ -246,6 +249,7 @@ class CameraPass {
   std::unique_ptr<PanePass> panes_;            ///< null without panes
   std::vector<uint32_t> seen_panes_;           ///< of DrawList, in the view that is recorded
   std::unique_ptr<StreakPass> streaks_;        ///< null without rain
+  std::unique_ptr<LensDropPass> lens_drops_;   ///< null if not wanted
   std::unique_ptr<GlarePass> glare_;           ///< null if not wanted
   std::unique_ptr<CellPass> cells_;            ///< null if not wanted
   std::unique_ptr<DevelopPass> develop_;       ///< null if no array is wanted

@@ -72,7 +72,8 @@ double nearest_room(const CameraView& view);
 /// (nearest_room), so that front faces hide its back faces, and none of them is cut off.
 bool sees_from_outside(const DrawPiece& piece, const dvec3& eye, double room);
 
-/// Takes the pieces with panes nearer than `reach` out of `order`, and returns their numbers in the same order.
+/// Takes the pieces with panes nearer than `reach` out of `order`, and returns their numbers in the same
+/// order.
 std::vector<uint32_t> take_glazed(std::vector<uint32_t>& order, std::span<const DrawPiece> pieces,
                                   std::span<const Pose> poses, const dvec3& eye, double reach);
 

@@ -3,8 +3,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Computes what a pane lets through: its colour, less what both of its faces reflect. The products of all panes
-// before what is solid stand in the target, whatever their order.
+// Computes what a pane lets through: its colour, less what both of its faces reflect. The products of all
+// panes before what is solid stand in the target, whatever their order.
 #include "camera/visibility_view.glsl"
 #include "shared/pane.h"
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Joins what panes reflect with the light that they let through (renderer/camera/panes.h). The pass that shades
-// the nearest panes (GREATX_PANES) writes the words that the shading of what is solid reads.
+// Joins what panes reflect with the light that they let through (renderer/camera/panes.h). The pass that
+// shades the nearest panes (GREATX_PANES) writes the words that the shading of what is solid reads.
 #ifndef GREATX_CAMERA_PANE_LAYER_GLSL
 #define GREATX_CAMERA_PANE_LAYER_GLSL
 #include "camera/effects.glsl"

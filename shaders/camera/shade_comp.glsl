@@ -89,8 +89,8 @@ Center rim_of(Seen seen, vec3 ray) {
 
 #ifdef GREATX_PANES
 /// Returns the light of the air before a pane, times what the pane lets through, summed over its samples
-/// (bits of `same`). The light from behind has the air's light of the whole way, and the pane takes no part of
-/// that before it.
+/// (bits of `same`). The light from behind has the air's light of the whole way, and the pane takes no part
+/// of that before it.
 vec3 air_before(Seen seen, vec3 ray, ivec2 at, uint same) {
   float distance = dot(seen.p0, seen.normal) / dot(ray, seen.normal) * length(ray);
   vec3 air = through_haze(vec3(0.0), normalize(ray), distance), passes = vec3(0.0);
@@ -171,7 +171,8 @@ void main() {
     }
   }
   radiance *= camera.weight;
-  bool adds = blend_on && (camera.first & camera_first_part) == 0u;  // to the result of the earlier parts of the exposure
+  // to the result of the earlier parts of the exposure
+  bool adds = blend_on && (camera.first & camera_first_part) == 0u;
   if (color_on) {
     vec4 stored = vec4(min(radiance * camera.exposure, vec3(65504.0)), (1.0 - sky) * camera.weight);
     if (adds) stored = min(stored + unpack_color(picture_color[element]), vec4(65504.0));

@@ -110,9 +110,9 @@ GREATX_FUNCTION Reflectance reflectance_of(vec3 base_color, float metallic, floa
   return reflectance_below(base_color, metallic, roughness, n_dot_v, dielectric_f0);
 }
 
-/// Returns the reflectance of a smooth pane of glass with both of its faces. `base_color` is the albedo of what
-/// neither reflects nor passes. Its lobe is that of a surface with the Fresnel term of the pane in the mirror's
-/// direction.
+/// Returns the reflectance of a smooth pane of glass with both of its faces. `base_color` is the albedo of
+/// what neither reflects nor passes. Its lobe is that of a surface with the Fresnel term of the pane in the
+/// mirror's direction.
 GREATX_FUNCTION Reflectance pane_reflectance_of(vec3 base_color, float roughness, float n_dot_v) {
   Reflectance r;
   r.n_dot_v = max(n_dot_v, 1e-3f);

@@ -183,9 +183,9 @@ const float emissive_nits = 1000.0f;
 const uint camera_first_part = 1u;
 const uint camera_sees_panes = 2u;  ///< PanePixels of this view are valid
 
-/// Holds what a pixel sees of panes, in five words: the triangle + 1 of the nearest pane before its centre and
-/// its planar depth (0: no pane; pane_beside: only before other samples), then six halves: the stored radiance
-/// that the panes add, and the share of the light behind that they let through.
+/// Holds what a pixel sees of panes, in five words: the triangle + 1 of the nearest pane before its centre
+/// and its planar depth (0: no pane; pane_beside: only before other samples), then six halves: the stored
+/// radiance that the panes add, and the share of the light behind that they let through.
 const uint pane_pixel_words = 5u;
 const uint pane_beside = 0x80000000u;
 

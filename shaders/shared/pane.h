@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tells how much light a pane of glass reflects and lets through. Cameras, the path-traced reference and LiDARs
-// read the same functions.
+// Tells how much light a pane of glass reflects and lets through. Cameras, the path-traced reference and
+// LiDARs read the same functions.
 #ifndef GREATX_SHADERS_SHARED_PANE_H
 #define GREATX_SHADERS_SHARED_PANE_H
 #include "glsl.h"
@@ -20,8 +20,8 @@ GREATX_SHARED_BEGIN
 const float pane_index = 1.5f;
 /// Cameras see through panes that are no rougher than this; rougher glass is frosted and stays solid.
 const float pane_most_roughness = 0.35f;
-/// Cameras see through panes up to the distance at which a pixel spans pane_dark_pixel m; from pane_clear_pixel
-/// on, the light behind fades.
+/// Cameras see through panes up to the distance at which a pixel spans pane_dark_pixel m; from
+/// pane_clear_pixel on, the light behind fades.
 const float pane_clear_pixel = 0.055f;
 const float pane_dark_pixel = 0.083f;
 

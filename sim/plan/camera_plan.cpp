@@ -91,6 +91,7 @@ void add(CameraAsks& asks, const CameraConfig& camera) {
   asks.noise |= camera.rgb && camera.noise.has_value();
   asks.rolling_shutter |= camera.rolling.any();
   asks.chromatic_aberration |= camera.chromatic.any() && (camera.rgb || camera.hdr);
+  asks.drops |= camera.drops.any() && (camera.rgb || camera.hdr);
   asks.glare |= camera.glare > 0.0 && (camera.rgb || camera.hdr);
   asks.motion_blur |= camera.motion_blur_samples > 0 && (camera.rgb || camera.hdr);
   asks.automatic_exposure |= camera.rgb && camera.exposure.automatic;
@@ -216,6 +217,7 @@ void plan_lens(EffectPlan& plan, const Planner& planner, const CameraAsks& asks)
                  "draws the scene once for each band of rows");
   asked(plan.chromatic_aberration, asks.chromatic_aberration);
   asked(plan.vignetting, asks.vignetting);
+  asked(plan.lens_drops, asks.drops);
   asked(plan.glare, asks.glare);
   asked(plan.motion_blur, asks.motion_blur, "costs a picture for each of its samples");
   asked(plan.auto_exposure, asks.automatic_exposure);

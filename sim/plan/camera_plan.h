@@ -37,7 +37,7 @@ struct CameraAsks {
   bool depth_ray = false, normals = false, flow = false, boxes = false;
   bool wide_lens = false, rolling_shutter = false, chromatic_aberration = false;
   bool smooth_edges = false, distortion = false, vignetting = false, noise = false, glare = false,
-       motion_blur = false, automatic_exposure = false, adaptive_events = false;
+       drops = false, motion_blur = false, automatic_exposure = false, adaptive_events = false;
   bool color() const { return rgb || hdr || event_cameras > 0; }
   /// Whether the shots of some LiDAR are spread over time.
   bool sweep = false;

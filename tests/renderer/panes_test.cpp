@@ -11,6 +11,7 @@
 
 #include "renderer/reference/path_tracer.h"
 #include "renderer/surface/pane_color.h"
+#include "shaders/shared/brdf.h"
 #include "shaders/shared/pane.h"
 #include "tests/renderer/camera_rig.h"
 
@@ -98,8 +99,8 @@ TEST(Panes, AreMaterialsThatSayWhatPasses) {
 
 /// The light of the screen is weakened by every pane, whatever their number and order.
 TEST(Panes, WeakenTheLightBehindThemByFresnel) {
-  const std::vector<std::vector<double>> rows{
-      {}, {0.6}, {0.6, 1.1}, {1.1, 0.6, 0.9}, {0.5, 0.6, 0.7, 0.8, 0.9}};
+  // The corners of the picture see all panes from less than the distance at which they fade.
+  const std::vector<std::vector<double>> rows{{0.95, 0.6}, {0.5, 0.6, 0.7, 0.8, 0.9}};
   for (const uint32_t msaa : {1u, 4u})
     for (const std::vector<double>& panes : rows) {
       const render::CameraDesc desc = plain_camera(64, msaa);
@@ -192,8 +193,8 @@ TEST(Panes, FadeWithDistanceUntilTheyAreSolid) {
   }
 }
 
-/// In a world that is equally bright all around, clear panes are invisible. The camera leaves out what panes behind
-/// the nearest mirror: it shows R + T^n, and lacks at most the rest.
+/// In a world that is equally bright all around, clear panes are invisible. The camera leaves out what panes
+/// behind the nearest mirror: it shows R + T^n, and lacks at most the rest.
 TEST(Panes, LackOnlyWhatPanesBehindTheNearestMirror) {
   render::Lighting lighting = plain_light();
   lighting.sky_model = render::SkyModel::uniform;

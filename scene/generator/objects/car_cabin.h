@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes what one sees through the windows of a car: seats, dashboard, the inside of the doors. Radio does not see
-// it.
+// Makes what one sees through the windows of a car: seats, dashboard, the inside of the doors. Radio does
+// not see it.
 #pragma once
 
 #include "scene/generator/mesh/mesh_builder.h"
