@@ -48,7 +48,7 @@ struct Vignetting {
 struct LensDrops {
   double coverage = 0.0;      ///< mean share of the glass under drops; 0: none
   double rain_mm_h = 5.0;     ///< the rain that the drops come from, which gives their sizes
-  double glass_m = 0.02;      ///< from the entrance pupil to the glass
+  double glass_m = 0.1;       ///< from the entrance pupil to the glass
   double aperture_m = 0.002;  ///< diameter of the entrance pupil, out of whose focus the drops lie
   double contact_deg = 40.0;  ///< between the glass and the surface of a drop at its rim
   double stay_s = 20.0;       ///< the time from a drop's fall to its end

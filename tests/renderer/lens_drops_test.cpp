@@ -144,6 +144,7 @@ TEST(LensDrops, TurnThePictureRound) {
   render::CameraDesc desc = plain_camera(128);
   desc.drops.coverage = 0.4;
   desc.drops.aperture_m = 0.0;
+  desc.drops.glass_m = 0.02;
   CameraRig wet(tiny.build(), plain_light(), desc, effects);
   const render::CameraImages images = wet.shoot(look({0, 0, 0}));
   size_t right = 0, dark_left = 0;

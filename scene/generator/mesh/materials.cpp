@@ -238,7 +238,7 @@ std::vector<MaterialSpec> make_library() {
       {"neon_amber", "", dvec2(1.0), 0, vec3(0.7f, 0.4f, 0.08f), 0.4f, 0.0f, vec3(0.3f, 0.15f, 0.03f),
        plastic},
       {"poster", "poster", dvec2(1.2, 1.8), 0, vec3(1.0f), 0.3f, 0.0f, vec3(0.2f), plastic, 0},
-      // A pane of 5 mm, with some dust on it.
+      // Panes of 5 mm, with some dust on them: a wall of glass has one on each side.
       {"shelter_glass", "", dvec2(1.0), 0, vec3(0.9f, 0.95f, 0.93f), 0.08f, 0.0f, vec3(0), pane, -1, false,
        0.97f},
       {"traffic_signs", "traffic_signs", dvec2(1.0), 0, vec3(1.0f), 0.5f, 0.0f, vec3(0), sheet_metal},

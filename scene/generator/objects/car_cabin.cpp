@@ -31,7 +31,7 @@ void add_headrest(MeshBuilder& mesh, const CabinRoom& room, double x, double y, 
 /// Adds a bench over the whole width whose back stands at x.
 void add_bench(MeshBuilder& mesh, const CabinRoom& room, double x) {
   const double y = room.half_width - 0.12, top = std::min(room.belt + 0.03, ceiling(room, x - 0.12));
-  mesh.box(material("seat"), {x - 0.12, -y, room.floor - 0.02}, {x, y, top});
+  mesh.box(material("seat"), {x - 0.12, -y, room.floor - 0.012}, {x, y, top});
   for (const double side : {-1.0, 1.0})
     add_headrest(mesh, room, x - 0.07, side * seat_middle * room.half_width, top + 0.02);
 }
@@ -51,17 +51,17 @@ void add_cabin(MeshBuilder& mesh, const CabinRoom& room) {
     else
       mesh.quad(trim, a, b, c, d);
   }
-  mesh.box(trim, {dash, -y + 0.04, low - 0.02}, {room.front - 0.06, y - 0.04, room.belt - 0.05});
+  mesh.box(trim, {dash, -y + 0.04, low - 0.012}, {room.front - 0.06, y - 0.04, room.belt - 0.05});
   const double front_row = room.seats - 0.12;
   for (const double side : {-1.0, 1.0}) {
     const double middle = side * seat_middle * room.half_width, top = room.belt + 0.10;
-    mesh.box(material("seat"), {front_row - 0.13, middle - seat_half_m, low - 0.02},
+    mesh.box(material("seat"), {front_row - 0.13, middle - seat_half_m, low - 0.012},
              {front_row, middle + seat_half_m, top});
     add_headrest(mesh, room, front_row - 0.07, middle, top + 0.03);
   }
   if (room.load) {
     const double wall = front_row - 0.22;
-    mesh.box(trim, {wall - 0.03, -room.roof_y + 0.02, low - 0.02},
+    mesh.box(trim, {wall - 0.03, -room.roof_y + 0.02, low - 0.012},
              {wall, room.roof_y - 0.02, room.roof - 0.06});
     return;
   }

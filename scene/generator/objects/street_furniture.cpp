@@ -79,7 +79,7 @@ MeshBuilder make_shelter() {
   MeshBuilder mesh;
   const int metal = material("painted_metal"), glass = material("shelter_glass");
   mesh.box(metal, {-0.1, -2.1, 2.4}, {1.5, 2.1, 2.5});
-  mesh.quad(glass, {-0.015, -2.0, 0.25}, {-0.015, 2.0, 0.25}, {-0.015, 2.0, 2.44}, {-0.015, -2.0, 2.44});
+  mesh.box(glass, {-0.03, -2.0, 0.25}, {0.0, 2.0, 2.44});
   for (const double y : {-2.04, 1.98}) mesh.box(metal, {-0.06, y, -0.1}, {0.03, y + 0.06, 2.42});
   mesh.box(metal, {0.05, 1.93, -0.1}, {1.4, 2.07, 0.4});
   mesh.box(material("poster"), {0.1, 1.94, 0.35}, {1.3, 2.06, 2.15});
