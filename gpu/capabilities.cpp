@@ -83,6 +83,16 @@ const char* type_name(VkPhysicalDeviceType type) {
   }
 }
 
+/// Returns how many descriptors a pipeline may push; 0 without the extension.
+uint32_t push_descriptors_of(VkPhysicalDevice physical) {
+  if (!contains(extensions_of(physical), VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME)) return 0;
+  VkPhysicalDevicePushDescriptorPropertiesKHR push{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &push, {}};
+  vkGetPhysicalDeviceProperties2(physical, &properties);
+  return push.maxPushDescriptors;
+}
+
 bool has_universal_queue(VkPhysicalDevice physical) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
@@ -157,6 +167,10 @@ DeviceInfo describe(VkPhysicalDevice physical, uint32_t index) {
       {"graphics and compute queue", "one submission a tick", true, has_universal_queue(physical)});
   info.capabilities.push_back({VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME, "descriptors while recording", true,
                                contains(extensions_of(physical), VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME)});
+  const uint32_t pushed = push_descriptors_of(physical);
+  info.capabilities.push_back(
+      {fmt::format("maxPushDescriptors of {} (found {})", most_push_descriptors, pushed), "shading", true,
+       pushed >= most_push_descriptors});
   if (vulkan_1_3) {
     FeatureChain available(has_ray_tracing_extensions(physical));
     vkGetPhysicalDeviceFeatures2(physical, &available.core);

@@ -11,6 +11,10 @@
 
 namespace greatx::gpu {
 
+/// The most descriptors that a pipeline of greatx pushes. Every device must have as many
+/// (maxPushDescriptors); shading uses 31.
+constexpr uint32_t most_push_descriptors = 32;
+
 /// Holds a chain of feature structs. It cannot be moved, since its members point at each other.
 struct FeatureChain {
   VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};

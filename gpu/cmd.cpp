@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "gpu/capabilities.h"
+
 namespace greatx::gpu {
 
 namespace {
@@ -173,7 +175,7 @@ void Cmd::bind(const Pipeline& pipeline) {
 }
 
 void Cmd::push(std::span<const Descriptor> descriptors) {
-  constexpr size_t max_descriptors = 32;
+  constexpr size_t max_descriptors = most_push_descriptors;
   GREATX_CHECK(descriptors.size() <= max_descriptors, "{} descriptors", descriptors.size());
   std::array<VkWriteDescriptorSet, max_descriptors> writes{};
   std::array<VkWriteDescriptorSetAccelerationStructureKHR, max_descriptors> structures{};

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "gpu/capabilities.h"
 #include "shaders/shared/scene.h"
 #include "shaders/spirv.h"
 
@@ -113,6 +114,12 @@ VkPipeline make_graphics(Device& device, const GraphicsDesc& desc, VkPipelineLay
   VkPipelineColorBlendAttachmentState attachment{};
   attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
                               VK_COLOR_COMPONENT_A_BIT;
+  if (desc.multiply) {
+    attachment.blendEnable = VK_TRUE;
+    attachment.srcColorBlendFactor = attachment.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+    attachment.dstColorBlendFactor = VK_BLEND_FACTOR_SRC_COLOR;
+    attachment.dstAlphaBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+  }
   const std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.color_formats.size(), attachment);
   VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
   blend.attachmentCount = static_cast<uint32_t>(attachments.size());
@@ -225,6 +232,7 @@ TextureTable& TextureTable::operator=(TextureTable&& other) noexcept {
 void Pipeline::create_layout(Device& device, std::span<const Binding> bindings, uint32_t push_bytes,
                              const TextureTable* textures, VkShaderStageFlags stages) {
   GREATX_CHECK(push_bytes <= 128, "{} bytes of push constants", push_bytes);
+  GREATX_CHECK(bindings.size() <= most_push_descriptors, "{} push descriptors", bindings.size());
   check_samplers(device, bindings, textures);
   device_ = &device;
   stages_ = stages;

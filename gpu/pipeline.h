@@ -121,6 +121,7 @@ struct GraphicsDesc {
   VkFrontFace front_face = VK_FRONT_FACE_COUNTER_CLOCKWISE;
   VkCompareOp depth_compare = VK_COMPARE_OP_GREATER;  ///< reversed depth
   bool depth_write = true;
+  bool multiply = false;  ///< colours are multiplied onto those of the targets instead of replacing them
   float depth_bias_constant = 0.0f, depth_bias_slope = 0.0f;
 };
 

@@ -176,6 +176,7 @@ class ReferenceBench {
     without("contact occlusion", &render::CameraEffects::contact_occlusion);
     without("bounced light", &render::CameraEffects::bounced_light);
     without("glass", &render::CameraEffects::glass);
+    without("panes", &render::CameraEffects::panes);
     without("specular", &render::CameraEffects::specular);
     without("static shadows", &render::CameraEffects::static_shadows);
   }

@@ -14,10 +14,13 @@
 #include "renderer/camera/faces.h"
 #include "renderer/camera/glare.h"
 #include "renderer/camera/lamps.h"
+#include "renderer/camera/lens_drops.h"
 #include "renderer/camera/meter.h"
 #include "renderer/camera/mirror.h"
+#include "renderer/camera/panes.h"
 #include "renderer/camera/streaks.h"
 #include "renderer/camera/thin_lines.h"
+#include "renderer/surface/pane_color.h"
 #include "shaders/shared/film.h"
 
 namespace greatx::render {
@@ -60,9 +63,10 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
     throw_user_error(
         "camera {}: distortion: expected a pinhole picture of at most {} pixels along a side, found {} x {}",
         desc_.name, most, pinhole_->width, pinhole_->height);
-  draws_ = std::make_unique<DrawList>(scene_->scene(), lighting_->surfaces().closed(),
-                                      lighting_->surfaces().closed_instances(), desc_.excluded_body,
-                                      effects_.alpha_mask);
+  draws_ = std::make_unique<DrawList>(
+      scene_->scene(), lighting_->surfaces().closed(), lighting_->surfaces().closed_instances(),
+      desc_.excluded_body, effects_.alpha_mask,
+      effects_.panes && shaded ? pane_materials(scene_->scene()) : std::vector<bool>());
   if (effects_.shadow_cascades && shaded) near_shadows_ = std::make_unique<NearShadows>(lighting_->shadows());
   if (wants_lines(effects_, desc_)) lines_ = std::make_unique<ThinLines>(scene_->scene());
   build_pipelines();
@@ -72,6 +76,8 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
   if (desc_.smooth_edges) edges_ = std::make_unique<EdgePass>(*lighting_, desc_);
   if (mirrors) mirror_ = std::make_unique<MirrorPass>(*lighting_, desc_);
   if (streaks) streaks_ = std::make_unique<StreakPass>(*lighting_, desc_);
+  if (desc_.drops.any() && desc_.outputs.color())
+    lens_drops_ = std::make_unique<LensDropPass>(*lighting_, desc_);
   if (desc_.glare > 0.0 && desc_.outputs.color()) glare_ = std::make_unique<GlarePass>(*lighting_, desc_);
   if (desc_.outputs.cells) cells_ = std::make_unique<CellPass>(*lighting_, desc_);
   if (desc_.outputs.arrays()) develop_ = std::make_unique<DevelopPass>(*lighting_, desc_);
@@ -104,6 +110,8 @@ void CameraPass::check() const {
   require(desc_.msaa == 1 || !desc_.smooth_edges, "msaa", "1, for edges are smoothed", desc_.msaa);
   require(!desc_.outputs.cells || !(desc_.distortion.any() || has_faces(desc_)), "distortion",
           "none, for an event camera reconstructs instants from its pictures", 1);
+  require(!(desc_.drops.any() && desc_.wide.any()), "drops",
+          "none behind a fisheye or an equirectangular lens", 1);
   require(!desc_.parts || desc_.bands == 0, "bands", "none, for the exposure has parts", desc_.bands);
   require(desc_.exposure_ev100 >= -20.0 && desc_.exposure_ev100 <= 24.0, "exposure_ev100", "-20 to 24",
           desc_.exposure_ev100);
@@ -152,68 +160,10 @@ void CameraPass::build_pipelines() {
     visibility_masked_ = gpu::GraphicsPipeline(device, draw, desc_.name + " visibility masked");
   }
 
-  gpu::ComputeDesc shade;
-  shade.shader = multisampled() ? "camera/shade_multisampled.comp" : "camera/shade.comp";
-  shade.bindings = SceneLighting::surface_bindings();
-  for (const gpu::Binding& binding : SceneLighting::bindings()) shade.bindings.push_back(binding);
-  for (const gpu::Binding& binding : NearShadows::bindings()) shade.bindings.push_back(binding);
-  shade.bindings.push_back({shared::lights_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
-  shade.bindings.push_back({shared::lens_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
-  shade.bindings.push_back({shared::face_pixels_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
-  shade.bindings.push_back({shared::visibility_binding, multisampled()
-                                                            ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-                                                            : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
-  for (const uint32_t slot : {shared::shade_color_binding, shared::shade_luminance_binding,
-                              shared::shade_seen_binding, shared::shade_mirror_binding})
-    shade.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
-  shade.push_constant_bytes = sizeof(shared::CameraConstants);
-  shade.textures = &scene_->textures().table();
-  shade.specialization.resize(shared::shade_spec_count);
-  shade.specialization[shared::spec_color] = desc_.outputs.color();
-  shade.specialization[shared::spec_triangle_address] = lighting_->surfaces().by_address();
-  shade.specialization[shared::spec_luminance] = desc_.outputs.luminance;
-  shade.specialization[shared::spec_ids] = desc_.outputs.ids();
-  shade.specialization[shared::spec_sun] = effects_.sun;
-  shade.specialization[shared::spec_sky] = effects_.sky;
-  shade.specialization[shared::spec_static_shadows] = effects_.static_shadows;
-  shade.specialization[shared::spec_moving_shadows] = effects_.moving_shadows;
-  shade.specialization[shared::spec_shadow_cascades] = near_shadows_ ? near_shadows_->cascades() : 0;
-  shade.specialization[shared::spec_textures] = effects_.textures && draws_->textured();
-  shade.specialization[shared::spec_normal_maps] = effects_.normal_maps && draws_->normal_mapped();
-  shade.specialization[shared::spec_emissive] = effects_.emissive && draws_->emissive();
-  shade.specialization[shared::spec_lights] = effects_.punctual_lights && !scene_->scene().lights.empty();
-  shade.specialization[shared::spec_beams] = std::ranges::any_of(
-      scene_->scene().lights,
-      [](const scene::PunctualLight& light) { return light.beam == scene::PunctualLight::Beam::passing; });
-  shade.specialization[shared::spec_specular] = effects_.specular;
-  shade.specialization[shared::spec_haze] = effects_.haze;
-  shade.specialization[shared::spec_night_sky] = effects_.night_sky;
-  shade.specialization[shared::spec_markings] = effects_.markings;
-  shade.specialization[shared::spec_thin_lines] = lines_ != nullptr;
-  shade.specialization[shared::spec_clouds] = effects_.clouds;
-  shade.specialization[shared::spec_horizon] = static_cast<uint32_t>(lighting_->horizon_kind());
-  shade.specialization[shared::spec_ambient_occlusion] = effects_.ambient_occlusion;
-  shade.specialization[shared::spec_distortion] = desc_.distortion.any() || faces_;
-  shade.specialization[shared::spec_faces] = faces_ != nullptr;
-  shade.specialization[shared::spec_range] = desc_.wide.any();
-  shade.specialization[shared::spec_wet_surfaces] = effects_.wet_surfaces;
-  shade.specialization[shared::spec_snow_cover] = effects_.snow_cover;
-  shade.specialization[shared::spec_mirrors] = wants_mirrors(effects_, desc_);
-  shade.specialization[shared::spec_lamp_shadows] = effects_.lamp_shadows;
-  shade.specialization[shared::spec_lamp_halos] = effects_.lamp_halos;
-  shade.specialization[shared::spec_contact_occlusion] = effects_.contact_occlusion;
-  shade.specialization[shared::spec_bounced_light] = effects_.bounced_light;
-  shade.specialization[shared::spec_glass] = effects_.glass;
-  shade.specialization[shared::spec_blend] = desc_.parts;
-  const auto arrays_of = [&](scene::TextureReference scene::MaterialTextures::*use) {
-    return scene_->textures().arrays_of(use);
-  };
-  shade.specialization[shared::spec_base_color_arrays] = arrays_of(&scene::MaterialTextures::base_color);
-  shade.specialization[shared::spec_metallic_roughness_arrays] =
-      arrays_of(&scene::MaterialTextures::metallic_roughness);
-  shade.specialization[shared::spec_normal_arrays] = arrays_of(&scene::MaterialTextures::normal);
-  shade.specialization[shared::spec_emissive_arrays] = arrays_of(&scene::MaterialTextures::emissive);
+  const gpu::ComputeDesc shade = shading();
   shade_ = gpu::ComputePipeline(device, shade, desc_.name + " shade");
+  if (!draws_->panes().empty())
+    panes_ = std::make_unique<PanePass>(*lighting_, desc_, shade, pinhole_->width, pinhole_->height);
 }
 
 void CameraPass::create_images() {
@@ -250,7 +200,9 @@ void CameraPass::create_pictures() {
   buffer(shaded_.luminance, outputs.luminance && desc_.smooth_edges, sizeof(float), "luminance with edges");
   const bool mirrors = wants_mirrors(effects_, desc_);
   buffer(dry_, mirrors, sizeof(uvec2), "radiance without mirror images");
-  buffer(mirrors_, mirrors, sizeof(shared::uvec3), "mirrors");
+  const size_t mirror_bytes = mirrors ? sizeof(shared::uvec3) : 0,
+               pane_bytes = panes_ ? shared::pane_pixel_words * sizeof(uint32_t) : 0;
+  buffer(beside_, mirrors || panes_, mirror_bytes + pane_bytes, "mirrors and panes");
   buffer(seen_, outputs.ids(), sizeof(uvec2), "seen");
   gpu::submit_setup(scene_->device(), [&](gpu::Cmd& cmd) {
     for (const gpu::Buffer* each : all) cmd.fill(each->slice(), 0);
@@ -299,6 +251,7 @@ void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, cons
   drawn_ = culled_ = 0;
   if (faces_) {
     record_faces(slot, local_from_sensor, part);
+    if (part.last && lens_drops_) lens_drops_->record(slot, picture_.color, frame);
     if (part.last && glare_) glare_->record(slot, picture_.color);
     if (part.last && develop_) develop_->record(slot, picture_.color, seen_, frame);
     return;
@@ -306,7 +259,7 @@ void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, cons
   CameraView view(*pinhole_, desc_.near_m, local_from_sensor, lighting_->shadows().frame(),
                   1.0 / stored_luminance(desc_, *lighting_));
   view.constants.weight = part.weight;
-  view.constants.first = part.first;
+  view.constants.first = part.first ? shared::camera_first_part : 0u;
   view.constants.size = desc_.width | desc_.height << 16;
   draw_shadows(slot, view);
   record_visibility(*slot.cmd, view);
@@ -314,12 +267,13 @@ void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, cons
   if (lines_) lines = slot.upload.put(std::span<const uint32_t>(lines_->words(view)));
   record_shading(slot, view, lines.value_or(seen_.slice()));
   if (!part.last) return;
-  if (mirror_) mirror_->record(slot, view, {seen_, dry_, mirrors_, edges_ ? shaded_.color : picture_.color});
+  if (mirror_) mirror_->record(slot, view, {seen_, dry_, beside_, edges_ ? shaded_.color : picture_.color});
   if (cells_) cells_->see(view.constants);
   if (edges_)
     edges_->record(slot, view, gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_),
                    {shaded_, seen_, picture_, lines ? &*lines : nullptr}, nullptr);
   if (streaks_) streaks_->record(slot, view, seen_, picture_.color, frame);
+  if (lens_drops_) lens_drops_->record(slot, picture_.color, frame);
   if (glare_) glare_->record(slot, picture_.color);
   if (develop_) develop_->record(slot, picture_.color, seen_, frame);
 }
@@ -333,7 +287,7 @@ void CameraPass::record_faces(gpu::TickSlot& slot, const Pose& local_from_sensor
     CameraView view(face.pinhole, desc_.near_m, local_from_sensor * face.sensor_from_face,
                     lighting_->shadows().frame(), 1.0 / stored_luminance(desc_, *lighting_));
     view.constants.weight = part.weight;
-    view.constants.first = desc_.bands > 0 || part.first;
+    view.constants.first = desc_.bands > 0 || part.first ? shared::camera_first_part : 0u;
     view.constants.size = desc_.width | desc_.height << 16;
     draw_shadows(slot, view);
     record_visibility(*slot.cmd, view);
@@ -361,7 +315,8 @@ void CameraPass::record_cells(gpu::TickSlot& slot, const gpu::Buffer& cells) {
   cells_->record(slot, seen_, edges_ ? shaded_.luminance : picture_.luminance, cells);
 }
 
-void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {
+void CameraPass::record_visibility(gpu::Cmd& cmd, CameraView& view) {
+  seen_panes_.clear();
   const auto scope = cmd.scope(visibility_scope_);
   cmd.transition(visibility_, gpu::ImageUse::color_target, true);
   cmd.transition(depth_, gpu::ImageUse::depth_target, true);
@@ -375,6 +330,9 @@ void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {
   draw_moving(cmd, view);
   draw_pieces(cmd, view, visibility_masked_, draws_->masked(), visible(draws_->masked(), view));
   cmd.end_rendering();
+  if (seen_panes_.empty()) return;
+  panes_->draw(cmd, view, draws_->panes(), seen_panes_, depth_);
+  view.constants.first |= shared::camera_sees_panes;
 }
 
 std::vector<uint32_t> CameraPass::visible(std::span<const DrawPiece> pieces, const CameraView& view) {
@@ -394,9 +352,34 @@ void CameraPass::draw_pieces(gpu::Cmd& cmd, const CameraView& view, const gpu::G
     cmd.draw_range(pieces[i].first_index, pieces[i].index_count, pieces[i].primitive);
 }
 
+void CameraPass::draw_glazed(gpu::Cmd& cmd, const CameraView& view, std::span<const DrawPiece> pieces,
+                             std::span<const uint32_t> glazed) {
+  std::vector<uint32_t> rests;
+  for (const uint32_t i : glazed) {
+    rests.insert(rests.end(), pieces[i].rests.begin(), pieces[i].rests.end());
+    for (const uint32_t pane : pieces[i].panes) {
+      const DrawPiece& piece = draws_->panes()[pane];
+      const dvec3 center = lighting_->body_poses()[piece.body].apply(piece.center()) - view.eye;
+      if (!view.outside(center, piece.radius())) seen_panes_.push_back(pane);
+    }
+  }
+  if (rests.empty()) return;
+  if (draws_->rests()[rests[0]].body == 0)
+    return draw_pieces(cmd, view, visibility_still_, draws_->rests(), rests);
+  cmd.bind(visibility_moving_);
+  cmd.push(scene_->raster_descriptors());
+  for (const uint32_t i : rests) {
+    const DrawPiece& rest = draws_->rests()[i];
+    cmd.constants(view.of_body(lighting_->body_poses()[rest.body]));
+    cmd.draw_range(rest.first_index, rest.index_count, 0);
+  }
+}
+
 /// Draws what is seen from outside without its back faces, and then the rest, most of which is ground.
 void CameraPass::draw_still(gpu::Cmd& cmd, const CameraView& view) {
   std::vector<uint32_t> order = visible(draws_->still(), view);
+  draw_glazed(cmd, view, draws_->still(),
+              take_glazed(order, draws_->still(), lighting_->body_poses(), view.eye, pane_reach(view)));
   const double room = nearest_room(view);
   const auto rest = std::ranges::stable_partition(
       order, [&](uint32_t i) { return sees_from_outside(draws_->still()[i], view.eye, room); });
@@ -414,8 +397,11 @@ void CameraPass::draw_shadows(gpu::TickSlot& slot, const CameraView& view) {
 }
 
 void CameraPass::draw_moving(gpu::Cmd& cmd, const CameraView& view) {
+  std::vector<uint32_t> order = visible(draws_->moving(), view);
+  draw_glazed(cmd, view, draws_->moving(),
+              take_glazed(order, draws_->moving(), lighting_->body_poses(), view.eye, pane_reach(view)));
   const gpu::GraphicsPipeline* bound = nullptr;
-  for (const uint32_t i : visible(draws_->moving(), view)) {
+  for (const uint32_t i : order) {
     const DrawPiece& piece = draws_->moving()[i];
     const Pose& pose = lighting_->body_poses()[piece.body];
     // Where the eye is outside of a closed body, its back faces are left out.
@@ -430,37 +416,6 @@ void CameraPass::draw_moving(gpu::Cmd& cmd, const CameraView& view) {
     cmd.constants(view.of_body(pose));
     cmd.draw_range(piece.first_index, piece.index_count, 0);
   }
-}
-
-void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view, const gpu::Slice& pixels) {
-  gpu::Cmd& cmd = *slot.cmd;
-  const auto scope = cmd.scope(shade_scope_);
-  cmd.transition(visibility_, multisampled() ? gpu::ImageUse::sampled : gpu::ImageUse::storage);
-  cmd.barrier(gpu::sync::compute, gpu::sync::compute);  // waits for readers of the picture before
-  const PictureBuffers& picture = edges_ ? shaded_ : picture_;
-  std::vector<gpu::Descriptor> descriptors = lighting_->surface_descriptors();
-  for (const gpu::Descriptor& descriptor : lighting_->descriptors()) descriptors.push_back(descriptor);
-  for (const gpu::Descriptor& descriptor :
-       near_shadows_ ? near_shadows_->descriptors() : NearShadows::no_descriptors(lighting_->shadows()))
-    descriptors.push_back(descriptor);
-  descriptors.push_back(gpu::Descriptor::buffer(shared::lights_binding, upload_lamps(slot, view)));
-  descriptors.push_back(gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_));
-  descriptors.push_back(gpu::Descriptor::buffer(shared::face_pixels_binding, pixels));
-  descriptors.push_back(
-      multisampled() ? gpu::Descriptor::sampled(shared::visibility_binding, visibility_, texel_sampler_)
-                     : gpu::Descriptor::storage(shared::visibility_binding, visibility_));
-  descriptors.push_back(gpu::Descriptor::buffer(shared::shade_color_binding, mirror_ ? dry_ : picture.color));
-  descriptors.push_back(gpu::Descriptor::buffer(shared::shade_mirror_binding, mirrors_));
-  descriptors.push_back(gpu::Descriptor::buffer(shared::shade_luminance_binding, picture.luminance));
-  descriptors.push_back(gpu::Descriptor::buffer(shared::shade_seen_binding, seen_));
-  cmd.bind(shade_);
-  cmd.push(descriptors);
-  cmd.constants(view.constants);
-  if (faces_)
-    return cmd.dispatch_linear(pixels.size / sizeof(shared::FacePixel),
-                               shared::shade_group_width * shared::shade_group_height);
-  cmd.dispatch((desc_.width + shared::shade_group_width - 1) / shared::shade_group_width,
-               (desc_.height + shared::shade_group_height - 1) / shared::shade_group_height);
 }
 
 CameraImages CameraPass::collect(const gpu::TickSlot& slot) const {

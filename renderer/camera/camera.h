@@ -92,6 +92,8 @@ struct CameraDesc {
   Vignetting vignetting;             ///< applies to rgb
   std::optional<SensorNoise> noise;  ///< applies to rgb
   double glare = 0.0;                ///< share of the light that the lens scatters; renderer/camera/glare.h
+  LensDrops drops;                   ///< drawn by RainView's numbers; renderer/camera/lens_drops.h
+  double drop_seconds_per_tick = 0.1;
   /// What streaks of rain depend on, beside the light (renderer/camera/streaks.h).
   RainView rain;
   CameraOutputs outputs;
@@ -147,7 +149,9 @@ struct DrawPiece;
 class EdgePass;
 class FaceTable;
 class GlarePass;
+class LensDropPass;
 class MirrorPass;
+class PanePass;
 class StreakPass;
 class ThinLines;
 struct PinholeView;
@@ -212,8 +216,13 @@ class CameraPass {
   void build_faces();
   void record_faces(gpu::TickSlot& slot, const Pose& local_from_sensor, const ExposurePart& part);
   void draw_shadows(gpu::TickSlot& slot, const CameraView& view);
-  void record_visibility(gpu::Cmd& cmd, const CameraView& view);
+  gpu::ComputeDesc shading() const;
+  /// Draws what the view sees. It marks in the view's constants that panes are among it.
+  void record_visibility(gpu::Cmd& cmd, CameraView& view);
   void draw_moving(gpu::Cmd& cmd, const CameraView& view);
+  /// Draws what glazed pieces have beside their panes, and lists the panes for later.
+  void draw_glazed(gpu::Cmd& cmd, const CameraView& view, std::span<const DrawPiece> pieces,
+                   std::span<const uint32_t> glazed);
   /// `pixels` lists those that look through this view. Without a FaceTable all do; then these are the words
   /// of its thin lines, if there are any.
   void record_shading(gpu::TickSlot& slot, const CameraView& view, const gpu::Slice& pixels);
@@ -234,13 +243,16 @@ class CameraPass {
   gpu::Image lens_;        ///< position of each pixel in the pinhole picture; 1 x 1 without distortion
   PictureBuffers shaded_;  ///< the picture before edges are smoothed; empty if they are not
   gpu::Buffer dry_;        ///< colour before mirror images are added; empty if there are none
-  gpu::Buffer mirrors_;    ///< MirrorPass: what the surfaces mirror; one element if nothing
+  gpu::Buffer beside_;     ///< what MirrorPass and panes need beside the picture (shade_mirror_binding)
   PictureBuffers picture_;
   gpu::Buffer seen_;
   std::unique_ptr<NearShadows> near_shadows_;  ///< null without the effect
   std::unique_ptr<EdgePass> edges_;            ///< null if not wanted
   std::unique_ptr<MirrorPass> mirror_;         ///< null without water
+  std::unique_ptr<PanePass> panes_;            ///< null without panes
+  std::vector<uint32_t> seen_panes_;           ///< of DrawList, in the view that is recorded
   std::unique_ptr<StreakPass> streaks_;        ///< null without rain
+  std::unique_ptr<LensDropPass> lens_drops_;   ///< null if not wanted
   std::unique_ptr<GlarePass> glare_;           ///< null if not wanted
   std::unique_ptr<CellPass> cells_;            ///< null if not wanted
   std::unique_ptr<DevelopPass> develop_;       ///< null if no array is wanted

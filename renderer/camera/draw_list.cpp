@@ -38,7 +38,7 @@ void add(std::vector<DrawPiece>& pieces, const DrawPiece& next, bool any_size) {
 
 DrawList::DrawList(const scene::Scene& scene, const std::vector<bool>& closed,
                    const std::vector<bool>& closed_instances, std::optional<uint32_t> excluded,
-                   bool alpha_mask) {
+                   bool alpha_mask, const std::vector<bool>& pane_materials) {
   for (uint32_t i = 0; i < scene.primitives.size(); ++i) {
     const scene::Primitive& primitive = scene.primitives[i];
     const uint32_t body = scene.instances[primitive.instance].body;
@@ -58,6 +58,37 @@ DrawList::DrawList(const scene::Scene& scene, const std::vector<bool>& closed,
     normal_mapped_ |= pbr.normal_texture >= 0;
     emissive_ |= pbr.emissive != vec3(0.0f);
   }
+  if (pane_materials.empty()) return;
+  for (std::vector<DrawPiece>* pieces : {&still_, &moving_})
+    for (DrawPiece& piece : *pieces) split_panes(scene, pane_materials, piece);
+}
+
+void DrawList::split_panes(const scene::Scene& scene, const std::vector<bool>& pane_materials,
+                           DrawPiece& piece) {
+  const auto is_pane = [&](uint32_t i) { return pane_materials[scene.primitives[i].material]; };
+  uint32_t end = piece.primitive;
+  for (uint32_t left = piece.index_count; left > 0; ++end) left -= scene.primitives[end].index_count;
+  bool any = false;
+  for (uint32_t i = piece.primitive; i < end; ++i) any |= is_pane(i);
+  if (!any) return;
+  bool follows = false;
+  for (uint32_t i = piece.primitive; i < end; ++i) {
+    const scene::Primitive& primitive = scene.primitives[i];
+    const scene::Bounds bounds =
+        scene::bounds_of_indices(scene, primitive.first_index, primitive.index_count);
+    const bool pane = is_pane(i);
+    if (!pane && follows) {
+      rests_.back().index_count += primitive.index_count;
+      rests_.back().bounds.add(bounds);
+    } else {
+      DrawPiece part{primitive.first_index, primitive.index_count, piece.body, i};
+      part.bounds = bounds;
+      std::vector<DrawPiece>& to = pane ? panes_ : rests_;
+      (pane ? piece.panes : piece.rests).push_back(static_cast<uint32_t>(to.size()));
+      to.push_back(part);
+    }
+    follows = !pane;
+  }
 }
 
 bool DrawList::any_closed() const { return std::ranges::any_of(moving_, &DrawPiece::closed); }
@@ -74,6 +105,19 @@ double nearest_room(const CameraView& view) {
 bool sees_from_outside(const DrawPiece& piece, const dvec3& eye, double room) {
   if (!piece.closed) return false;
   return glm::distance(glm::clamp(eye, piece.hull.min, piece.hull.max), eye) > room;
+}
+
+std::vector<uint32_t> take_glazed(std::vector<uint32_t>& order, std::span<const DrawPiece> pieces,
+                                  std::span<const Pose> poses, const dvec3& eye, double reach) {
+  std::vector<uint32_t> taken;
+  std::erase_if(order, [&](uint32_t i) {
+    const DrawPiece& piece = pieces[i];
+    const bool near = !piece.panes.empty() &&
+                      glm::distance(poses[piece.body].apply(piece.center()), eye) < reach + piece.radius();
+    if (near) taken.push_back(i);
+    return near;
+  });
+  return taken;
 }
 
 std::vector<uint32_t> visible_pieces(std::span<const DrawPiece> pieces, std::span<const Pose> poses,

@@ -26,6 +26,8 @@ struct DrawPiece {
   bool closed = false;
   scene::Bounds hull;    ///< of these surfaces, if they stand still
   scene::Bounds bounds;  ///< in the body's frame
+  /// With panes, their numbers in DrawList::panes() and those of the solid rest in DrawList::rests().
+  std::vector<uint32_t> panes, rests;
   /// The sphere around the bounds.
   dvec3 center() const { return bounds.center(); }
   double radius() const { return 0.5 * glm::length(bounds.size()); }
@@ -35,16 +37,21 @@ class DrawList {
  public:
   /// `closed` has a value for each body, `closed_instances` for each instance of the static world. The body
   /// `excluded` and its parts are left out. With `alpha_mask`, primitives with holes are listed apart.
+  /// `pane_materials` has a value for each material; empty: no material is a pane.
   DrawList(const scene::Scene& scene, const std::vector<bool>& closed,
-           const std::vector<bool>& closed_instances, std::optional<uint32_t> excluded, bool alpha_mask);
+           const std::vector<bool>& closed_instances, std::optional<uint32_t> excluded, bool alpha_mask,
+           const std::vector<bool>& pane_materials);
 
   /// Opaque pieces of the static world. Primitives share a piece if its sphere stays small, or hardly larger
   /// than the largest of theirs.
   std::span<const DrawPiece> still() const { return still_; }
   std::span<const DrawPiece> moving() const { return moving_; }  ///< opaque
   std::span<const DrawPiece> masked() const { return masked_; }  ///< one primitive each
-  bool any_closed() const;                                       ///< of those that move
-  bool any_closed_still() const;                                 ///< of the static world
+  std::span<const DrawPiece> panes() const { return panes_; }    ///< one primitive each
+  /// What pieces with panes have beside them, open: their insides are seen.
+  std::span<const DrawPiece> rests() const { return rests_; }
+  bool any_closed() const;        ///< of those that move
+  bool any_closed_still() const;  ///< of the static world
 
   /// What the materials of the listed primitives need.
   bool textured() const { return textured_; }
@@ -52,7 +59,9 @@ class DrawList {
   bool emissive() const { return emissive_; }
 
  private:
-  std::vector<DrawPiece> still_, moving_, masked_;
+  void split_panes(const scene::Scene& scene, const std::vector<bool>& pane_materials, DrawPiece& piece);
+
+  std::vector<DrawPiece> still_, moving_, masked_, panes_, rests_;
   bool textured_ = false, normal_mapped_ = false, emissive_ = false;
 };
 
@@ -62,6 +71,11 @@ double nearest_room(const CameraView& view);
 /// Returns whether an eye sees a closed piece of the static world from outside and from more than `room`
 /// (nearest_room), so that front faces hide its back faces, and none of them is cut off.
 bool sees_from_outside(const DrawPiece& piece, const dvec3& eye, double room);
+
+/// Takes the pieces with panes nearer than `reach` out of `order`, and returns their numbers in the same
+/// order.
+std::vector<uint32_t> take_glazed(std::vector<uint32_t>& order, std::span<const DrawPiece> pieces,
+                                  std::span<const Pose> poses, const dvec3& eye, double reach);
 
 /// Returns the numbers of the pieces that the view may see, front to back. `poses` has one for each body.
 std::vector<uint32_t> visible_pieces(std::span<const DrawPiece> pieces, std::span<const Pose> poses,

@@ -44,6 +44,17 @@ struct Vignetting {
   bool any() const { return natural || radial[0] != 0.0 || radial[1] != 0.0 || radial[2] != 0.0; }
 };
 
+/// Describes drops of rain on the glass before a lens (renderer/camera/lens_drops.h).
+struct LensDrops {
+  double coverage = 0.0;      ///< mean share of the glass under drops; 0: none
+  double rain_mm_h = 5.0;     ///< the rain that the drops come from, which gives their sizes
+  double glass_m = 0.1;       ///< from the entrance pupil to the glass
+  double aperture_m = 0.002;  ///< diameter of the entrance pupil, out of whose focus the drops lie
+  double contact_deg = 40.0;  ///< between the glass and the surface of a drop at its rim
+  double stay_s = 20.0;       ///< the time from a drop's fall to its end
+  bool any() const { return coverage > 0.0; }
+};
+
 /// Holds the pixels of a picture, and its lens.
 struct LensGeometry {
   std::string name = "camera";  ///< for messages

@@ -102,6 +102,7 @@ struct CameraEffects {
   bool contact_occlusion = false;  ///< occlusion of sky light by moving bodies
   bool bounced_light = false;      ///< light that the static world reflects once; with ambient_occlusion
   bool glass = false;              ///< smooth surfaces mirror the static world
+  bool panes = false;              ///< glass lets light through, renderer/camera/panes.h
   bool specular = true;            ///< off: every surface is Lambertian
 };
 

@@ -13,6 +13,7 @@
 #include "core/srgb.h"
 #include "core/units.h"
 #include "renderer/light/sky.h"
+#include "renderer/surface/pane_color.h"
 #include "shaders/shared/surroundings.h"
 
 namespace greatx::render {
@@ -28,7 +29,7 @@ constexpr double ground_sky_share = 0.8;
 
 /// Returns the mean base colour of a material with its texture, from at most 32 x 32 texels.
 dvec3 mean_color(const scene::Scene& scene, const scene::PbrMaterial& pbr) {
-  const dvec3 factor(pbr.base_color);
+  const dvec3 factor(solid_color(pbr));
   if (pbr.base_color_texture < 0) return factor;
   const scene::Texture& texture = scene.textures[static_cast<size_t>(pbr.base_color_texture)];
   constexpr uint32_t most = 32;

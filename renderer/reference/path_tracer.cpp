@@ -69,7 +69,7 @@ class PathTracer::Path {
       const double density = scatter.density(ray.direction);
       if (reflected == dvec3(0.0) || !(density > 0.0)) break;
       weight *= reflected / density;
-      hit = tracer_.rays_.nearest(ray, 0.0);
+      hit = next_hit(ray, weight);
       if (!hit.any()) {
         add_outside(ray.direction, density, weight, bounce == 0);
         break;
@@ -87,6 +87,22 @@ class PathTracer::Path {
   PathLight& light() { return light_; }
 
  private:
+  /// Returns what the ray meets. It passes panes by chance, and then goes on from them.
+  RayHit next_hit(Ray& ray, dvec3& weight) {
+    for (;;) {
+      const RayHit hit = tracer_.rays_.nearest(ray, 0.0);
+      if (!hit.any() || !tracer_.rays_.is_pane(hit)) return hit;
+      const RaySurface pane = tracer_.rays_.surface(ray, hit);
+      const double chance = std::clamp(luminance(*pane.passes), 0.05, 0.95);
+      if (draws_.next() >= chance) {
+        weight /= 1.0 - chance;
+        return hit;
+      }
+      weight *= *pane.passes / chance;
+      ray.origin = pane.position - pane.geometric * tracer_.rays_.clearance(pane.position);
+    }
+  }
+
   /// Adds the light of lamps, key light and sky that reaches the point straight.
   void sample_lights(const RaySurface& surface, const Scatter& scatter, const Ray& from, const dvec3& weight,
                      bool first) {
@@ -108,8 +124,9 @@ class PathTracer::Path {
             double other_density) {
     const dvec3 reflected = scatter.reflected(sample.to_light);
     if (reflected == dvec3(0.0) || sample.radiance == dvec3(0.0)) return dvec3(0.0);
-    if (tracer_.rays_.blocked({from.origin, sample.to_light}, 0.0, sample.distance)) return dvec3(0.0);
-    const dvec3 added = weight * reflected * sample.radiance / (sample.density + other_density);
+    const dvec3 passed = tracer_.rays_.passed({from.origin, sample.to_light}, 0.0, sample.distance);
+    if (passed == dvec3(0.0)) return dvec3(0.0);
+    const dvec3 added = weight * passed * reflected * sample.radiance / (sample.density + other_density);
     light_.radiance += added;
     return added;
   }
@@ -130,22 +147,35 @@ class PathTracer::Path {
   PathLight light_;
 };
 
-PathLight PathTracer::trace(const Ray& ray, double near_m, PathDraws& draws,
+PathLight PathTracer::trace(const Ray& first, double near_m, PathDraws& draws,
                             std::optional<uint32_t> excluded) const {
-  const RayHit hit = rays_.nearest(ray, near_m, excluded);
   PathLight light;
-  if (!hit.any()) {
-    light.radiance = background(ray.direction);
-    return light;
+  Ray ray = first;
+  dvec3 passes(1.0);
+  double way = 0.0;
+  // A camera's ray goes on through panes, and each adds the light of a path from its surface.
+  for (bool behind = false;; behind = true) {
+    const RayHit hit = rays_.nearest(ray, behind ? 0.0 : near_m, excluded);
+    const double before = std::exp(-haze_extinction_ * way);
+    if (!hit.any()) {
+      // The sky has the haze of its whole way already, which begins at the eye.
+      const dvec3 near_air = haze_extinction_ > 0.0 ? airlight(ray.direction) * (1.0 - before) : dvec3(0.0);
+      light.radiance += passes * (background(ray.direction) - near_air);
+      return light;
+    }
+    const double kept = before * std::exp(-haze_extinction_ * hit.distance);
+    const PathLight surface = Path(*this, draws).follow(ray, hit);
+    light.radiance += passes * surface.radiance * kept;
+    light.key += passes * surface.key * kept;
+    if (haze_extinction_ > 0.0) light.radiance += passes * airlight(ray.direction) * (before - kept);
+    light.scene = true;
+    if (!behind) light.roughness = surface.roughness;
+    if (!rays_.is_pane(hit)) return light;
+    const RaySurface pane = rays_.surface(ray, hit);
+    passes *= *pane.passes;
+    way += hit.distance;
+    ray.origin = pane.position - pane.geometric * rays_.clearance(pane.position);
   }
-  light = Path(*this, draws).follow(ray, hit);
-  light.scene = true;
-  if (haze_extinction_ > 0.0) {
-    const double kept = std::exp(-haze_extinction_ * hit.distance);
-    light.radiance = light.radiance * kept + airlight(ray.direction) * (1.0 - kept);
-    light.key *= kept;
-  }
-  return light;
 }
 
 }  // namespace greatx::render

@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "core/srgb.h"
+#include "renderer/surface/pane_color.h"
 #include "shaders/shared/camera.h"
+#include "shaders/shared/pane.h"
 
 namespace greatx::render {
 
@@ -83,8 +85,12 @@ RayScene::RayScene(const scene::Scene& scene, std::span<const Pose> body_poses, 
   GREATX_CHECK(poses_.size() == scene.bodies.size(), "{} poses for {} bodies", poses_.size(),
                scene.bodies.size());
   poses_[0] = Pose{};
-  for (const scene::Material& material : scene.materials)
+  for (const scene::Material& material : scene.materials) {
     masked_.push_back(effects.alpha_mask && material.pbr.alpha_mode == scene::AlphaMode::mask);
+    panes_.emplace_back();
+    if (const auto color = effects.panes ? pane_color(material.pbr) : std::nullopt)
+      panes_.back() = dvec3(*color);
+  }
   for (const scene::Primitive& primitive : scene.primitives)
     owner_.push_back(scene.owner_of(scene.instances[primitive.instance].body));
   tree_ = scene::make_sah_tree(placed_triangles(scene, poses_));
@@ -142,13 +148,30 @@ RayHit RayScene::nearest(const Ray& ray, double least, std::optional<uint32_t> e
   return found;
 }
 
-bool RayScene::blocked(const Ray& ray, double least, double most) const {
-  bool found = false;
+dvec3 RayScene::passed(const Ray& ray, double least, double most) const {
+  dvec3 share(1.0);
   walk(ray, least, most, [&](const RayHit& hit, double&) {
-    found = !has_hole(hit.triangle, hit.primitive, hit.u, hit.v);
-    return found;
+    if (has_hole(hit.triangle, hit.primitive, hit.u, hit.v)) return false;
+    share *= pane_passes(ray, hit);
+    return share == dvec3(0.0);
   });
-  return found;
+  return share;
+}
+
+dvec3 RayScene::geometric_normal(const RayHit& hit) const {
+  const scene::Primitive& primitive = scene_->primitives[hit.primitive];
+  const uint32_t* corner = &scene_->indices[size_t{3} * hit.triangle];
+  const dvec3 a(scene_->positions[corner[0]]);
+  return poses_[scene_->instances[primitive.instance].body].rotate(glm::normalize(
+      glm::cross(dvec3(scene_->positions[corner[1]]) - a, dvec3(scene_->positions[corner[2]]) - a)));
+}
+
+/// Returns what a pane lets through; 0 if the hit is no pane.
+dvec3 RayScene::pane_passes(const Ray& ray, const RayHit& hit) const {
+  const std::optional<dvec3>& color = panes_[scene_->primitives[hit.primitive].material];
+  if (!color) return dvec3(0.0);
+  const double cosine = std::min(std::abs(glm::dot(geometric_normal(hit), ray.direction)), 1.0);
+  return *color * (1.0 - double(shared::pane_reflectance(float(cosine), shared::pane_index, 1.0f)));
 }
 
 dvec2 RayScene::texture_place(uint32_t triangle, double u, double v) const {
@@ -177,12 +200,11 @@ RaySurface RayScene::surface(const Ray& ray, const RayHit& hit) const {
   const std::array<double, 3> weights{1.0 - hit.u - hit.v, hit.u, hit.v};
   RaySurface s;
   s.position = ray.along(hit.distance);
-  const dvec3 a(scene_->positions[corner[0]]);
-  s.geometric = pose.rotate(glm::normalize(
-      glm::cross(dvec3(scene_->positions[corner[1]]) - a, dvec3(scene_->positions[corner[2]]) - a)));
+  s.geometric = geometric_normal(hit);
   if (glm::dot(s.geometric, ray.direction) > 0.0) s.geometric = -s.geometric;
 
-  s.base_color = dvec3(pbr.base_color);
+  s.base_color = dvec3(solid_color(pbr));
+  if (panes_[primitive.material]) s.passes = pane_passes(ray, hit);
   s.metallic = pbr.metallic;
   s.roughness = pbr.roughness;
   if (effects_.emissive) s.glow = dvec3(pbr.emissive) * double(shared::emissive_nits);

@@ -41,18 +41,22 @@ struct RaySurface {
   dvec3 base_color{0.0};        ///< linear
   dvec3 glow{0.0};              ///< emitted radiance, cd/m^2
   double metallic = 0.0, roughness = 1.0;
+  std::optional<dvec3> passes;  ///< a pane lets this share of the light through along the ray
 };
 
 class RayScene {
  public:
   /// `body_poses` has the pose of every body in local coordinates. `effects` says whether textures, normal
-  /// maps, alpha masks and emission count. `scene` outlives this.
+  /// maps, alpha masks, emission and panes count. `scene` outlives this.
   RayScene(const scene::Scene& scene, std::span<const Pose> body_poses, const CameraEffects& effects);
 
   /// Returns the nearest hit farther than `least` metres. A body whose owner is `excluded` is passed through.
   RayHit nearest(const Ray& ray, double least, std::optional<uint32_t> excluded = {}) const;
-  /// Returns whether something lies between `least` and `most` metres.
-  bool blocked(const Ray& ray, double least, double most) const;
+  /// Returns the share of the light that passes between `least` and `most` metres, through panes alone.
+  dvec3 passed(const Ray& ray, double least, double most) const;
+  bool is_pane(const RayHit& hit) const {
+    return panes_[scene_->primitives[hit.primitive].material].has_value();
+  }
   RaySurface surface(const Ray& ray, const RayHit& hit) const;
 
   /// The distance from a surface at which a ray may begin, so that it does not meet the surface itself:
@@ -62,14 +66,17 @@ class RayScene {
  private:
   template <typename Visit>
   void walk(const Ray& ray, double least, double most, const Visit& visit) const;
+  dvec3 pane_passes(const Ray& ray, const RayHit& hit) const;
+  dvec3 geometric_normal(const RayHit& hit) const;
   bool has_hole(uint32_t triangle, uint32_t primitive, double u, double v) const;
   dvec2 texture_place(uint32_t triangle, double u, double v) const;
 
   const scene::Scene* scene_;
   std::vector<Pose> poses_;
   CameraEffects effects_;
-  std::vector<bool> masked_;     ///< by material: it has holes
-  std::vector<uint32_t> owner_;  ///< by primitive: the owner of its body
+  std::vector<bool> masked_;                 ///< by material: it has holes
+  std::vector<std::optional<dvec3>> panes_;  ///< by material: its pane_color, if panes count
+  std::vector<uint32_t> owner_;              ///< by primitive: the owner of its body
   scene::SahTree tree_;
 };
 

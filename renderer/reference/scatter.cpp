@@ -18,9 +18,14 @@ void complete_frame(const dvec3& z, dvec3& x, dvec3& y) {
 
 Scatter::Scatter(const RaySurface& surface, const dvec3& to_eye, bool specular)
     : normal_(surface.normal), geometric_(surface.geometric), to_eye_(to_eye) {
-  reflectance_ = specular ? shared::reflectance_of(vec3(surface.base_color), float(surface.metallic),
-                                                   float(surface.roughness), float(glm::dot(normal_, to_eye)))
-                          : shared::lambertian_reflectance(vec3(surface.base_color));
+  const auto cosine = float(glm::dot(normal_, to_eye)), roughness = float(surface.roughness);
+  if (!specular)
+    reflectance_ = shared::lambertian_reflectance(vec3(surface.base_color));
+  else if (surface.passes)
+    reflectance_ = shared::pane_reflectance_of(vec3(surface.base_color), roughness, cosine);
+  else
+    reflectance_ =
+        shared::reflectance_of(vec3(surface.base_color), float(surface.metallic), roughness, cosine);
   complete_frame(normal_, x_, y_);
   if (!specular) return;
   const double diffuse = luminance(dvec3(reflectance_.diffuse)),

@@ -5,12 +5,13 @@
 #include <algorithm>
 
 #include "core/srgb.h"
+#include "renderer/surface/pane_color.h"
 
 namespace greatx::render {
 
 dvec3 mean_color(const scene::Scene& scene, uint32_t material) {
   const scene::PbrMaterial& pbr = scene.materials[material].pbr;
-  const dvec3 factor(pbr.base_color);
+  const dvec3 factor(solid_color(pbr));
   if (pbr.base_color_texture < 0) return factor;
   const scene::Texture& texture = scene.textures[static_cast<size_t>(pbr.base_color_texture)];
   // A prime number of texels does not fall into step with the width.

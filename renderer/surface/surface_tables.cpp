@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include <glm/gtc/packing.hpp>
 
@@ -12,6 +13,7 @@
 #include "renderer/surface/closed_bodies.h"
 #include "renderer/surface/mark_map.h"
 #include "renderer/surface/octahedral.h"
+#include "renderer/surface/pane_color.h"
 #include "shaders/shared/camera.h"
 
 namespace greatx::render {
@@ -53,11 +55,14 @@ void put_material(Words& words, const scene::PbrMaterial& pbr, const scene::Mate
   const auto pair = [](uint32_t low, uint32_t high) { return low | high << 16; };
   const auto texture = [](scene::TextureReference reference) { return static_cast<uint32_t>(reference + 1); };
   const auto fraction = [](float x) { return static_cast<uint32_t>(std::lround(x * 65535.0f)); };
-  const uint32_t roughness_in = textures.roughness_in_alpha        ? shared::roughness_in_alpha
+  const std::optional<vec3> passes = pane_color(pbr);
+  const uint32_t roughness_in = passes                             ? shared::roughness_of_pane
+                                : textures.roughness_in_alpha      ? shared::roughness_in_alpha
                                 : textures.metallic_roughness >= 0 ? shared::roughness_in_texture
                                                                    : 0u;
-  words.push_back(glm::packHalf2x16(vec2(pbr.base_color)));
-  words.push_back(pair(glm::packHalf1x16(pbr.base_color.z), roughness_in));
+  const vec3 reflects = solid_color(pbr);
+  words.push_back(glm::packHalf2x16(vec2(reflects)));
+  words.push_back(pair(glm::packHalf1x16(reflects.z), roughness_in));
   words.push_back(pair(fraction(pbr.metallic * textures.metallic), fraction(pbr.roughness)));
   words.push_back(texture(textures.base_color));
   put(words, pbr.emissive);
@@ -65,7 +70,10 @@ void put_material(Words& words, const scene::PbrMaterial& pbr, const scene::Mate
   put(words, pbr.normal_scale);
   words.push_back(texture(textures.normal));
   words.push_back(texture(textures.metallic_roughness));
-  words.push_back(0u);
+  uint32_t color = 0;
+  for (int i = 0; passes && i < 3; ++i)
+    color |= static_cast<uint32_t>(std::lround(glm::clamp((*passes)[i], 0.0f, 1.0f) * 1023.0f)) << (10 * i);
+  words.push_back(color);
 }
 
 void require_16_bits(const char* what, size_t count) {

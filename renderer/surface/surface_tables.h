@@ -21,6 +21,7 @@ class SurfaceTables {
   std::vector<gpu::Descriptor> descriptors() const;
   /// Returns whether records of triangles are read by their address (shared::spec_triangle_address).
   bool by_address() const { return static_cast<bool>(address_); }
+  const gpu::Buffer& materials() const { return materials_; }  ///< the records of materials
   /// uint [triangles]: the primitive of each triangle.
   const gpu::Buffer& triangle_primitives() const { return triangle_primitives_; }
   /// uvec2 [triangles + 1], by triangle + 1: instance + 1, semantic class | (material + 1) << 16; [0]:

@@ -28,7 +28,7 @@ struct PbrMaterial {
   AlphaMode alpha_mode = AlphaMode::opaque;
   bool double_sided = false;
   /// For a pane, the part of the light that goes through (KHR_materials_transmission, or 1 - alpha of a BLEND
-  /// material without a texture). Only LiDAR uses it; cameras see the pane as a solid surface.
+  /// material without a texture). Cameras and LiDARs see the objects behind it.
   float transmission = 0.0f;
   int32_t base_color_texture = -1;          ///< index into Scene::textures; -1: none
   int32_t metallic_roughness_texture = -1;  ///< G roughness, B metallic

@@ -35,6 +35,7 @@ layout(constant_id = spec_beams) const bool beams_on = false;
 layout(constant_id = spec_contact_occlusion) const bool contact_occlusion_on = false;
 layout(constant_id = spec_bounced_light) const bool bounced_light_on = false;
 layout(constant_id = spec_glass) const bool glass_on = false;
+layout(constant_id = spec_panes) const bool panes_on = false;
 layout(constant_id = spec_distortion) const bool distortion_on = false;
 layout(constant_id = spec_faces) const bool faces_on = false;
 layout(constant_id = spec_range) const bool range_on = false;

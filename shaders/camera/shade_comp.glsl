@@ -3,13 +3,15 @@
 //
 // Shades the triangles that the visibility pass found. Each triangle that a pixel's samples saw is shaded
 // once and weighed by the number of these samples. Depth and id are those of the triangle that the pixel's
-// centre looks at. With GREATX_MULTISAMPLED a pixel has four samples.
+// centre looks at. With GREATX_MULTISAMPLED a pixel has four samples. With GREATX_PANES the triangles are the
+// nearest panes before what is solid, which is shaded after them.
 #include "camera/contact.glsl"
 #include "camera/halos.glsl"
 #include "camera/haze.glsl"
 #include "camera/lamps.glsl"
 #include "camera/lens_ray.glsl"
 #include "camera/light.glsl"
+#include "camera/pane_layer.glsl"
 #include "camera/picture.glsl"
 #include "camera/sky.glsl"
 #include "camera/surface.glsl"
@@ -33,15 +35,13 @@ uint visible_at(ivec2 at, uint s) {
 }
 #include "camera/behind_lines.glsl"
 #include "camera/through_lens.glsl"
+#ifndef GREATX_PANES
 layout(set = 0, binding = shade_color_binding, scalar) buffer ColorBlock { uvec2 picture_color[]; };
 layout(set = 0, binding = shade_seen_binding, scalar) writeonly buffer SeenBlock { uvec2 picture_seen[]; };
 layout(set = 0, binding = shade_luminance_binding, scalar) buffer LuminanceBlock {
   float picture_luminance[];
 };
-
-layout(set = 0, binding = shade_mirror_binding, scalar) writeonly buffer MirrorBlock {
-  uvec3 picture_mirror[];
-};
+#endif
 
 /// Returns the radiance towards the eye of the triangle around the ray. It adds `weight` times its mirror.
 vec3 surface_radiance(Seen seen, vec3 ray, float weight, inout Mirror mirror) {
@@ -53,6 +53,7 @@ vec3 surface_radiance(Seen seen, vec3 ray, float weight, inout Mirror mirror) {
   }
   Reflectance r = lambertian_reflectance(s.base_color);
   if (specular_on) r = reflectance_below(s.base_color, s.metallic, s.roughness, dot(s.n, s.v), f0);
+  if (specular_on && s.pane) r = pane_reflectance_of(s.base_color, s.roughness, dot(s.n, s.v));
   vec3 radiance = s.glow;
   bool lit = sun_on && dot(s.n, lighting.sun_direction) > 0.0;
   if (lit) {
@@ -98,6 +99,18 @@ void look_behind(inout LinesLeft lines, inout Center center, ivec2 at, vec3 ray,
     lines.behind = id == 0u ? uintBitsToFloat(0x7f800000u) : depth;
   }
 }
+#ifdef GREATX_PANES
+/// Returns the light of the air before a pane, times what the pane lets through, summed over its samples
+/// (bits of `same`). The light from behind has the air's light of the whole way, and the pane takes no part
+/// of that before it.
+vec3 air_before(Seen seen, vec3 ray, ivec2 at, uint same) {
+  float distance = dot(seen.p0, seen.normal) / dot(ray, seen.normal) * length(ray);
+  vec3 air = through_haze(vec3(0.0), normalize(ray), distance), passes = vec3(0.0);
+  for (uint s = 0u; s < sample_count; ++s)
+    if ((same >> s & 1u) != 0u) passes += passes_at(at, s);
+  return passes * air;
+}
+#endif
 
 void main() {
   ivec2 at = own_pixel();
@@ -147,23 +160,48 @@ void main() {
     }
     if (id == 0u) {
       sky += weight;
+#ifndef GREATX_PANES
       if (color_on || luminance_on) radiance += weight * sky_radiance(ray);
+#endif
     } else {
       Seen seen = see(id - 1u);
       if (ids_on && !distortion_on && !looked) look(center, seen, ray);
       if (ids_on && !distortion_on && sample_count > 1u && id == ids[0]) first = rim_of(seen, ray);
       if (color_on || luminance_on) radiance += weight * surface_radiance(seen, toward, weight, mirror);
+#ifdef GREATX_PANES
+      if (haze_on) radiance -= air_before(seen, ray, in_pinhole, same) / float(sample_count);
+#endif
     }
   }
   // If samples around the centre hit and the centre itself slips through, the first sample stands for the
   // centre.
   if (!distortion_on && center.id == 0u && sky == 0.0) center = first;
+#ifdef GREATX_PANES
+  vec3 passes = vec3(0.0);
+  for (uint s = 0u; s < sample_count; ++s) passes += passes_at(in_pinhole, s) / float(sample_count);
+  uint id = center.id != 0u ? center.id : sky < 1.0 ? pane_beside : 0u;
+  store_panes(element, id, center.depth, radiance * camera.exposure, passes);
+#else
   if (lamp_halos_on && (color_on || luminance_on)) {
     float stretch = length(ray), far = min(center.depth, 1e6) * stretch;
     radiance += lamp_halos(pixel, ray / stretch, far);
   }
+  bool panes = panes_on && (camera.first & camera_sees_panes) != 0u;
+  if (panes) {
+    Panes before = panes_before(element);
+    bool nearer = before.id == pane_beside || (before.id != 0u && before.depth < center.depth);
+    if (nearer) {
+      radiance = before.radiance + before.passes * radiance;
+      mirror.weight = 0.0;  // its place lies behind
+      if (before.id != pane_beside) {
+        center = Center(before.depth, before.id);
+        sky = 0.0;
+      }
+    }
+  }
   radiance *= camera.weight;
-  bool adds = blend_on && camera.first == 0u;  // to the result of the earlier parts of the exposure
+  // to the result of the earlier parts of the exposure
+  bool adds = blend_on && (camera.first & camera_first_part) == 0u;
   if (color_on) {
     vec4 stored = vec4(min(radiance * camera.exposure, vec3(65504.0)), (1.0 - sky) * camera.weight);
     if (adds) stored = min(stored + unpack_color(picture_color[element]), vec4(65504.0));
@@ -175,6 +213,10 @@ void main() {
     picture_luminance[element] = stored;
   }
   if (range_on) center.depth *= length(ray);
-  if (mirrors_on) picture_mirror[element] = pack_mirror(mirror);
+  if (mirrors_on) {
+    uvec3 words = pack_mirror(mirror);
+    for (uint i = 0u; i < 3u; ++i) picture_beside[3u * element + i] = words[i];
+  }
   if (ids_on) picture_seen[element] = uvec2(floatBitsToUint(center.depth), center.id);
+#endif
 }

@@ -33,6 +33,7 @@ struct Surface {
   vec3 geometric, n;  // unit, on the eye's side
   vec3 base_color, glow;
   float metallic, roughness;
+  bool pane;
 };
 
 layout(set = 0, binding = marks_binding, scalar) uniform MarksBlock { GpuMarks marks; };
@@ -105,6 +106,7 @@ Surface surface_at(Seen seen, vec3 ray) {
   vec2 metallic_roughness = unpackUnorm2x16(m0.z);
   s.metallic = metallic_roughness.x;
   s.roughness = metallic_roughness.y;
+  s.pane = panes_on && m0.y >> 16 == roughness_of_pane;
   s.glow = vec3(0.0);
   uint of_glow = 0u;
   if (emissive_on) {

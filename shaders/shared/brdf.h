@@ -12,6 +12,7 @@
 #ifndef GREATX_SHADERS_SHARED_BRDF_H
 #define GREATX_SHADERS_SHARED_BRDF_H
 #include "glsl.h"
+#include "pane.h"
 
 #ifdef __cplusplus
 namespace greatx::shared {
@@ -107,6 +108,23 @@ GREATX_FUNCTION Reflectance reflectance_below(vec3 base_color, float metallic, f
 
 GREATX_FUNCTION Reflectance reflectance_of(vec3 base_color, float metallic, float roughness, float n_dot_v) {
   return reflectance_below(base_color, metallic, roughness, n_dot_v, dielectric_f0);
+}
+
+/// Returns the reflectance of a smooth pane of glass with both of its faces. `base_color` is the albedo of
+/// what neither reflects nor passes. Its lobe is that of a surface with the Fresnel term of the pane in the
+/// mirror's direction.
+GREATX_FUNCTION Reflectance pane_reflectance_of(vec3 base_color, float roughness, float n_dot_v) {
+  Reflectance r;
+  r.n_dot_v = max(n_dot_v, 1e-3f);
+  r.alpha = alpha_from_roughness(roughness);
+  float mirrored = pane_reflectance(r.n_dot_v, pane_index, 1.0f);
+  float s = (1.0f - r.n_dot_v) * (1.0f - r.n_dot_v);
+  float schlick = s * s * (1.0f - r.n_dot_v);
+  r.f0 = vec3(max(mirrored - schlick, 0.0f) / (1.0f - schlick));
+  r.gain = vec3(1.0f);
+  r.albedo = vec3(mirrored);
+  r.diffuse = base_color * (1.0f - mirrored);
+  return r;
 }
 
 /// Returns the reflectance of a Lambertian surface, without a specular lobe.

@@ -47,8 +47,10 @@ const uint stars_binding = 20u;  // storage: GpuStar [star_cells, star_cells]
 const uint weather_binding = 24u;      // uniform: GpuWeather
 const uint rain_cover_binding = 25u;   // sampled with comparison: what lies under the open sky
 const uint lamp_shadow_binding = 26u;  // sampled with comparison: the lamps' tiles
-// storage: uvec3 [pixels], halves: weight and roughness of a mirror; the stored radiance that it shows so far
+// storage, words: uvec3 [pixels], halves: weight and roughness of a mirror, and the stored radiance that it
+// shows so far (if spec_mirrors is set); then PanePixel [pixels] (if spec_panes is)
 const uint shade_mirror_binding = 23u;
+const uint pane_passes_binding = 33u;  // what the panes of a sample let through: storage image, or sampled
 
 // Specialization constants of the shading pipeline: the wanted outputs, and one constant for each effect of
 // the plan.
@@ -97,7 +99,8 @@ const uint spec_bounced_light = 38u;
 const uint spec_glass = 39u;
 const uint spec_shadow_cascades = 40u;  // their number
 const uint spec_beams = 41u;            // some lamp has a passing beam
-const uint shade_spec_count = 42u;
+const uint spec_panes = 42u;            // panes let light through (renderer/camera/panes.h)
+const uint shade_spec_count = 43u;
 // These constants belong to the shadow maps.
 const uint shadow_spec_base_color_arrays = 0u;
 const uint shadow_spec_masked = 1u;
@@ -156,11 +159,13 @@ const uint triangle_record_quads = 6u;
 ///   0  base colour in halves: red, green; blue, other place of its roughness (roughness_in_...; 0: nowhere);
 ///      metallic, roughness as fractions of 65535; base-colour texture
 ///   1  emission in floats; emissive texture
-///   2  scale of the normal map; normal texture, metallic-roughness texture
+///   2  scale of the normal map; normal texture, metallic-roughness texture; what a pane lets
+///      through beside its reflection, in three fractions of 1023 from the lowest bits
 /// A texture is stored as its reference (scene/device/texture_layers.h) + 1, or 0 if there is none.
 const uint material_record_quads = 3u;
 const uint roughness_in_texture = 1u;  ///< metallic-roughness texture
 const uint roughness_in_alpha = 2u;    ///< alpha of the base-colour texture
+const uint roughness_of_pane = 3u;     ///< nowhere; the material is a pane
 
 const uint shade_group_width = 8u;
 const uint shade_group_height = 8u;
@@ -174,6 +179,16 @@ const uint star_cells = 128u;
 
 /// The radiance over 1 cd/m^2 that an emissive factor of 1.0 stands for.
 const float emissive_nits = 1000.0f;
+
+/// Bits of CameraConstants::first.
+const uint camera_first_part = 1u;
+const uint camera_sees_panes = 2u;  ///< PanePixels of this view are valid
+
+/// Holds what a pixel sees of panes, in five words: the triangle + 1 of the nearest pane before its centre
+/// and its planar depth (0: no pane; pane_beside: only before other samples), then six halves: the stored
+/// radiance that the panes add, and the share of the light behind that they let through.
+const uint pane_pixel_words = 5u;
+const uint pane_beside = 0x80000000u;
 
 /// Holds the push constants of the visibility and shading pipelines. Positions are taken relative to the eye
 /// before anything is rounded: eye_high + eye_low is the eye in local coordinates to twice the precision of a
@@ -191,7 +206,7 @@ struct CameraConstants {
   float near_m;
   float exposure;  ///< stored value = exposure times radiance in cd/m^2
   float weight;    ///< fraction of the exposure time of this part; 1: the whole
-  uint first;      ///< whether it is the first part
+  uint first;      ///< bits: camera_first_part, camera_sees_panes
   uint size;       ///< size of the picture: width | height << 16
 };
 

@@ -4,6 +4,7 @@
 // LiDAR. renderer/lidar/ and shaders/lidar/ share these definitions.
 #ifndef GREATX_SHADERS_SHARED_LIDAR_H
 #define GREATX_SHADERS_SHARED_LIDAR_H
+#include "pane.h"
 #include "scene.h"
 
 GREATX_SHARED_BEGIN
@@ -87,21 +88,6 @@ struct LidarTarget {
   uint first_motion;  // index of its first motion, one motion an instant; lidar_still: none
   vec4 sphere;        // local coordinates: holds the body at every instant
 };
-
-/// Returns the reflectance of unpolarized light on `sheets` parallel plates of refractive index `n` in air,
-/// under an angle of incidence with the given cosine. Every reflection between their 2 m faces is added up
-/// without interference or absorption: 2 m r / (1 + (2 m - 1) r) for each polarization (G. G. Stokes, "On the
-/// intensity of the light reflected from or transmitted through a pile of plates", Proc. R. Soc. 11 (1862),
-/// pp. 545-556), with r by Fresnel.
-GREATX_FUNCTION float pane_reflectance(float cosine, float n, float sheets) {
-  float inner = sqrt(n * n - 1.0f + cosine * cosine);  // n times the cosine inside
-  float s = (cosine - inner) / (cosine + inner);
-  float p = (n * n * cosine - inner) / (n * n * cosine + inner);
-  float faces = 2.0f * sheets;
-  float r_s = s * s;
-  float r_p = p * p;
-  return 0.5f * faces * (r_s / (1.0f + (faces - 1.0f) * r_s) + r_p / (1.0f + (faces - 1.0f) * r_p));
-}
 
 /// Returns the light that a mirror gives back into a receiver beside the transmitter, as the intensity of a
 /// diffuse surface that gives as much. A Gaussian beam of 1/e^2 half-angle `half_divergence` comes back from

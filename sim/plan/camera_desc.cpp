@@ -51,6 +51,8 @@ render::CameraDesc camera_desc(const Scenario& scenario, const NodeConfig& node,
     desc.noise = {config.noise->full_well_e, config.noise->read_noise_e, config.noise->bits, scenario.seed,
                   fnv1a32(desc.name)};
   desc.glare = config.glare;
+  desc.drops = config.drops;
+  desc.drop_seconds_per_tick = 1.0 / scenario.tick_rate_hz.value();
   desc.rain = {config.exposure.shutter_s.value_or(render::RainView{}.shutter_s), scenario.seed,
                fnv1a32(desc.name)};
   desc.outputs.rgb = config.rgb;

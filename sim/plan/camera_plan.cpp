@@ -14,6 +14,7 @@
 #include "renderer/light/horizon.h"
 #include "renderer/light/sky.h"
 #include "renderer/surface/mark_map.h"
+#include "renderer/surface/pane_color.h"
 #include "shaders/shared/camera.h"
 #include "shaders/shared/surroundings.h"
 #include "sim/plan/camera_desc.h"
@@ -52,6 +53,7 @@ Offers offers_of(const scene::Scene& scene) {
     const scene::Material& material = scene.materials[primitive.material];
     offers.reflectance_textures |=
         pbr.base_color_texture >= 0 && !(material.reflectance_905nm && material.reflectance_1550nm);
+    offers.panes |= render::pane_color(pbr).has_value();
     offers.normal_maps |= pbr.normal_texture >= 0;
     offers.markings |= render::marks_of(scene, primitive) == shared::triangle_of_mark;
     offers.smooth |=
@@ -92,6 +94,7 @@ void add(CameraAsks& asks, const CameraConfig& camera) {
   asks.noise |= camera.rgb && camera.noise.has_value();
   asks.rolling_shutter |= camera.rolling.any();
   asks.chromatic_aberration |= camera.chromatic.any() && (camera.rgb || camera.hdr);
+  asks.drops |= camera.drops.any() && (camera.rgb || camera.hdr);
   asks.glare |= camera.glare > 0.0 && (camera.rgb || camera.hdr);
   asks.motion_blur |= camera.motion_blur_samples > 0 && (camera.rgb || camera.hdr);
   asks.automatic_exposure |= camera.rgb && camera.exposure.automatic;
@@ -217,6 +220,7 @@ void plan_lens(EffectPlan& plan, const Planner& planner, const CameraAsks& asks)
                  "draws the scene once for each band of rows");
   asked(plan.chromatic_aberration, asks.chromatic_aberration);
   asked(plan.vignetting, asks.vignetting);
+  asked(plan.lens_drops, asks.drops);
   asked(plan.glare, asks.glare);
   asked(plan.motion_blur, asks.motion_blur, "costs a picture for each of its samples");
   asked(plan.auto_exposure, asks.automatic_exposure);
@@ -234,6 +238,8 @@ void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shad
                  : !asks.smooth_edges ? "no camera smooths edges"
                                       : "costs a sixth of a picture; asked for by switching it on",
                  "not behind lenses that distort, nor with a rolling shutter");
+  shading.decide(plan.panes, offers.panes, "materials let light through", "no material lets light through",
+                 "panes near a camera are drawn and shaded once more");
   shading.decide(plan.normal_maps, offers.normal_maps && plan.textures.on, "materials have them",
                  offers.normal_maps ? "textures are off" : "no material has one");
   planner.decide(plan.alpha_mask, camera && offers.alpha_mask,

@@ -18,6 +18,7 @@ struct Offers {
   bool triangles = false, static_triangles = false, moving_triangles = false;
   bool textures = false, normal_maps = false, reflectance_textures = false, alpha_mask = false,
        emissive = false;
+  bool panes = false;            ///< a camera may see through a material
   bool markings = false;         ///< static lane markings
   bool thin_lines = false;       ///< static meshes that may hold poles, wires and rails
   bool smooth = false;           ///< a material may be smooth enough to mirror
@@ -37,7 +38,7 @@ struct CameraAsks {
   bool depth_ray = false, normals = false, flow = false, boxes = false;
   bool wide_lens = false, rolling_shutter = false, chromatic_aberration = false;
   bool smooth_edges = false, distortion = false, vignetting = false, noise = false, glare = false,
-       motion_blur = false, automatic_exposure = false, adaptive_events = false;
+       drops = false, motion_blur = false, automatic_exposure = false, adaptive_events = false;
   bool color() const { return rgb || hdr || event_cameras > 0; }
   /// Whether the shots of some LiDAR are spread over time.
   bool sweep = false;

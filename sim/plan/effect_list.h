@@ -38,6 +38,7 @@
   X(contact_occlusion, true, camera, "light of the sky that meshes hide which move near a place") \
   X(bounced_light, true, camera, "light that the static world reflects once") \
   X(glass, true, camera, "the static world mirrored in smooth surfaces") \
+  X(panes, true, camera, "objects behind panes of glass are seen through them") \
   X(textures, true, camera, "textures of materials") \
   X(normal_maps, true, camera, "relief of surfaces from textures") \
   X(alpha_mask, true, camera, "holes in materials") \
@@ -60,6 +61,7 @@
   X(rolling_shutter, false, none, "rows of a picture exposed one after the other") \
   X(chromatic_aberration, false, none, "red and blue pictures that differ in size from the green one") \
   X(vignetting, false, none, "loss of light towards the corners of a picture") \
+  X(lens_drops, false, none, "drops of rain on the glass before a lens") \
   X(glare, false, none, "light that the lens scatters over the picture") \
   X(motion_blur, false, none, "motion during the exposure") \
   X(auto_exposure, false, none, "exposure that follows the light of the scene") \

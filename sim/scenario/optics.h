@@ -65,8 +65,8 @@ struct Environment {
 };
 
 /// These types describe a lens (docs/film.md).
-using render::ChromaticAberration, render::Distortion, render::LensModel, render::RollingShutter,
-    render::Vignetting, render::WideLens;
+using render::ChromaticAberration, render::Distortion, render::LensDrops, render::LensModel,
+    render::RollingShutter, render::Vignetting, render::WideLens;
 
 /// Describes the exposure of a picture. `automatic` meters each picture by itself, so that no picture depends
 /// on another.
@@ -104,6 +104,7 @@ struct CameraConfig : PinholeConfig {
   RollingShutter rolling;
   ChromaticAberration chromatic;
   double glare = 0.0;  ///< share of the light that the lens scatters over the picture
+  LensDrops drops;
   // The members below select the arrays to deliver.
   bool rgb = true, depth = true, ids = true;
   bool listed = false;    ///< whether the scenario lists the outputs; otherwise they are the default ones

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/surface/closed_bodies.h"
+#include "renderer/surface/pane_color.h"
 #include "tests/support/tiny_scene.h"
 
 namespace greatx::render {
@@ -21,7 +22,12 @@ void add_box(TinyScene& scene, const std::string& name, const dvec3& at, double 
 }
 
 DrawList list_of(const scene::Scene& scene, std::optional<uint32_t> excluded = {}) {
-  return {scene, std::vector<bool>(scene.bodies.size(), true), closed_instances(scene), excluded, true};
+  return {scene,
+          std::vector<bool>(scene.bodies.size(), true),
+          closed_instances(scene),
+          excluded,
+          true,
+          pane_materials(scene)};
 }
 
 TEST(DrawList, WhatStandsTogetherSharesADraw) {
@@ -60,6 +66,43 @@ TEST(DrawList, BodiesAreApartAndAPartOfTheExcludedOneIsLeftOut) {
 }
 
 /// Every triangle is drawn once, within its sphere, and no sphere is larger than the rule allows.
+TEST(DrawList, GlazedPiecesAreSplitIntoPanesAndTheRest) {
+  TinyScene tiny;
+  scene::Material glass;
+  glass.name = "glass";
+  glass.pbr.metallic = 0.0f;
+  glass.pbr.roughness = 0.1f;
+  glass.pbr.transmission = 0.9f;
+  const uint32_t pane = tiny.material_as(glass), van = tiny.body("van");
+  add_box(tiny, "post", {0, 0, 0}, 1.0);
+  tiny.object("window", 0, pane).box({1, 0, 0}, {1.5, 1, 1});
+  add_box(tiny, "door", {2, 0, 0}, 0.5);
+  add_box(tiny, "hood", {0, 0, 0}, 1.0, van);
+  tiny.object("screen", van, pane).box({0, 0, 0}, {1, 1, 1});
+  const scene::Scene scene = tiny.build();
+  const DrawList list = list_of(scene);
+  ASSERT_EQ(list.still().size(), 1u);
+  ASSERT_EQ(list.moving().size(), 1u);
+  EXPECT_EQ(list.panes().size(), 2u);
+  EXPECT_EQ(list.rests().size(), 3u);
+  for (const DrawPiece* piece : {&list.still()[0], &list.moving()[0]}) {
+    uint32_t indices = 0;
+    for (const uint32_t i : piece->panes) indices += list.panes()[i].index_count;
+    for (const uint32_t i : piece->rests) {
+      EXPECT_FALSE(list.rests()[i].closed);
+      EXPECT_EQ(list.rests()[i].body, piece->body);
+      indices += list.rests()[i].index_count;
+    }
+    EXPECT_EQ(indices, piece->index_count);
+  }
+  const std::vector<Pose> poses(scene.bodies.size());
+  std::vector<uint32_t> order{0};
+  EXPECT_TRUE(take_glazed(order, list.still(), poses, {50, 0, 0}, 40.0).empty());
+  EXPECT_EQ(order.size(), 1u);
+  EXPECT_EQ(take_glazed(order, list.still(), poses, {50, 0, 0}, 50.0).size(), 1u);
+  EXPECT_TRUE(order.empty());
+}
+
 TEST(DrawList, EveryTriangleIsInOnePieceAndItsSphere) {
   TinyScene tiny;
   std::mt19937 random(7);

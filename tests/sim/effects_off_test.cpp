@@ -279,6 +279,7 @@ const std::map<std::string, Tried> tried{
     {"contact_occlusion", {camera_sensor, {"sky"}}},
     {"bounced_light", {camera_sensor, {"sky", "ambient_occlusion"}}},
     {"glass", {camera_sensor, {"sky"}}},
+    {"panes", {camera_sensor, {"sky"}}},
     {"textures", {camera_sensor, {"sky"}}},
     {"normal_maps", {camera_sensor, {"sun", "textures"}}},
     {"alpha_mask", {camera_sensor, {"sky"}}},

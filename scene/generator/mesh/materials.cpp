@@ -239,7 +239,9 @@ std::vector<MaterialSpec> make_library() {
       {"neon_amber", "", dvec2(1.0), 0, vec3(0.7f, 0.4f, 0.08f), 0.4f, 0.0f, vec3(0.3f, 0.15f, 0.03f),
        plastic},
       {"poster", "poster", dvec2(1.2, 1.8), 0, vec3(1.0f), 0.3f, 0.0f, vec3(0.2f), plastic, 0},
-      {"shelter_glass", "", dvec2(1.0), 0, vec3(0.3f, 0.36f, 0.38f), 0.1f, 0.0f, vec3(0), pane},
+      // Panes of 5 mm, with some dust on them: a wall of glass has one on each side.
+      {"shelter_glass", "", dvec2(1.0), 0, vec3(0.9f, 0.95f, 0.93f), 0.08f, 0.0f, vec3(0), pane, -1, false,
+       0.97f},
       {"traffic_signs", "traffic_signs", dvec2(1.0), 0, vec3(1.0f), 0.5f, 0.0f, vec3(0), sheet_metal},
       {"bicycle", "bicycles", dvec2(1.0), 0, vec3(1.0f), 0.4f, 0.0f, vec3(0), unseen},
       // Tubes of 5 cm.
@@ -259,7 +261,8 @@ std::vector<MaterialSpec> make_library() {
       {"awning_sand", "awning", dvec2(0.6, 2.0), 0, vec3(0.86f, 0.74f, 0.52f), 0.9f, 0.0f, vec3(0), cloth},
       {"parapet_white", "concrete", dvec2(3.2), 0, vec3(1.0f), 0.8f, 0.0f, vec3(0), concrete_wall},
       {"parapet_dark", "", dvec2(1.0), 0, vec3(0.07f, 0.075f, 0.08f), 0.6f, 0.0f, vec3(0), sheet_metal},
-      {"parapet_glass", "", dvec2(1.0), 0, vec3(0.3f, 0.36f, 0.37f), 0.12f, 0.0f, vec3(0), pane},
+      {"parapet_glass", "", dvec2(1.0), 0, vec3(0.82f, 0.91f, 0.89f), 0.1f, 0.0f, vec3(0), pane, -1, false,
+       0.95f},
       {"door_dark", "boards", dvec2(1.5), 0, vec3(0.16f, 0.12f, 0.09f), 0.7f, 0.0f, vec3(0), timber},
       {"downpipe", "", dvec2(1.0), 0, vec3(0.34f, 0.36f, 0.37f), 0.5f, 0.3f, vec3(0), sheet_metal},
       {"plinth_grey", "plinth", dvec2(3.2, 1.6), 0, vec3(0.72f), 0.95f, 0.0f, vec3(0), concrete_wall},
@@ -311,7 +314,13 @@ std::vector<MaterialSpec> make_library() {
        body_pane},
       {"wheel_alloy", "wheel_alloy", dvec2(1.0), 0, vec3(1.0f), 0.45f, 0.0f, vec3(0), castings},
       {"wheel_steel", "wheel_steel", dvec2(1.0), 0, vec3(1.0f), 0.55f, 0.0f, vec3(0), castings},
-      {"car_glass", "", dvec2(1.0), 0, vec3(0.025f, 0.035f, 0.04f), 0.08f, 0.0f, vec3(0), body_pane},
+      // With both reflections a pane lets through 72 % along its normal (UN Regulation 43: 70 % at least).
+      {"car_glass", "", dvec2(1.0), 0, vec3(0.79f, 0.83f, 0.80f), 0.06f, 0.0f, vec3(0), body_pane, -1, false,
+       0.95f},
+      // Windows behind which nothing is modelled.
+      {"car_glass_dark", "", dvec2(1.0), 0, vec3(0.025f, 0.035f, 0.04f), 0.08f, 0.0f, vec3(0), body_pane},
+      {"cabin", "", dvec2(1.0), 0, vec3(0.022f, 0.022f, 0.024f), 0.9f, 0.0f, vec3(0), unseen},
+      {"seat", "", dvec2(1.0), 0, vec3(0.038f, 0.036f, 0.035f), 0.9f, 0.0f, vec3(0), unseen},
       {"tyre", "", dvec2(1.0), 0, vec3(0.015f), 0.9f, 0.0f, vec3(0), rubber},
       {"wheel_rim", "", dvec2(1.0), 0, vec3(0.45f), 0.35f, 0.8f, vec3(0), body_metal},
       {"bumper", "", dvec2(1.0), 0, vec3(0.03f), 0.7f, 0.0f, vec3(0), body_cover},

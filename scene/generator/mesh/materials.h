@@ -30,6 +30,8 @@ struct MaterialSpec {
   std::string radio;    ///< JSON of GREATX_radio_material (docs/materials.md)
   int lit = -1;         ///< index into TextureMaps::lit; -1: `emissive` alone
   bool relief = false;  ///< whether to use the texture's normal map
+  float transmission =
+      0.0f;  ///< KHR_materials_transmission: light that a pane lets through, tinted by `color`
 };
 
 const std::vector<MaterialSpec>& material_library();

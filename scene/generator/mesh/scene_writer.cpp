@@ -143,6 +143,10 @@ void SceneWriter::add_material(int library_index) {
     }
   }
   out.extensions_json = fmt::format(R"({{"GREATX_radio_material":{}}})", spec.radio);
+  if (spec.transmission > 0.0f)
+    out.extensions_json = fmt::format(
+        R"({{"GREATX_radio_material":{},"KHR_materials_transmission":{{"transmissionFactor":{}}}}})",
+        spec.radio, micro(spec.transmission));
   const float strength = std::max(largest(spec.emissive), 1.0f);
   out.emissive = micro(spec.emissive / strength);
   out.emissive_strength = micro(strength);

@@ -93,7 +93,7 @@ VehicleBody make_bus(const VehicleShape& shape, const BusStyle& style, int paint
     for (size_t i = 0; i + 1 < s.size(); i += 2)
       if (zone == ShellZone::side && x < s[i] && x > s[i + 1]) return trim;
     if (zone == ShellZone::rear_corner) return paint;
-    return zone == ShellZone::front_corner || zone == ShellZone::front ? material("car_glass") : glass;
+    return zone == ShellZone::front_corner || zone == ShellZone::front ? material("car_glass_dark") : glass;
   };
   VehicleBody body;
   add_box_shell(body.mesh, shell);
@@ -139,7 +139,7 @@ VehicleBody make_tram(const VehicleShape& shape, int paint) {
       for (const double joint : joints)
         if (std::abs(x - joint) < 0.27) return bellows;
     if (level == 1) {
-      if (zone != ShellZone::side) return material("car_glass");
+      if (zone != ShellZone::side) return material("car_glass_dark");
       for (const double s : shell.stations)
         if (std::abs(std::abs(x - s) - 0.04) < 1e-6 && std::abs(s - x) < 0.05) return trim;
       return glass;
@@ -194,7 +194,7 @@ void add_cab(VehicleBody& body, const VehicleShape& shape, double rear, double t
     if (level == 2 && zone != ShellZone::rear && zone != ShellZone::rear_corner)
       return zone == ShellZone::front_corner && x < front - 0.1 ? paint
              : zone == ShellZone::side && x < door              ? paint
-                                                                : material("car_glass");
+                                                                : material("car_glass_dark");
     return paint;
   };
   add_box_shell(body.mesh, shell);

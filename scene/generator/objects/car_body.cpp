@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "scene/generator/mesh/materials.h"
+#include "scene/generator/objects/car_cabin.h"
 #include "scene/generator/objects/smooth_mesh.h"
 
 namespace greatx::scene::generator {
@@ -362,6 +363,20 @@ SmoothMesh::Mapping side_mapping(const CarStyle& style, const VehicleShape& shap
   };
 }
 
+CabinRoom cabin_of(const VehicleShape& shape, const CarStyle& style) {
+  return {.front = style.cowl,
+          .rear = style.back_base + 0.03,
+          .seats = style.b_front,
+          // above the box between the wheels (add_car_details)
+          .floor = std::max(style.belt - 0.30, 2.0 * shape.wheels[0].radius_m + 0.03),
+          .belt = style.belt,
+          .roof = shape.height_m - style.roof_cut,
+          .half_width = 0.5 * shape.width_m - 0.085,
+          .roof_y = style.roof_y,
+          .rear_roof = style.d_rear + style.d_lean,
+          .load = style.kind == CarStyle::Kind::van};
+}
+
 void add_car_details(VehicleBody& body, const VehicleShape& shape, const CarStyle& style, int paint) {
   const double front = 0.5 * shape.length_m, w = 0.5 * shape.width_m, radius = shape.wheels[0].radius_m;
   MeshBuilder& mesh = body.mesh;
@@ -405,7 +420,7 @@ VehicleBody make_car_body(const VehicleShape& shape, int paint, bool detailed) {
                         paint,
                         roof,
                         material("bumper"),
-                        material("car_glass"),
+                        material(detailed ? "car_glass" : "car_glass_dark"),
                         material("car_trim"),
                         material(detailed ? "lamp_cover" : "headlight_off"),
                         material(detailed ? "tail_light" : "tail_light_off"),
@@ -422,7 +437,10 @@ VehicleBody make_car_body(const VehicleShape& shape, int paint, bool detailed) {
                         .top = [&](size_t) { return roof; }});
   VehicleBody body;
   shell.add_to(body.mesh, 38.0 * pi / 180.0, side_mapping(style, shape));
-  if (detailed) add_car_details(body, shape, style, paint);
+  if (detailed) {
+    add_car_details(body, shape, style, paint);
+    add_cabin(body.mesh, cabin_of(shape, style));
+  }
   return body;
 }
 

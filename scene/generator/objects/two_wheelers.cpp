@@ -300,7 +300,7 @@ void write_two_wheeler(SceneWriter& writer, const VehicleShape& shape, uint64_t 
                               : make_bicycle(shape, paint);
   if (motor || scooter || random.below(2) == 0) look.hair = material("helmet");
   if (motor) {
-    look.face = material("car_glass");  // the visor
+    look.face = material("car_glass_dark");  // the visor
     look.jacket = look.trousers = look.skin = material("cloth_black");
   }
   const int root = writer.add_node({.name = shape.variant,

@@ -114,6 +114,8 @@ void check_lens_and_shutter(const FieldMap& map, const CameraConfig& camera) {
   if (camera.wide.any() && camera.vignetting.natural)
     map.find("vignetting")
         ->fail("a radial vignetting, for 'natural' is that of a pinhole camera", "'natural' beside a lens");
+  if (camera.wide.any() && camera.drops.any())
+    map.find("lens_drops")->fail("none beside a lens, for the glass before a pinhole camera is plane");
   if (!camera.rolling.any()) return;
   if (camera.motion_blur_samples > 0)
     map.find("motion_blur_samples")->fail("none beside a rolling_shutter, which draws its own instants");
@@ -187,6 +189,7 @@ CameraConfig parse_camera(const FieldMap& map) {
   if (const auto f = map.find("see_own_body")) camera.see_own_body = f->boolean();
   if (const auto f = map.find("rolling_shutter")) camera.rolling = parse_rolling_shutter(*f, camera.height);
   if (const auto f = map.find("chromatic_aberration")) camera.chromatic = parse_chromatic_aberration(*f);
+  if (const auto f = map.find("lens_drops")) camera.drops = parse_lens_drops(*f);
   check_lens_and_shutter(map, camera);
   return camera;
 }

@@ -81,4 +81,17 @@ ChromaticAberration parse_chromatic_aberration(const Field& field) {
   return chromatic;
 }
 
+LensDrops parse_lens_drops(const Field& field) {
+  const FieldMap map(field, {"coverage", "rain_mm_h", "glass_m", "aperture_m", "contact_deg", "stay_s"});
+  LensDrops drops;
+  drops.coverage = 0.1;
+  if (const auto f = map.find("coverage")) drops.coverage = f->between(0.001, 0.4);
+  if (const auto f = map.find("rain_mm_h")) drops.rain_mm_h = f->between(0.1, 200.0);
+  if (const auto f = map.find("glass_m")) drops.glass_m = f->between(0.002, 2.0);
+  if (const auto f = map.find("aperture_m")) drops.aperture_m = f->between(0.0, 0.1);
+  if (const auto f = map.find("contact_deg")) drops.contact_deg = f->between(5.0, 90.0);
+  if (const auto f = map.find("stay_s")) drops.stay_s = f->between(0.1, 1e5);
+  return drops;
+}
+
 }  // namespace greatx::sim

@@ -64,6 +64,7 @@ void parse_lens(const FieldMap& of_camera, const Field& field, PinholeConfig& ca
 double fisheye_focal_length(const Field& fov_deg, const PinholeConfig& camera);
 RollingShutter parse_rolling_shutter(const Field& field, uint32_t height);
 ChromaticAberration parse_chromatic_aberration(const Field& field);
+LensDrops parse_lens_drops(const Field& field);
 CameraConfig parse_camera(const FieldMap& map);
 EventCameraConfig parse_event_camera(const FieldMap& map, const Rational& rate_hz);
 ImuConfig parse_imu(const FieldMap& map);

@@ -45,7 +45,7 @@ SensorParsers sensor_parsers() {
   parsers[sensor_kind_index<CameraConfig>()] = {
       fired + pinhole +
           Keys{"exposure_ev100", "exposure", "motion_blur_samples", "vignetting", "noise", "box_classes",
-               "rolling_shutter", "chromatic_aberration", "glare"},
+               "rolling_shutter", "chromatic_aberration", "glare", "lens_drops"},
       [](const FieldMap& map, const SensorContext& context) -> SensorSettings {
         const CameraConfig camera = parse_camera(map);
         if (camera.rolling.readout_s * context.rate_hz.value() > 1.0)

@@ -60,6 +60,11 @@ nlohmann::json camera_metadata(const CameraConfig& config, const Pose& body_from
   if (config.motion_blur_samples > 0) metadata["motion_blur_samples"] = config.motion_blur_samples;
   if (config.vignetting.any())
     metadata["vignetting"] = {{"natural", config.vignetting.natural}, {"radial", config.vignetting.radial}};
+  if (config.drops.any())
+    metadata["lens_drops"] = {
+        {"coverage", config.drops.coverage},       {"rain_mm_h", config.drops.rain_mm_h},
+        {"glass_m", config.drops.glass_m},         {"aperture_m", config.drops.aperture_m},
+        {"contact_deg", config.drops.contact_deg}, {"stay_s", config.drops.stay_s}};
   if (config.glare > 0.0) metadata["glare"] = config.glare;
   if (config.noise)
     metadata["noise"] = {{"full_well_e", config.noise->full_well_e},

@@ -1,0 +1,7 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#define GREATX_PANES
+#define GREATX_MULTISAMPLED
+#include "camera/shade_comp.glsl"
