@@ -50,10 +50,11 @@ class DrawList {
   bool textured() const { return textured_; }
   bool normal_mapped() const { return normal_mapped_; }
   bool emissive() const { return emissive_; }
+  bool switched() const { return switched_; }
 
  private:
   std::vector<DrawPiece> still_, moving_, masked_;
-  bool textured_ = false, normal_mapped_ = false, emissive_ = false;
+  bool textured_ = false, normal_mapped_ = false, emissive_ = false, switched_ = false;
 };
 
 /// Returns how far from the eye the nearest visible depth may cut faces off, with room for roundings.

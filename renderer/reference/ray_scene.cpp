@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/srgb.h"
+#include "scene/description/lamps.h"
 #include "shaders/shared/camera.h"
 
 namespace greatx::render {
@@ -83,8 +84,10 @@ RayScene::RayScene(const scene::Scene& scene, std::span<const Pose> body_poses, 
   GREATX_CHECK(poses_.size() == scene.bodies.size(), "{} poses for {} bodies", poses_.size(),
                scene.bodies.size());
   poses_[0] = Pose{};
-  for (const scene::Material& material : scene.materials)
+  for (const scene::Material& material : scene.materials) {
     masked_.push_back(effects.alpha_mask && material.pbr.alpha_mode == scene::AlphaMode::mask);
+    switched_.push_back(scene::lamp_role(material).has_value());
+  }
   for (const scene::Primitive& primitive : scene.primitives)
     owner_.push_back(scene.owner_of(scene.instances[primitive.instance].body));
   tree_ = scene::make_sah_tree(placed_triangles(scene, poses_));
@@ -185,7 +188,9 @@ RaySurface RayScene::surface(const Ray& ray, const RayHit& hit) const {
   s.base_color = dvec3(pbr.base_color);
   s.metallic = pbr.metallic;
   s.roughness = pbr.roughness;
-  if (effects_.emissive) s.glow = dvec3(pbr.emissive) * double(shared::emissive_nits);
+  const bool lamp = switched_[primitive.material];
+  const bool glows = lamp ? effects_.switched_lamps : effects_.emissive;
+  if (glows) s.glow = dvec3(pbr.emissive) * double(shared::emissive_nits);
   const dvec2 uv = texture_place(hit.triangle, hit.u, hit.v);
   const auto texture = [&](int32_t index) {
     return bilinear(scene_->textures[static_cast<size_t>(index)], uv);
@@ -197,7 +202,7 @@ RaySurface RayScene::surface(const Ray& ray, const RayHit& hit) const {
       s.roughness *= both.g;
       s.metallic *= both.b;
     }
-    if (effects_.emissive && pbr.emissive_texture >= 0) s.glow *= dvec3(texture(pbr.emissive_texture));
+    if (glows && pbr.emissive_texture >= 0) s.glow *= dvec3(texture(pbr.emissive_texture));
   }
   dvec3 normal(0.0), tangent(0.0);
   for (int i = 0; i < 3; ++i) {

@@ -69,6 +69,7 @@ class RayScene {
   std::vector<Pose> poses_;
   CameraEffects effects_;
   std::vector<bool> masked_;     ///< by material: it has holes
+  std::vector<bool> switched_;   ///< by material: of a lamp that switches, which shines in full here
   std::vector<uint32_t> owner_;  ///< by primitive: the owner of its body
   scene::SahTree tree_;
 };

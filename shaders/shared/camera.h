@@ -72,7 +72,7 @@ const uint spec_base_color_arrays = 17u;  // lib/textures.glsl
 const uint spec_metallic_roughness_arrays = 18u;
 const uint spec_normal_arrays = 19u;
 const uint spec_emissive_arrays = 20u;
-// (21 is free.)
+const uint spec_switched_lamps = 21u;
 // The records of triangles may be larger than the part of a buffer that a shader sees at once. Their address
 // is then bound.
 const uint spec_triangle_address = 22u;
@@ -148,7 +148,8 @@ const float lamp_most_roughness = 0.6f;
 ///   2  edge to the third corner; normal at the second
 ///   3  texture coordinates at the first corner, then their change to the second
 ///   4  ... and to the third; normal at the third; bits (shared/marks.h), 1 where the normal map is mirrored
-///   5  tangents at the three corners; 1 where its material has an alpha mask
+///   5  tangents at the three corners; 1 where its material has an alpha mask, and above this bit the number
+///      of its switched lamp's factor (lib/scene.glsl)
 /// Normals and tangents are octahedral in two 16-bit words: 5e-5 rad.
 const uint triangle_record_quads = 6u;
 /// A material's record has these quadruples, low half first:

@@ -17,7 +17,7 @@ namespace greatx::sim {
 struct Offers {
   bool triangles = false, static_triangles = false, moving_triangles = false;
   bool textures = false, normal_maps = false, reflectance_textures = false, alpha_mask = false,
-       emissive = false;
+       emissive = false, switched_lamps = false;
   bool markings = false;         ///< static lane markings
   bool smooth = false;           ///< a material may be smooth enough to mirror
   double width_m = 0.0;          ///< the diagonal of its bounds, seen from above

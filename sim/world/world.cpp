@@ -207,11 +207,13 @@ World load_world(const Scenario& scenario) {
   check_optical_only(scenario);
   World world;
   std::deque<scene::Model> models;  // placements point at them
+  SignalHeads signals;
   std::vector<scene::ModelPlacement> placements;
   for (const StaticObject& object : scenario.scene.objects) {
     models.push_back(load(object.model, scenario.scene));
     check_georeference(models.back(), object, scenario.scene);
     if (scenario.traffic && !world.streets) world.streets = streets_of(scenario, models.back(), object);
+    if (models.back().streets) add_signals(signals, object.name, *models.back().streets);
     placements.push_back({object.name,
                           &models.back(),
                           {object.position_m, orientation_of(object.rotation)},
@@ -257,6 +259,7 @@ World load_world(const Scenario& scenario) {
     world.body_of_node.push_back(own_body ? world.scene.body_index(node.name) : 0);
   }
   find_bodies(world);
+  world.lamps = Lamps(world.scene, world.node_of_body, signals);
   check_radio(scenario, world.scene);
   check_traffic(scenario, world);
   return world;
