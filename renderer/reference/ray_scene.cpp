@@ -202,7 +202,7 @@ RaySurface RayScene::surface(const Ray& ray, const RayHit& hit) const {
       s.roughness *= both.g;
       s.metallic *= both.b;
     }
-    if (glows && pbr.emissive_texture >= 0) s.glow *= dvec3(texture(pbr.emissive_texture));
+    if (glows && !lamp && pbr.emissive_texture >= 0) s.glow *= dvec3(texture(pbr.emissive_texture));
   }
   dvec3 normal(0.0), tangent(0.0);
   for (int i = 0; i < 3; ++i) {

@@ -80,8 +80,8 @@ TEST(Signals, StandAtTheStreetsOfTheirGroup) {
       ++walk_heads;
       const bool near = std::ranges::any_of(streets.crossings, [&](const scene::StreetCrossing& crossing) {
         return crossing.junction == head.junction && crossing.group == head.group &&
-               (glm::distance(dvec2(crossing.from), place_of(head)) < 3.0 ||
-                glm::distance(dvec2(crossing.to), place_of(head)) < 3.0);
+               (glm::distance(dvec2(crossing.from), place_of(head)) < 4.5 ||
+                glm::distance(dvec2(crossing.to), place_of(head)) < 4.5);
       });
       EXPECT_TRUE(near) << head.node;
       continue;

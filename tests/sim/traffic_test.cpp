@@ -330,7 +330,7 @@ TEST(Traffic, IndicatesTurnsAndChangesOfLane) {
         continue;
       }
       const double length = piece.curve->length(),
-                   to_end = piece.at_m + length - (state.way_m - piece.begin_m);
+                   to_end = length - piece.at_m - (state.way_m - piece.begin_m);
       const bool on_turn = piece.turn_m == piece.begin_m && length < 40.0;
       if (on_turn && piece.turn_side != 0) {
         const dvec2 a = piece.curve->at(0.0).tangent, b = piece.curve->at(length).tangent;
