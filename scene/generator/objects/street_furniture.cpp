@@ -61,15 +61,12 @@ void add_lens(MeshBuilder& mesh, const char* lens, double x, double z) {
   for (const dvec2& p : regular_polygon(12, radius, dvec2(0.0, z), pi / 12.0))
     corners.push_back(snap(dvec3(x + proud, p)));
   mesh.polygon(material(lens), corners);
-  // Two plates that lean against each other, since drivers look from below.
-  const int housing = material("signal_housing");
-  for (const double side : {1.0, -1.0}) {
-    const std::vector<dvec2> low{{0.0, z + radius + 0.01}, {side * (radius + 0.01), z + 0.03}},
-        high{{0.0, z + radius + 0.025}, {side * (radius + 0.025), z + 0.03}};
-    std::vector<dvec2> profile{low[0], high[0], high[1], low[1]};
-    if (side > 0.0) std::ranges::reverse(profile);
-    add_prism_along_x(mesh, housing, profile, x - 0.01, x + 0.17);
-  }
+  // Drivers look from below, and see the lens beneath a roof.
+  const double inner = radius + 0.01, outer = radius + 0.025, eaves = z + 0.03;
+  add_prism_along_x(
+      mesh, material("signal_housing"),
+      {{outer, eaves}, {0.0, z + outer}, {-outer, eaves}, {-inner, eaves}, {0.0, z + inner}, {inner, eaves}},
+      x - 0.01, x + 0.17);
 }
 
 }  // namespace
@@ -116,7 +113,7 @@ MeshBuilder make_signal() {
 
 MeshBuilder make_walk_signal(bool pole) {
   MeshBuilder mesh;
-  if (pole) mesh.box(material("galvanised_metal"), {-0.05, -0.05, -0.1}, {0.05, 0.05, 2.75});
+  if (pole) mesh.box(material("galvanised_metal"), {-0.06, -0.06, -0.1}, {0.06, 0.06, 2.75});
   mesh.box(material("signal_housing"), {0.05, -0.14, 2.1}, {0.22, 0.14, 2.7});
   add_lens(mesh, "switched_green", 0.22, 2.25);
   add_lens(mesh, "switched_red", 0.22, 2.54);

@@ -56,7 +56,8 @@ MeshBuilder pedalling_shank(const PersonShape& shape, const PersonLook& look, co
                             double side) {
   MeshBuilder mesh = make_shank(shape, look);
   const double sole = -bicycle.shank_m, half = bicycle.pedal_m, ahead = bicycle.ball_m;
-  mesh.box(material("bumper"), {ahead - 0.045, -0.042, sole - 2.0 * half}, {ahead + 0.045, 0.042, sole});
+  mesh.box(material("bumper"), {ahead - 0.045, -0.042, sole - 2.0 * half},
+           {ahead + 0.045, 0.042, sole - 0.001});
   const double crank = side * (crank_y - hip_y(shape));  // from the middle of the foot
   mesh.box(material("chrome"), {ahead - 0.006, std::min(crank, 0.0), sole - half - 0.006},
            {ahead + 0.006, std::max(crank, 0.0), sole - half + 0.006});
@@ -230,7 +231,7 @@ void add_hull(SmoothMesh& mesh, int material, const std::vector<dvec4>& contours
 /// Adds the direction indicators of a motorcycle, on stalks beside its lamps.
 void add_stalked_indicators(MeshBuilder& mesh, const dvec3& lamp, const dvec3& tail) {
   for (const dvec3& at : {lamp + dvec3(-0.06, 0.0, -0.05), tail + dvec3(0.05, 0.0, -0.05)}) {
-    add_boxes(mesh, material("bumper"), at + dvec3(-0.01, 0.02, -0.01), at + dvec3(0.01, 0.125, 0.01));
+    add_boxes(mesh, material("bumper"), at + dvec3(-0.01, 0.01, -0.01), at + dvec3(0.01, 0.125, 0.01));
     add_indicators(mesh, at + dvec3(-0.025, 0.12, -0.022), at + dvec3(0.025, 0.165, 0.022));
   }
 }
