@@ -31,6 +31,7 @@ std::string turn_words(const sim::PartMotion& motion) {
     return fmt::format("{:+.6g} Hz", rate->value_hz());
   if (const auto* roll = std::get_if<sim::RollConfig>(&motion))
     return fmt::format("rolls, radius {:.6g} m,", roll->radius_m);
+  if (std::holds_alternative<sim::PedalConfig>(motion)) return "as the cyclist pedals";
   return "with the steps";
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scene/description/index_bounds.h"
+#include "scene/description/lamps.h"
 
 namespace greatx::render {
 
@@ -57,6 +58,7 @@ DrawList::DrawList(const scene::Scene& scene, const std::vector<bool>& closed,
         pbr.base_color_texture >= 0 || pbr.metallic_roughness_texture >= 0 || pbr.emissive_texture >= 0;
     normal_mapped_ |= pbr.normal_texture >= 0;
     emissive_ |= pbr.emissive != vec3(0.0f);
+    switched_ |= scene::lamp_role(scene.materials[primitive.material]).has_value();
   }
   if (pane_materials.empty()) return;
   for (std::vector<DrawPiece>* pieces : {&still_, &moving_})

@@ -57,12 +57,13 @@ class DrawList {
   bool textured() const { return textured_; }
   bool normal_mapped() const { return normal_mapped_; }
   bool emissive() const { return emissive_; }
+  bool switched() const { return switched_; }
 
  private:
   void split_panes(const scene::Scene& scene, const std::vector<bool>& pane_materials, DrawPiece& piece);
 
   std::vector<DrawPiece> still_, moving_, masked_, panes_, rests_;
-  bool textured_ = false, normal_mapped_ = false, emissive_ = false;
+  bool textured_ = false, normal_mapped_ = false, emissive_ = false, switched_ = false;
 };
 
 /// Returns how far from the eye the nearest visible depth may cut faces off, with room for roundings.

@@ -43,6 +43,7 @@ gpu::ComputeDesc CameraPass::shading() const {
   shade.specialization[shared::spec_textures] = effects_.textures && draws_->textured();
   shade.specialization[shared::spec_normal_maps] = effects_.normal_maps && draws_->normal_mapped();
   shade.specialization[shared::spec_emissive] = effects_.emissive && draws_->emissive();
+  shade.specialization[shared::spec_switched_lamps] = effects_.switched_lamps && draws_->switched();
   shade.specialization[shared::spec_lights] = effects_.punctual_lights && !scene_->scene().lights.empty();
   shade.specialization[shared::spec_beams] = std::ranges::any_of(
       scene_->scene().lights,

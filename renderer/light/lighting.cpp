@@ -90,7 +90,7 @@ dvec3 Lighting::direction(double azimuth, double elevation) {
 
 SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& lighting,
                              const CameraEffects& effects)
-    : scene_(&scene), effects_(effects), surfaces_(scene) {
+    : scene_(&scene), effects_(effects), surfaces_(scene, effects.switched_lamps) {
   check(lighting);
   effects_.sky = effects.sky && lighting.sky_illuminance_lux > 0.0;
   effects_.ambient_occlusion = effects.ambient_occlusion && effects_.sky && !scene.scene().bounds.empty();

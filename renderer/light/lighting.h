@@ -86,6 +86,7 @@ struct CameraEffects {
   bool normal_maps = true;
   bool alpha_mask = true;
   bool emissive = true;
+  bool switched_lamps = true;  ///< lamps that switch (scene/description/lamps.h) glow as their factors say
   bool punctual_lights = true;
   bool haze = false;          ///< fog and rain
   bool night_sky = false;     ///< stars, the moon's disc

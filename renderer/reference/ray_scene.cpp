@@ -8,6 +8,7 @@
 
 #include "core/srgb.h"
 #include "renderer/surface/pane_color.h"
+#include "scene/description/lamps.h"
 #include "shaders/shared/camera.h"
 #include "shaders/shared/pane.h"
 
@@ -90,6 +91,7 @@ RayScene::RayScene(const scene::Scene& scene, std::span<const Pose> body_poses, 
     panes_.emplace_back();
     if (const auto color = effects.panes ? pane_color(material.pbr) : std::nullopt)
       panes_.back() = dvec3(*color);
+    switched_.push_back(scene::lamp_role(material).has_value());
   }
   for (const scene::Primitive& primitive : scene.primitives)
     owner_.push_back(scene.owner_of(scene.instances[primitive.instance].body));
@@ -207,7 +209,9 @@ RaySurface RayScene::surface(const Ray& ray, const RayHit& hit) const {
   if (panes_[primitive.material]) s.passes = pane_passes(ray, hit);
   s.metallic = pbr.metallic;
   s.roughness = pbr.roughness;
-  if (effects_.emissive) s.glow = dvec3(pbr.emissive) * double(shared::emissive_nits);
+  const bool lamp = switched_[primitive.material];
+  const bool glows = lamp ? effects_.switched_lamps : effects_.emissive;
+  if (glows) s.glow = dvec3(pbr.emissive) * double(shared::emissive_nits);
   const dvec2 uv = texture_place(hit.triangle, hit.u, hit.v);
   const auto texture = [&](int32_t index) {
     return bilinear(scene_->textures[static_cast<size_t>(index)], uv);
@@ -219,7 +223,7 @@ RaySurface RayScene::surface(const Ray& ray, const RayHit& hit) const {
       s.roughness *= both.g;
       s.metallic *= both.b;
     }
-    if (effects_.emissive && pbr.emissive_texture >= 0) s.glow *= dvec3(texture(pbr.emissive_texture));
+    if (glows && !lamp && pbr.emissive_texture >= 0) s.glow *= dvec3(texture(pbr.emissive_texture));
   }
   dvec3 normal(0.0), tangent(0.0);
   for (int i = 0; i < 3; ++i) {

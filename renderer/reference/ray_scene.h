@@ -74,7 +74,8 @@ class RayScene {
   const scene::Scene* scene_;
   std::vector<Pose> poses_;
   CameraEffects effects_;
-  std::vector<bool> masked_;                 ///< by material: it has holes
+  std::vector<bool> masked_;    ///< by material: it has holes
+  std::vector<bool> switched_;  ///< by material: of a lamp that switches, which shines in full here
   std::vector<std::optional<dvec3>> panes_;  ///< by material: its pane_color, if panes count
   std::vector<uint32_t> owner_;              ///< by primitive: the owner of its body
   scene::SahTree tree_;

@@ -32,7 +32,7 @@ void put(Words& words, const vec2& value) {
 }
 
 void put_triangle(Words& words, const scene::Scene& scene, uint32_t triangle, uint32_t body_and_material,
-                  bool has_holes, uint32_t marks) {
+                  uint32_t holes_and_lamp, uint32_t bits) {
   const uint32_t* corner = &scene.indices[size_t{3} * triangle];
   const vec3 a = scene.positions[corner[0]];
   const vec2 uv = scene.uvs[corner[0]];
@@ -46,9 +46,9 @@ void put_triangle(Words& words, const scene::Scene& scene, uint32_t triangle, ui
   put(words, scene.uvs[corner[1]] - uv);
   put(words, scene.uvs[corner[2]] - uv);
   words.push_back(octahedral_word(scene.normals[corner[2]]));
-  words.push_back((scene.tangents[corner[0]].w < 0.0f ? shared::triangle_mirrored : 0u) | marks);
+  words.push_back((scene.tangents[corner[0]].w < 0.0f ? shared::triangle_mirrored : 0u) | bits);
   for (int i = 0; i < 3; ++i) words.push_back(octahedral_word(vec3(scene.tangents[corner[i]])));
-  words.push_back(has_holes ? 1u : 0u);
+  words.push_back(holes_and_lamp);
 }
 
 void put_material(Words& words, const scene::PbrMaterial& pbr, const scene::MaterialTextures& textures) {
@@ -84,7 +84,7 @@ void require_16_bits(const char* what, size_t count) {
 
 }  // namespace
 
-SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
+SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene, bool lamps) {
   const scene::Scene& scene = gpu_scene.scene();
   closed_ = closed_bodies(scene);
   closed_instances_ = render::closed_instances(scene);
@@ -99,19 +99,25 @@ SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
     const uint32_t body = scene.instances[primitive.instance].body;
     GREATX_CHECK(triangles.size() == size_t{4} * shared::triangle_record_quads * (primitive.first_index / 3),
                  "primitive {} does not follow the one before", i);
-    const bool has_holes = scene.has_holes(i);
-    const uint32_t marks = marks_of(scene, primitive);
+    const uint32_t lamp = gpu_scene.switched_lamps().of_primitive[i];
+    const auto first_lamp = static_cast<uint32_t>(shared::lamp_factors_of_element * scene.bodies.size());
+    const uint32_t holes_and_lamp =
+        (scene.has_holes(i) ? 1u : 0u) | (lamp != 0 ? (first_lamp + lamp - 1) << 1 : 0u);
+    const uint32_t bits = marks_of(scene, primitive) | (lamp != 0 ? shared::triangle_switched : 0u);
     for (uint32_t t = 0; t < primitive.index_count / 3; ++t) {
       primitives[primitive.first_index / 3 + t] = i;
       ids[primitive.first_index / 3 + t + 1] = {
           primitive.instance + 1, static_cast<uint32_t>(scene.instances[primitive.instance].semantic_class) |
                                       (primitive.material + 1) << 16};
       put_triangle(triangles, scene, primitive.first_index / 3 + t, body << 16 | primitive.material,
-                   has_holes, marks);
+                   holes_and_lamp, bits);
     }
   }
-  for (size_t i = 0; i < scene.materials.size(); ++i)
-    put_material(materials, scene.materials[i].pbr, gpu_scene.textures().of_material(i));
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    scene::PbrMaterial pbr = scene.materials[i].pbr;
+    if (!lamps && scene::lamp_role(scene.materials[i])) pbr.emissive = vec3(0.0f);
+    put_material(materials, pbr, gpu_scene.textures().of_material(i));
+  }
   // An empty scene must still have buffers to bind.
   if (triangles.empty()) triangles.resize(4 * shared::triangle_record_quads);
   if (materials.empty()) materials.resize(4 * shared::material_record_quads);

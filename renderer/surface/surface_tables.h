@@ -15,7 +15,8 @@ namespace greatx::render {
 class SurfaceTables {
  public:
   /// Throws UserError if the scene has 65536 bodies or materials, or more.
-  explicit SurfaceTables(const scene::GpuScene& scene);
+  /// Without `lamps`, lamps that switch (scene/description/lamps.h) are dark.
+  explicit SurfaceTables(const scene::GpuScene& scene, bool lamps = true);
 
   static std::vector<gpu::Binding> bindings();
   std::vector<gpu::Descriptor> descriptors() const;

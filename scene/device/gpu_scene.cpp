@@ -3,6 +3,8 @@
 #include "scene/device/gpu_scene.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -56,13 +58,26 @@ shared::GpuBody gpu_body(const Pose& pose) {
 
 bool same(const Pose& a, const Pose& b) { return a.position == b.position && a.orientation == b.orientation; }
 
+/// Adds the factors of switched lamps behind the bodies, twelve in each element.
+void append_lamps(std::vector<shared::GpuBody>& bodies, std::span<const float> factors) {
+  constexpr size_t each = shared::lamp_factors_of_element;
+  static_assert(sizeof(shared::GpuBody) == each * sizeof(float));
+  for (size_t first = 0; first < factors.size(); first += each) {
+    std::array<float, each> values{};
+    std::ranges::copy(factors.subspan(first, std::min(each, factors.size() - first)), values.begin());
+    bodies.push_back(std::bit_cast<shared::GpuBody>(values));
+  }
+}
+
 }  // namespace
 
 GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const GpuSceneOptions& options)
     : device_(&device),
       scene_(&scene),
       options_(options),
-      tracer_(options.tracer == gpu::Tracer::automatic ? device.tracer() : options.tracer) {
+      tracer_(options.tracer == gpu::Tracer::automatic ? device.tracer() : options.tracer),
+      switched_lamps_(scene::switched_lamps(scene)),
+      lamp_factors_(switched_lamps_.lamps.size(), 1.0f) {
   // Without textures the table still has a layout, which pipelines need.
   textures_ = GpuTextures(device, options.textures ? std::span(scene.textures) : std::span<const Texture>(),
                           scene.materials);
@@ -156,7 +171,14 @@ void GpuScene::record_poses(gpu::TickSlot& slot, std::span<const Pose> body_pose
                scene_->bodies.size());
   std::vector<shared::GpuBody> bodies;
   for (const Pose& pose : body_poses) bodies.push_back(gpu_body(bodies.empty() ? Pose{} : pose));
+  append_lamps(bodies, lamp_factors_);
   bodies_ = slot.upload.put(std::span<const shared::GpuBody>(bodies));
+}
+
+void GpuScene::set_lamps(std::vector<float> factors) {
+  GREATX_CHECK(factors.size() == lamp_factors_.size(), "{} factors for {} switched lamps", factors.size(),
+               lamp_factors_.size());
+  lamp_factors_ = std::move(factors);
 }
 
 void GpuScene::record_update(gpu::TickSlot& slot, std::span<const Pose> body_poses) {

@@ -12,6 +12,7 @@
 #include "gpu/cmd.h"
 #include "gpu/pipeline.h"
 #include "gpu/tick_ring.h"
+#include "scene/description/lamps.h"
 #include "scene/description/scene.h"
 #include "scene/device/body_tree.h"
 #include "scene/device/gpu_textures.h"
@@ -42,6 +43,12 @@ class GpuScene {
   /// Uploads only the poses, for raster passes that look at another instant than the tick's. The acceleration
   /// structure stays.
   void record_poses(gpu::TickSlot& slot, std::span<const Pose> body_poses);
+
+  /// Sets the factors of the emission of the switched lamps (scene/description/lamps.h), in their order, for
+  /// the next updates. They are 1 before. The poses' buffer carries them to the shaders, which find them
+  /// behind the last body (shaders/lib/scene.glsl).
+  void set_lamps(std::vector<float> factors);
+  const SwitchedLamps& switched_lamps() const { return switched_lamps_; }
 
   const Scene& scene() const { return *scene_; }
   const GpuSceneOptions& options() const { return options_; }
@@ -87,7 +94,9 @@ class GpuScene {
   bool trees_by_address_ = false;
   BodyTree body_tree_;
   gpu::Slice body_words_;  ///< of the tick that is being recorded
-  gpu::Slice bodies_;      ///< slice of the tick that is being recorded
+  SwitchedLamps switched_lamps_;
+  std::vector<float> lamp_factors_;
+  gpu::Slice bodies_;  ///< slice of the tick that is being recorded
 };
 
 }  // namespace greatx::scene

@@ -71,6 +71,16 @@ Json json_of(const StreetCrossing& crossing) {
   return json;
 }
 
+Json json_of(const StreetSignal& signal) {
+  Json json{{"node", signal.node}, {"junction", signal.junction}, {"group", signal.group}};
+  if (signal.walk) json["walk"] = true;
+  return json;
+}
+
+bool has_green(const StreetPhase& phase, uint32_t group) {
+  return std::ranges::find(phase.groups, group) != phase.groups.end();
+}
+
 /// Checks that an object has no other members than these.
 void check_members(const io::JsonValue& value, std::initializer_list<std::string_view> names) {
   if (!value.is_object()) value.fail("an object");
@@ -157,6 +167,16 @@ StreetCrossing read_crossing(const io::JsonValue& value, size_t walks, size_t ju
   return crossing;
 }
 
+StreetSignal read_signal(const io::JsonValue& value, size_t junctions) {
+  check_members(value, {"node", "junction", "group", "walk"});
+  StreetSignal signal;
+  signal.node = value.at("node").text();
+  signal.junction = index_of(value.at("junction"), junctions);
+  signal.group = index_of(value.at("group"), most_groups);
+  signal.walk = value.has("walk") && value.at("walk").boolean();
+  return signal;
+}
+
 /// Checks that lanes follow each other, and that turns lead from lanes to lanes.
 void check_lanes(const io::JsonValue& lanes, const StreetNetwork& network) {
   const std::vector<io::JsonValue> values = lanes.list(most_items);
@@ -174,12 +194,12 @@ void check_lanes(const io::JsonValue& lanes, const StreetNetwork& network) {
 }
 
 StreetNetwork read(const io::JsonValue& value) {
-  check_members(value, {"lanes", "junctions", "walks", "crossings"});
+  check_members(value, {"lanes", "junctions", "walks", "crossings", "signals"});
   const auto items = [&](const char* name) {
     return value.has(name) ? value.at(name).list(most_items) : std::vector<io::JsonValue>();
   };
   const auto lanes = items("lanes"), junctions = items("junctions"), walks = items("walks"),
-             crossings = items("crossings");
+             crossings = items("crossings"), signals = items("signals");
   StreetNetwork network;
   for (const io::JsonValue& item : lanes)
     network.lanes.push_back(read_lane(item, lanes.size(), junctions.size()));
@@ -190,11 +210,41 @@ StreetNetwork read(const io::JsonValue& value) {
   }
   for (const io::JsonValue& item : crossings)
     network.crossings.push_back(read_crossing(item, walks.size(), junctions.size()));
+  for (const io::JsonValue& item : signals) network.signals.push_back(read_signal(item, junctions.size()));
   if (!lanes.empty()) check_lanes(value.at("lanes"), network);
   return network;
 }
 
 }  // namespace
+
+PhaseNow phase_of(const StreetJunction& junction, double time_s) {
+  const std::vector<StreetPhase>& phases = junction.phases;
+  double cycle = 0.0;
+  for (const StreetPhase& phase : phases) cycle += phase.green_s + phase.amber_s + phase.clear_s;
+  double at = std::fmod(time_s, cycle);
+  if (at < 0.0) at += cycle;
+  for (size_t i = 0;; ++i) {
+    const double length = phases[i].green_s + phases[i].amber_s + phases[i].clear_s;
+    if (at < length || i + 1 == phases.size()) return {i, at};
+    at -= length;
+  }
+}
+
+Light light_of(const StreetJunction& junction, uint32_t group, double time_s) {
+  if (junction.phases.empty()) return Light::green;
+  const PhaseNow now = phase_of(junction, time_s);
+  const StreetPhase& phase = junction.phases[now.index];
+  if (!has_green(phase, group)) return Light::red;
+  if (now.since_s < phase.green_s) return Light::green;
+  return now.since_s < phase.green_s + phase.amber_s ? Light::amber : Light::red;
+}
+
+Light walk_light_of(const StreetJunction& junction, uint32_t group, double time_s) {
+  if (junction.phases.empty()) return Light::green;
+  const PhaseNow now = phase_of(junction, time_s);
+  const StreetPhase& phase = junction.phases[now.index];
+  return has_green(phase, group) || now.since_s > phase.green_s ? Light::red : Light::green;
+}
 
 std::string street_network_json(const StreetNetwork& network) {
   Json json;
@@ -207,6 +257,7 @@ std::string street_network_json(const StreetNetwork& network) {
   json["walks"] = Json::array();
   for (const StreetWalk& walk : network.walks) json["walks"].push_back({{"line", json_of(walk.line)}});
   list("crossings", network.crossings);
+  if (!network.signals.empty()) list("signals", network.signals);
   return json.dump();
 }
 

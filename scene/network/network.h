@@ -11,7 +11,9 @@
 //     "junctions": [{"phases": [{"groups": [0], "green_s": 18, "amber_s": 3, "clear_s": 2}, ...]}, ...],
 //     "walks": [{"line": [[x, y, z], ...]}, ...],
 //     "crossings": [{"from": [x, y, z], "to": [x, y, z], "width_m": 3, "walks": [0, 3], "junction": 0,
-//                    "group": 0}, ...]}}}]
+//                    "group": 0}, ...],
+//     "signals": [{"node": "signal_000", "junction": 0, "group": 0},
+//                 {"node": "walk_signal_000", "junction": 0, "group": 0, "walk": true}, ...]}}}]
 //
 //   writer     street_network_json() -> io::GlbWriter::finish()
 //   loader     load_model() -> street_network_of_document() -> Model::streets -> sim/traffic
@@ -62,11 +64,35 @@ struct StreetCrossing {
   uint32_t group = 0;                ///< people go while this group, and only it, has red
 };
 
+/// A head of signals: a glTF node of the scene with switched lamps (scene/description/lamps.h).
+struct StreetSignal {
+  std::string node;
+  uint32_t junction = 0;
+  /// The group whose turns it speaks to. A signal for people (`walk`) is green while people may step onto the
+  /// crossings of this group.
+  uint32_t group = 0;
+  bool walk = false;
+};
+
+/// What one sees of a signal.
+enum class Light : uint8_t { green, amber, red };
+/// Returns what a group's turns, or the people on its crossings, see at a time. A junction without phases is
+/// green. Time 0 is the beginning of the first phase.
+Light light_of(const StreetJunction& junction, uint32_t group, double time_s);
+Light walk_light_of(const StreetJunction& junction, uint32_t group, double time_s);
+/// The phase at a time, and how long it has lasted. The junction has phases.
+struct PhaseNow {
+  size_t index = 0;
+  double since_s = 0.0;
+};
+PhaseNow phase_of(const StreetJunction& junction, double time_s);
+
 struct StreetNetwork {
   std::vector<StreetLane> lanes;
   std::vector<StreetJunction> junctions;
   std::vector<StreetWalk> walks;
   std::vector<StreetCrossing> crossings;
+  std::vector<StreetSignal> signals;
 };
 
 /// Returns one JSON object. Coordinates are rounded to 0.1 mm.

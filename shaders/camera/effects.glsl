@@ -16,6 +16,7 @@ layout(constant_id = spec_shadow_cascades) const uint shadow_cascades = 0u;
 layout(constant_id = spec_textures) const bool textures_on = true;
 layout(constant_id = spec_normal_maps) const bool normal_maps_on = true;
 layout(constant_id = spec_emissive) const bool emissive_on = true;
+layout(constant_id = spec_switched_lamps) const bool switched_lamps_on = false;
 layout(constant_id = spec_lights) const bool lights_on = true;
 layout(constant_id = spec_luminance) const bool luminance_on = true;
 layout(constant_id = spec_specular) const bool specular_on = true;

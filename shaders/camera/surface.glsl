@@ -114,6 +114,12 @@ Surface surface_at(Seen seen, vec3 ray) {
     s.glow = uintBitsToFloat(m1.xyz) * emissive_nits;
     of_glow = m1.w;
   }
+  if (switched_lamps_on && (r4.w & triangle_switched) != 0u) {
+    uvec4 m1 = material_record(seen.material, 1u);
+    float factor = lamp_factor(triangle_record(seen.triangle, 5u).w >> 1);
+    s.glow = uintBitsToFloat(m1.xyz) * (emissive_nits * factor);
+    of_glow = 0u;  // they have no texture, so that nobody pays for one by day
+  }
   vec3 tangent = vec3(0.0), in_map = vec3(0.0, 0.0, 1.0);
   if (textures_on || normal_maps_on) {
     uvec4 r3 = triangle_record(seen.triangle, 3u);

@@ -81,7 +81,7 @@ Center through_lens(vec2 pixel, vec3 ray) {
       // share of the picture.
       bool by_sample = outline.thin;
       bool asks = covers != (id == own.id);
-      if (asks) by_sample = by_sample || triangle_record(id - 1u, 5u).w != 0u;
+      if (asks) by_sample = by_sample || (triangle_record(id - 1u, 5u).w & 1u) != 0u;
       if (covers && (id == own.id || !by_sample)) {
         float depth = outline_depth(outline, f);
         if (depth < met.depth) met = Center(depth, id);

@@ -38,6 +38,13 @@ vec3 body_point(uint body, vec3 p) {
 vec3 body_direction(uint body, vec3 d) {
   return vec3(dot(bodies[body].row0.xyz, d), dot(bodies[body].row1.xyz, d), dot(bodies[body].row2.xyz, d));
 }
+/// Returns the factor of a switched lamp's emission, by its number in the whole buffer of the bodies.
+float lamp_factor(uint number) {
+  GpuBody element = bodies[number / lamp_factors_of_element];
+  uint place = number % lamp_factors_of_element;
+  vec4 row = place < 4u ? element.row0 : place < 8u ? element.row1 : element.row2;
+  return row[place & 3u];
+}
 /// Takes a ray into the frame of a moving body.
 void enter_body(uint body, inout vec3 origin, inout vec3 direction) {
   GpuBody pose = bodies[body];

@@ -100,7 +100,8 @@ const uint spec_glass = 39u;
 const uint spec_shadow_cascades = 40u;  // their number
 const uint spec_beams = 41u;            // some lamp has a passing beam
 const uint spec_panes = 42u;            // panes let light through (renderer/camera/panes.h)
-const uint shade_spec_count = 43u;
+const uint spec_switched_lamps = 43u;   // lamps switch (scene/description/lamps.h)
+const uint shade_spec_count = 44u;
 // These constants belong to the shadow maps.
 const uint shadow_spec_base_color_arrays = 0u;
 const uint shadow_spec_masked = 1u;
@@ -152,7 +153,8 @@ const float lamp_most_roughness = 0.6f;
 ///   2  edge to the third corner; normal at the second
 ///   3  texture coordinates at the first corner, then their change to the second
 ///   4  ... and to the third; normal at the third; bits (shared/marks.h), 1 where the normal map is mirrored
-///   5  tangents at the three corners; 1 where its material has an alpha mask
+///   5  tangents at the three corners; 1 where its material has an alpha mask, and above this bit the number
+///      of its switched lamp's factor (lib/scene.glsl)
 /// Normals and tangents are octahedral in two 16-bit words: 5e-5 rad.
 const uint triangle_record_quads = 6u;
 /// A material's record has these quadruples, low half first:

@@ -12,6 +12,7 @@ GREATX_SHARED_BEGIN
 const uint triangle_mirrored = 1u;
 const uint triangle_of_road = 2u;  ///< it may have markings
 const uint triangle_of_mark = 4u;
+const uint triangle_switched = 8u;  ///< it belongs to a switched lamp (quadruple 5)
 
 /// A pixel takes the share of markings from the map instead of its triangle where it is longer than the
 /// second of these on the ground, m; between the two it blends.

@@ -69,6 +69,10 @@ struct GpuBody {
   vec4 row2;
 };
 
+/// The buffer of the bodies holds the factors of the switched lamps (scene/description/lamps.h) behind the
+/// last body, so many in each element. Factor k is number (bodies times this + k) of the whole buffer.
+const uint lamp_factors_of_element = 12u;
+
 /// Holds the addresses of the scene's buffers. One such block is a buffer of its own (binding `scene_binding`
 /// of set 0).
 struct GpuSceneAddresses {

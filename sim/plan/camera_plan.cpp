@@ -15,6 +15,7 @@
 #include "renderer/light/sky.h"
 #include "renderer/surface/mark_map.h"
 #include "renderer/surface/pane_color.h"
+#include "scene/description/lamps.h"
 #include "shaders/shared/camera.h"
 #include "shaders/shared/surroundings.h"
 #include "sim/plan/camera_desc.h"
@@ -59,6 +60,10 @@ Offers offers_of(const scene::Scene& scene) {
     offers.smooth |=
         pbr.metallic_roughness_texture >= 0 || pbr.roughness < shared::surroundings_most_roughness;
     offers.alpha_mask |= pbr.alpha_mode == scene::AlphaMode::mask;
+    if (scene::lamp_role(material)) {
+      offers.switched_lamps |= pbr.emissive != vec3(0.0f);
+      continue;  // they shine by day, too
+    }
     offers.emissive |= pbr.emissive != vec3(0.0f);
     offers.brightest_cd_m2 =
         std::max(offers.brightest_cd_m2, shared::emissive_nits * render::luminance(dvec3(pbr.emissive)));
@@ -254,6 +259,8 @@ void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shad
                  offers.emissive ? fmt::format("up to {} cd/m^2 against {} of a white surface",
                                                digits(offers.brightest_cd_m2), digits(white))
                                  : "");
+  shading.decide(plan.switched_lamps, offers.switched_lamps, "signals or lamps of vehicles switch",
+                 "no lamp switches");
   // Lamps are on if they add more than 1 % to the illuminance of the ground by sun and sky.
   constexpr double tolerance = 0.01;
   const bool lamps = offers.lights > 0 && offers.lamp_illuminance_lux > tolerance * ground_lux;

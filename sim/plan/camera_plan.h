@@ -17,7 +17,7 @@ namespace greatx::sim {
 struct Offers {
   bool triangles = false, static_triangles = false, moving_triangles = false;
   bool textures = false, normal_maps = false, reflectance_textures = false, alpha_mask = false,
-       emissive = false;
+       emissive = false, switched_lamps = false;
   bool panes = false;            ///< a camera may see through a material
   bool markings = false;         ///< static lane markings
   bool thin_lines = false;       ///< static meshes that may hold poles, wires and rails

@@ -43,6 +43,7 @@
   X(normal_maps, true, camera, "relief of surfaces from textures") \
   X(alpha_mask, true, camera, "holes in materials") \
   X(emissive, true, camera, "materials that glow") \
+  X(switched_lamps, true, camera, "signals, stop lamps and direction indicators that switch") \
   X(punctual_lights, true, camera, "lamps") \
   X(haze, true, camera, "fog and rain before the camera") \
   X(night_sky, true, camera, "stars and the disc of the moon") \

@@ -184,9 +184,10 @@ void Simulator::record(InFlight& in_flight, gpu::TickSlot& slot, const Moment& m
   };
   {
     const HostScope scope(*this, &in_flight.times, "record");
-    gpu_scene_.record_update(slot, moment.bodies);
     const bool pictures = std::ranges::any_of(
         in_flight.due, [&](const Due& d) { return sensors_[d.sensor].sensor->draws_pictures(); });
+    if (pictures) set_lamps(gpu_scene_, moment.context, moment.context.time_s);
+    gpu_scene_.record_update(slot, moment.bodies);
     if (pictures) passes_.lighting->record(slot, moment.bodies);
     note_passes(TimeRow::shared);
   }

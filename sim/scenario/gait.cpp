@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
+
 namespace greatx::sim {
 namespace {
 
@@ -114,6 +116,33 @@ Jet hips(const Jet& cycle, const Jet& size, double leg_m, double lowest_m) {
   return rest_reach * leg_m * (jet(1.0) - size) + size * (jet(lowest_m) + full_rise(cycle, leg_m));
 }
 
+/// A leg of two links, of lengths t and s, from the hip to a point that is `forward` and `down` from it.
+struct LegJet {
+  Jet squared;  ///< the distance between its ends
+  double t, s;
+  LegJet(const Jet& forward, const Jet& down, double thigh_m, double shank_m)
+      : squared(forward * forward + down * down), t(thigh_m), s(shank_m) {}
+  Jet bend() const { return arc_cosine((0.5 / (t * s)) * (squared - jet(t * t + s * s))); }
+  Jet thigh(const Jet& forward, const Jet& down) const {
+    const Jet distance = root(squared);
+    const Jet line = arc_tangent(forward * inverse(down));
+    const Jet knee = arc_cosine((0.5 / t) * ((squared + jet(t * t - s * s)) * inverse(distance)));
+    return -(line + knee);
+  }
+};
+
+Jet sine(const Jet& a) { return chain(a, std::sin(a.v), std::cos(a.v), -std::sin(a.v)); }
+
+/// The turn of a cyclist's limb from hanging straight down, at an angle of its own crank.
+Jet limb_of_cyclist(const Cyclist& who, Limb limb, const Jet& crank) {
+  const Jet forward = jet(who.forward_m) + who.crank_m * cosine(crank),
+            down = jet(who.down_m) + who.crank_m * sine(crank);
+  const double below = who.shank_m + who.pedal_m;
+  const LegJet leg(forward, down, who.thigh_m, std::hypot(below, who.ball_m));
+  if (limb == Limb::thigh) return leg.thigh(forward, down);
+  return leg.bend() + jet(std::atan2(who.ball_m, below));
+}
+
 }  // namespace
 
 Gait::Gait(const Walker& walker, double start)
@@ -151,16 +180,8 @@ Turned Gait::joint(Limb limb, bool left, const Travel& travel) const {
   if (limb == Limb::forearm) return turned(jet(-0.12) - phase.size * (jet(0.32) - 0.16 * swing));
   const Jet forward = phase.size * full_forward(cycle, stride_m_);
   const Jet down = hips(phase.cycle, phase.size, leg_m_, lowest_m_) - phase.size * full_height(cycle, leg_m_);
-  const Jet squared = forward * forward + down * down;
-  const double t = thigh_m_, s = shank_m_;
-  if (limb == Limb::shank) {
-    const Jet bend = (0.5 / (t * s)) * (squared - jet(t * t + s * s));
-    return turned(arc_cosine(bend));
-  }
-  const Jet distance = root(squared);
-  const Jet line = arc_tangent(forward * inverse(down));
-  const Jet knee = arc_cosine((0.5 / t) * ((squared + jet(t * t - s * s)) * inverse(distance)));
-  return turned(-(line + knee));
+  const LegJet leg(forward, down, thigh_m_, shank_m_);
+  return turned(limb == Limb::shank ? leg.bend() : leg.thigh(forward, down));
 }
 
 Gait::Range Gait::range(const Walker& walker, Limb limb) {
@@ -171,6 +192,39 @@ Gait::Range Gait::range(const Walker& walker, Limb limb) {
     for (int k = 0; k <= sizes; ++k) {
       const Travel travel{gait.stride_m() * i / phases, full_speed_mps * k / sizes, 0.0};
       const double angle = gait.joint(limb, true, travel).value;
+      range.least = std::min(range.least, angle);
+      range.most = std::max(range.most, angle);
+    }
+  constexpr double between_samples = 0.03;
+  return {range.least - between_samples, range.most + between_samples};
+}
+
+Turned Pedalling::crank(const Travel& pedalled) const {
+  const double turns = start_ + pedalled.distance_m / cyclist_.development_m,
+               rate = 2.0 * pi / cyclist_.development_m;
+  return {std::remainder(2.0 * pi * (turns - std::floor(turns)) - cyclist_.rest, 2.0 * pi),
+          rate * pedalled.speed_mps, rate * pedalled.acceleration_mps2};
+}
+
+Turned Pedalling::joint(Limb limb, bool left, const Travel& pedalled) const {
+  const Turned turn = crank(pedalled);
+  const double opposite = left ? 0.0 : pi, rest = cyclist_.rest + opposite;
+  const Jet now{turn.value + rest, turn.rate, turn.acceleration};
+  return turned(limb_of_cyclist(cyclist_, limb, now) - limb_of_cyclist(cyclist_, limb, jet(rest)));
+}
+
+Gait::Range Pedalling::range(const Cyclist& cyclist, Limb limb) {
+  const double farthest = std::hypot(cyclist.forward_m, cyclist.down_m) + cyclist.crank_m,
+               leg = cyclist.thigh_m + std::hypot(cyclist.shank_m + cyclist.pedal_m, cyclist.ball_m);
+  if (farthest >= leg)
+    throw_user_error("a cyclist's legs: expected more than the {:.3f} m to the pedals, found {:.3f} m",
+                     farthest, leg);
+  const Pedalling pedalling(cyclist, 0.0);
+  Gait::Range range{1e9, -1e9};
+  constexpr int phases = 256;
+  for (int i = 0; i < phases; ++i)
+    for (const bool left : {true, false}) {
+      const double angle = pedalling.joint(limb, left, {cyclist.development_m * i / phases, 0.0, 0.0}).value;
       range.least = std::min(range.least, angle);
       range.most = std::max(range.most, angle);
     }

@@ -3,6 +3,7 @@
 //
 // The gait of a walking person: angles of the limbs' joints and the height of the hips, from the distance
 // that the person has walked.
+// It also has the cranks and legs of one who rides a bicycle (Pedalling).
 //
 // Stride length follows Boulic, Magnenat-Thalmann and Thalmann (A global human walking model with real-time
 // kinematic personification, The Visual Computer 6, 1990): a cycle of two steps is 1.346 sqrt(V / H) H long,
@@ -64,6 +65,36 @@ class Gait {
 
  private:
   double leg_m_, thigh_m_, shank_m_, stride_m_, start_, lowest_m_ = 0.0;
+};
+
+/// Describes a cyclist and what holds his feet. The hips stand still on the bicycle.
+struct Cyclist {
+  double thigh_m = 0.42, shank_m = 0.49;   ///< hip to knee, knee to sole
+  double forward_m = 0.18, down_m = 0.70;  ///< of the cranks' axle from the hips
+  double crank_m = 0.17;                   ///< from this axle to those of the pedals
+  double ball_m = 0.07;                    ///< of the foot, ahead of the shank, over the pedal's axle
+  double pedal_m = 0.012;                  ///< from that axle to the sole
+  double rest = 0.0;                       ///< rad, of the left crank, in which the model's parts stand
+  double development_m = 5.3;              ///< the way of one turn of the cranks
+  friend bool operator==(const Cyclist&, const Cyclist&) = default;
+};
+
+/// The cranks and legs of one who pedals. The left crank points forward at angle 0, down at a quarter of a
+/// turn; the right one points against it. A foot is one with its shank, and the ball of the foot stays over
+/// the axle of its pedal.
+class Pedalling {
+ public:
+  /// `start` is the share of a turn at distance 0.
+  Pedalling(const Cyclist& cyclist, double start) : cyclist_(cyclist), start_(start) {}
+  /// Return the turns about +y from the angles at rest. `pedalled` is the way that was pedalled.
+  Turned crank(const Travel& pedalled) const;
+  Turned joint(Limb limb, bool left, const Travel& pedalled) const;
+  /// Returns bounds of joint() over a whole turn, rad. Throws UserError if the legs do not reach the pedals.
+  static Gait::Range range(const Cyclist& cyclist, Limb limb);
+
+ private:
+  Cyclist cyclist_;
+  double start_;
 };
 
 }  // namespace greatx::sim

@@ -175,7 +175,16 @@ struct LimbConfig {
   friend bool operator==(const LimbConfig&, const LimbConfig&) = default;
 };
 
-using PartMotion = std::variant<TurnRate, RollConfig, LimbConfig>;
+/// The cranks of a bicycle, or a limb of the one who pedals. The axis points to the left. Only traffic has
+/// them.
+struct PedalConfig {
+  std::optional<Limb> limb;  ///< thigh or shank; none: the cranks
+  bool left = true;
+  Cyclist cyclist;
+  friend bool operator==(const PedalConfig&, const PedalConfig&) = default;
+};
+
+using PartMotion = std::variant<TurnRate, RollConfig, LimbConfig, PedalConfig>;
 
 /// Describes parts of a node's model that turn on it: rotors, wheels, limbs.
 struct PartConfig {

@@ -9,7 +9,7 @@
 namespace greatx::sim {
 namespace {
 
-class TrafficCourse : public Course {
+class TrafficCourse : public Course, public TrafficState {
  public:
   TrafficCourse(std::shared_ptr<Simulation> simulation, uint32_t member)
       : simulation_(std::move(simulation)), member_(member), body_(simulation_->body(member)) {
@@ -67,6 +67,16 @@ class TrafficCourse : public Course {
     return {whole(state) - start_m_, state.speed_mps * stretch,
             state.acceleration_mps2 * stretch +
                 state.speed_mps * state.speed_mps * glm::dot(place.first, place.second) / stretch};
+  }
+
+  int indicated_side(double time_s) const override {
+    if (body_.kind != TrafficMember::Kind::vehicle) return 0;
+    return sim::indicated_side(simulation_->at(member_, time_s));
+  }
+
+  Travel pedalled(double time_s) const override {
+    const WayState state = simulation_->at(member_, time_s);
+    return {state.pedalled_m - start_.pedalled_m, state.pedalled_mps, state.pedalled_mps2};
   }
 
  private:

@@ -46,6 +46,13 @@ WayState Simulation::at(uint32_t member, double time_s) {
                          [](double way_m, const Piece& piece) { return way_m < piece.begin_m; });
     result.piece = *(after - 1);
     if (time_s < begin_s_) result.acceleration_mps2 = 0.0;
+    if (!agent.efforts.empty()) {
+      const EffortWay part = effort_way({agent.efforts[step], agent.efforts[step + 1]}, speed,
+                                        result.acceleration_mps2, since_s, step_s);
+      result.pedalled_m = agent.pedalled_m[step] + part.way_m;
+      result.pedalled_mps = part.speed_mps;
+      result.pedalled_mps2 = part.acceleration_mps2;
+    }
     return result;
   };
   {
@@ -69,6 +76,36 @@ void Simulation::advance_to(size_t steps) {
 void Simulation::append(Agent& agent) {
   agent.ways_m.push_back(agent.way_m);
   agent.speeds_mps.push_back(agent.speed_mps);
+  if (agent.body.kind != TrafficMember::Kind::cyclist) return;
+  if (agent.efforts.empty()) {
+    agent.efforts.push_back(1.0);
+    agent.pedalled_m.push_back(0.0);
+    return;
+  }
+  constexpr double most_change = step_s / effort_s;
+  const double before = agent.efforts.back(), wanted = agent.acceleration_mps2 < -coasting_mps2 ? 0.0 : 1.0;
+  const double effort = std::clamp(wanted, before - most_change, before + most_change);
+  const double speed = agent.speeds_mps[agent.speeds_mps.size() - 2];
+  const double acceleration = (agent.speed_mps - speed) / step_s;
+  agent.pedalled_m.push_back(agent.pedalled_m.back() +
+                             effort_way({before, effort}, speed, acceleration, step_s, step_s).way_m);
+  agent.efforts.push_back(effort);
+}
+
+EffortWay effort_way(const Effort& effort, double speed_mps, double acceleration_mps2, double since_s,
+                     double step_s) {
+  const double t = since_s, v = speed_mps, a = acceleration_mps2, w = effort.begin,
+               rate = (effort.end - effort.begin) / step_s;
+  return {t * (w * v + t * (0.5 * (w * a + rate * v) + t * rate * a / 3.0)), (w + rate * t) * (v + a * t),
+          (w + rate * t) * a + rate * (v + a * t)};
+}
+
+int indicated_side(const WayState& state) {
+  constexpr double before_turn_m = 30.0;
+  const Piece& piece = state.piece;
+  if (piece.change_m != 0.0 && state.way_m < piece.begin_m + piece.change_length_m)
+    return piece.change_m > 0.0 ? -1 : 1;  // it comes from the left, or from the right
+  return state.way_m > piece.turn_m - before_turn_m ? piece.turn_side : 0;
 }
 
 /// Starts a piece of the way at the agent's present place, or at the end of what it is on.
@@ -76,7 +113,12 @@ void Simulation::start_piece(Agent& agent, const Curve& curve, double at_m, doub
                              double change_length_m) {
   // Cyclists ride on the right of the lane, within the width that a car takes.
   const double left_m = agent.body.kind == TrafficMember::Kind::cyclist ? -0.65 : 0.0;
-  Piece piece{&curve, agent.begin_m + at_m, at_m, left_m, change_m, change_length_m, 0.0};
+  Piece piece{&curve, agent.begin_m + at_m, at_m, left_m, change_m, change_length_m};
+  if (agent.ground == Ground::way) {
+    const DriveWay &way = streets_->ways()[agent.on], &next = streets_->ways()[agent.next];
+    piece.turn_side = way.turn() ? way.side : next.side;
+    piece.turn_m = way.turn() ? agent.begin_m : agent.begin_m + way.curve.length();
+  }
   if (!agent.pieces.empty()) {
     const Piece& before = agent.pieces.back();
     piece.travelled_m = before.travelled_m + length_between(before, before.begin_m, piece.begin_m);

@@ -52,13 +52,35 @@ struct Piece {
   double change_m = 0.0;  ///< further offset at the begin, which falls to 0 over change_length_m
   double change_length_m = 0.0;
   double travelled_m = 0.0;  ///< the length of everything before it
+  int8_t turn_side = 0;      ///< of the turn that it is, or that follows it: DriveWay::side
+  double turn_m = 0.0;       ///< of the whole way, where that turn begins
 };
 
 /// Where a member is within a step.
 struct WayState {
   Piece piece;
   double way_m = 0.0, speed_mps = 0.0, acceleration_mps2 = 0.0;  ///< along the ways' middle lines
+  /// What a cyclist has come while pedalling, and its derivatives; of others 0.
+  double pedalled_m = 0.0, pedalled_mps = 0.0, pedalled_mps2 = 0.0;
 };
+
+/// Returns the side on which a driver indicates: 1 left, -1 right, 0 none. It is that of a turn from 30 m
+/// before it to its end, and that of a change of lane while it lasts.
+int indicated_side(const WayState& state);
+
+/// A share between 0 and 1 that changes evenly over a step, times the speed, which changes evenly, too.
+struct Effort {
+  double begin = 1.0, end = 1.0;
+};
+/// Returns the way during the first `since_s` of a step of `step_s`, and its derivatives: the integral of
+/// share times speed, v + a t.
+struct EffortWay {
+  double way_m = 0.0, speed_mps = 0.0, acceleration_mps2 = 0.0;
+};
+EffortWay effort_way(const Effort& effort, double speed_mps, double acceleration_mps2, double since_s,
+                     double step_s);
+/// A cyclist brakes, and so coasts, from this deceleration on. The feet start and stop within effort_s.
+inline constexpr double coasting_mps2 = 0.3, effort_s = 0.4;
 
 class Simulation {
  public:
@@ -116,6 +138,7 @@ class Simulation {
     bool merging = false;
     // history
     std::vector<double> ways_m, speeds_mps;
+    std::vector<double> pedalled_m, efforts;  ///< of cyclists
     std::vector<Piece> pieces;
     double place() const { return way_m - begin_m; }
     VehicleSize size() const { return size_of(body.extent); }

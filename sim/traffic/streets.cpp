@@ -172,6 +172,7 @@ void Streets::make_ways(const scene::StreetNetwork& network) {
                  .exit = {}};
     const dvec2 first = way.curve.at(0.0).tangent, last = way.curve.at(way.curve.length()).tangent;
     way.straight_on = glm::dot(first, last) > std::numbers::sqrt2 / 2.0;
+    if (lane.turn() && !way.straight_on) way.side = cross_product(first, last) > 0.0 ? 1 : -1;
     ways_.push_back(std::move(way));
   }
 }
@@ -303,27 +304,8 @@ std::optional<double> Streets::excludes(uint32_t turn, VehicleSize size, uint32_
 
 // --------------------------------------------------------------------------------------------------- signals
 
-Streets::Phase Streets::phase_of(uint32_t junction, double time_s) const {
-  const std::vector<scene::StreetPhase>& phases = junctions_[junction].phases;
-  double cycle = 0.0;
-  for (const scene::StreetPhase& phase : phases) cycle += phase.green_s + phase.amber_s + phase.clear_s;
-  double at = std::fmod(time_s, cycle);
-  if (at < 0.0) at += cycle;
-  for (size_t i = 0;; ++i) {
-    const double length = phases[i].green_s + phases[i].amber_s + phases[i].clear_s;
-    if (at < length || i + 1 == phases.size()) return {i, at};
-    at -= length;
-  }
-}
-
 Light Streets::light(const DriveWay& turn, double time_s) const {
-  const std::vector<scene::StreetPhase>& phases = junctions_[*turn.junction].phases;
-  if (phases.empty()) return Light::green;
-  const Phase now = phase_of(*turn.junction, time_s);
-  const scene::StreetPhase& phase = phases[now.index];
-  if (std::ranges::find(phase.groups, turn.group) == phase.groups.end()) return Light::red;
-  if (now.since_s < phase.green_s) return Light::green;
-  return now.since_s < phase.green_s + phase.amber_s ? Light::amber : Light::red;
+  return scene::light_of(junctions_[*turn.junction], turn.group, time_s);
 }
 
 bool Streets::has_signals(uint32_t crossing) const {
@@ -333,11 +315,10 @@ bool Streets::has_signals(uint32_t crossing) const {
 
 double Streets::walk_time(uint32_t crossing, double time_s) const {
   if (!has_signals(crossing)) return 1e9;
-  const uint32_t junction = *crossings_[crossing].junction;
-  const Phase now = phase_of(junction, time_s);
-  const scene::StreetPhase& phase = junctions_[junction].phases[now.index];
-  const bool vehicles_go = std::ranges::find(phase.groups, crossings_[crossing].group) != phase.groups.end();
-  if (vehicles_go || now.since_s > phase.green_s) return 0.0;
+  const scene::StreetJunction& signals = junctions_[*crossings_[crossing].junction];
+  if (scene::walk_light_of(signals, crossings_[crossing].group, time_s) != Light::green) return 0.0;
+  const scene::PhaseNow now = scene::phase_of(signals, time_s);
+  const scene::StreetPhase& phase = signals.phases[now.index];
   return phase.green_s + phase.amber_s + phase.clear_s - now.since_s;
 }
 

@@ -82,6 +82,7 @@ struct DriveWay {
   bool endless = false;             ///< whether one can go on from it for ever
   bool endless_longer = false;      ///< whether a longer vehicle can
   bool straight_on = true;          ///< of a turn: it changes the direction by less than 45 degrees
+  int8_t side = 0;                  ///< of another turn: 1 to the left, -1 to the right
   const std::vector<uint32_t>& nexts(VehicleSize size) const {
     return size == VehicleSize::longer ? next_longer : next;
   }
@@ -111,8 +112,7 @@ inline constexpr double most_lateral_mps2 = 3.0;
 /// Of people from their walking line, and from the middle of a zebra.
 inline constexpr double walk_side_m = 0.33, zebra_side_m = 0.75;
 
-/// What one sees of a signal.
-enum class Light : uint8_t { green, amber, red };
+using scene::Light;
 
 class Streets {
  public:
@@ -140,11 +140,6 @@ class Streets {
   bool has_signals(uint32_t crossing) const;
 
  private:
-  struct Phase {
-    size_t index = 0;
-    double since_s = 0.0;
-  };
-  Phase phase_of(uint32_t junction, double time_s) const;
   void make_ways(const scene::StreetNetwork& network);
   void find_crossings(const scene::StreetNetwork& network);
   void make_gates(const scene::StreetNetwork& network);

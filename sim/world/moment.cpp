@@ -9,7 +9,9 @@
 #include "core/hash.h"
 #include "core/random.h"
 #include "core/units.h"
+#include "sim/traffic/course.h"
 #include "sim/world/free_space.h"
+#include "sim/world/lamps.h"
 #include "sim/world/traffic.h"
 
 namespace greatx::sim {
@@ -29,7 +31,8 @@ Courses make_courses(const Scenario& scenario, const World& world, uint32_t sequ
   for (const Part& part : world.parts) {
     const uint32_t node = world.node_of_body[part.body];
     const auto* limb = std::get_if<LimbConfig>(&part.motion);
-    const uint32_t stream = fnv1a32(limb != nullptr ? scenario.nodes[node].name + "/steps" : part.name);
+    const bool steps = limb != nullptr || std::holds_alternative<PedalConfig>(part.motion);
+    const uint32_t stream = fnv1a32(steps ? scenario.nodes[node].name + "/steps" : part.name);
     const double start =
         part.phase ? *part.phase / (2.0 * pi) : RandomStream(scenario.seed, stream, sequence).uniform();
     courses.turns.push_back(make_part_turn(part.motion, scenario.tick_rate_hz, start));
@@ -58,6 +61,7 @@ class Travels {
  public:
   Travels(const Courses& courses, double time_s) : courses_(courses), time_s_(time_s) {}
   Turned turn(const PartTurn& turn, uint32_t node) {
+    if (turn.pedals()) return turn.at(pedalled(node), time_s_);
     if (turn.travels() && node != node_) {
       node_ = node;
       travel_ = courses_.nodes[node]->travel(time_s_);
@@ -66,10 +70,19 @@ class Travels {
   }
 
  private:
+  /// Cyclists of the simulated traffic coast when they brake; others pedal all the way.
+  const Travel& pedalled(uint32_t node) {
+    if (node == pedal_node_) return pedalled_;
+    pedal_node_ = node;
+    const Course& course = *courses_.nodes[node];
+    const auto* state = dynamic_cast<const TrafficState*>(&course);
+    return pedalled_ = state != nullptr ? state->pedalled(time_s_) : course.travel(time_s_);
+  }
+
   const Courses& courses_;
   double time_s_;
-  uint32_t node_ = ~0u;
-  Travel travel_;
+  uint32_t node_ = ~0u, pedal_node_ = ~0u;
+  Travel travel_, pedalled_;
 };
 
 /// Returns the motions of all bodies from those of the nodes, world frame.
@@ -143,6 +156,8 @@ Moment moment_at(const World& world, const Courses& courses, const Clock& clock,
   moment.context.body_motion_at = [&world, &courses](uint32_t body, double time) {
     return body_motion(world, courses, body, time);
   };
+  if (!world.lamps.empty())
+    moment.context.lamps_at = [&world, &courses](double time) { return world.lamps.factors(courses, time); };
   moment.context.body_poses_of = [&world, &courses](double time) { return body_poses(world, courses, time); };
   return moment;
 }

@@ -22,6 +22,11 @@ Turned turned_by(const LimbTurn& limb, const Travel& travel, double) {
   return limb.gait.joint(limb.limb, limb.left, travel);
 }
 
+Turned turned_by(const PedalTurn& pedal, const Travel& pedalled, double) {
+  return pedal.limb ? pedal.pedalling.joint(*pedal.limb, pedal.left, pedalled)
+                    : pedal.pedalling.crank(pedalled);
+}
+
 class WalkingCourse : public Course {
  public:
   WalkingCourse(std::unique_ptr<Course> course, const Gait& gait) : course_(std::move(course)), gait_(gait) {}
@@ -53,6 +58,8 @@ PartTurn make_part_turn(const PartMotion& motion, const Rational& tick_rate_hz, 
     return PartTurn(Rotation(tick_rate_hz, *rate, start));
   if (const auto* roll = std::get_if<RollConfig>(&motion))
     return PartTurn(Roll{roll->radius_m, 2.0 * pi * start});
+  if (const auto* pedal = std::get_if<PedalConfig>(&motion))
+    return PartTurn(PedalTurn{pedal->limb, pedal->left, Pedalling(pedal->cyclist, start)});
   const auto& limb = std::get<LimbConfig>(motion);
   return PartTurn(LimbTurn{limb.limb, limb.left, Gait(limb.walker, start)});
 }

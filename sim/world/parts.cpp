@@ -32,7 +32,26 @@ scene::PartPlacement placement_of(const std::string& name, uint32_t node, const 
     part.least_angle = range.least;
     part.most_angle = range.most;
   }
+  if (const auto* pedal = std::get_if<PedalConfig>(&config.motion); pedal != nullptr && pedal->limb) {
+    const Gait::Range range = Pedalling::range(pedal->cyclist, *pedal->limb);
+    part.least_angle = range.least;
+    part.most_angle = range.most;
+  }
   return part;
+}
+
+Cyclist cyclist_of(const scene::BicycleShape& shape) {
+  Cyclist cyclist;
+  cyclist.thigh_m = shape.thigh_m;
+  cyclist.shank_m = shape.shank_m;
+  cyclist.forward_m = shape.bracket_m.x - shape.hip_m.x;
+  cyclist.down_m = shape.hip_m.z - shape.bracket_m.z;
+  cyclist.crank_m = shape.crank_m;
+  cyclist.ball_m = shape.ball_m;
+  cyclist.pedal_m = shape.pedal_m;
+  cyclist.rest = shape.rest;
+  cyclist.development_m = shape.development_m();
+  return cyclist;
 }
 
 std::string unique_name(const std::string& wanted, std::span<const FoundPart> parts) {
@@ -54,9 +73,17 @@ std::vector<PartConfig> parts_of(const Scenario& scenario, const NodeConfig& nod
   const auto add = [&](const std::string& name, const PartMotion& motion) {
     parts.push_back({{name}, {0.0, 1.0, 0.0}, motion, std::nullopt, node.where});
   };
-  if (made.kind == "vehicle")
+  if (made.kind == "vehicle") {
     for (const scene::VehicleShape::Wheel& wheel : scene::vehicle_shape(made.variant).wheels)
       add(wheel.node, RollConfig{wheel.radius_m});
+    if (const std::optional<scene::BicycleShape> bicycle = scene::bicycle_shape(made.variant)) {
+      const Cyclist cyclist = cyclist_of(*bicycle);
+      add("crank", PedalConfig{std::nullopt, true, cyclist});
+      for (const bool left : {true, false})
+        for (const auto& [limb, name] : {std::pair{Limb::thigh, "thigh"}, std::pair{Limb::shank, "shank"}})
+          add(fmt::format("{}_{}", name, left ? "left" : "right"), PedalConfig{limb, left, cyclist});
+    }
+  }
   if (made.kind == "person") {
     const scene::PersonShape& shape = scene::person_shape(made.variant);
     // Short legs walk as fast as they can at the same effort (Froude number).

@@ -16,8 +16,8 @@ struct FoundPart {
   const PartConfig* config = nullptr;
 };
 
-/// Returns the parts that move by themselves: wheels and limbs of a generated vehicle or person in the
-/// scenario's traffic, and those that the node lists.
+/// Returns the parts that move by themselves: wheels, cranks and limbs of a generated vehicle or person in
+/// the scenario's traffic, and those that the node lists.
 std::vector<PartConfig> parts_of(const Scenario& scenario, const NodeConfig& node);
 
 /// Returns the parts in the model's order. `configs` outlive the result. Throws UserError if the model has

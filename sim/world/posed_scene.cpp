@@ -4,10 +4,15 @@
 
 namespace greatx::sim {
 
+void set_lamps(scene::GpuScene& scene, const TickContext& context, double time_s) {
+  if (context.lamps_at) scene.set_lamps(context.lamps_at(time_s));
+}
+
 void Instants::move_to(double time_s) {
   const bool of_tick = time_s == context_.time_s;
   if (of_tick && !moved_) return;  // the scene already has the poses of the tick
   const std::vector<Pose> bodies = context_.body_poses_at(time_s);
+  set_lamps(scene_, context_, time_s);
   scene_.record_poses(slot_, bodies);
   lighting_.record(slot_, bodies);
   moved_ = true;

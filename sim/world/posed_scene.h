@@ -16,6 +16,9 @@
 
 namespace greatx::sim {
 
+/// Switches the scene's lamps as at `time_s` for the next update.
+void set_lamps(scene::GpuScene& scene, const TickContext& context, double time_s);
+
 /// Moves the scene to the instants that one sensor asks for within its record(). Only PosedScene creates this
 /// object, and restores the poses afterwards.
 class Instants {

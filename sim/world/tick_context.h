@@ -32,6 +32,8 @@ struct TickContext {
   /// Returns the poses of all bodies at any other time, as body_motion_at() does one by one; empty: not
   /// given.
   std::function<std::vector<Pose>(double time_s)> body_poses_of;
+  /// Returns the factors of the scene's switched lamps (sim/world/lamps.h) at any time; empty: it has none.
+  std::function<std::vector<float>(double time_s)> lamps_at;
   Pose body_pose_at(uint32_t body, double at_s) const { return body_motion_at(body, at_s).pose; }
   /// Returns the poses of all bodies.
   std::vector<Pose> body_poses_at(double at_s) const {

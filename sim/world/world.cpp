@@ -245,11 +245,13 @@ World load_world(const Scenario& scenario) {
   check_optical_only(scenario);
   World world;
   LoadedModels models(scenario);
+  SignalHeads signals;
   std::vector<scene::ModelPlacement> placements;
   for (const StaticObject& object : scenario.scene.objects) {
     scene::Model& model = models.of(object.model);
     check_georeference(model, object, scenario.scene);
     if (scenario.traffic && !world.streets) world.streets = streets_of(scenario, model, object);
+    if (model.streets) add_signals(signals, object.name, *model.streets);
     placements.push_back({object.name,
                           &model,
                           {object.position_m, orientation_of(object.rotation)},
@@ -295,6 +297,7 @@ World load_world(const Scenario& scenario) {
     world.body_of_node.push_back(own_body ? world.scene.body_index(node.name) : 0);
   }
   find_bodies(world);
+  world.lamps = Lamps(world.scene, world.node_of_body, signals);
   check_radio(scenario, world.scene);
   return world;
 }

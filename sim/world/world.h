@@ -12,6 +12,7 @@
 
 #include "scene/description/scene.h"
 #include "sim/scenario/scenario.h"
+#include "sim/world/lamps.h"
 
 namespace greatx::sim {
 
@@ -59,6 +60,7 @@ struct World {
   MadeSolids made_solids = {};
   /// The streets on which the scenario's traffic moves; none: it has no traffic.
   std::shared_ptr<const Streets> streets = {};
+  Lamps lamps = {};  ///< those that switch
 };
 
 /// Loads and generates every model of the scenario. Throws UserError naming file, mesh or material. Parts

@@ -90,6 +90,7 @@ class CameraRig {
   }
   const render::CameraPass& camera() const { return camera_; }
   const render::SceneLighting& lighting() const { return lighting_; }
+  scene::GpuScene& gpu() { return gpu_; }
   const scene::Scene& scene() const { return *scene_; }
 
  private:

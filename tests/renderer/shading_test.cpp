@@ -3,8 +3,11 @@
 //
 // Checks the light that reaches the eye against closed forms. Pictures hold half floats with a relative
 // precision of 2^-11.
+#include <algorithm>
 #include <cmath>
+#include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -218,6 +221,67 @@ TEST(Shading, EmissionIsAThousandNits) {
   EXPECT_NEAR(images.hdr[0], 2000.0, 2.0);
   EXPECT_NEAR(images.hdr[1], 1000.0, 1.0);
   EXPECT_NEAR(images.hdr[2], 500.0, 0.5);
+}
+
+/// Lamps that switch shine by their factors, more of them than one element of the buffer holds, on the static
+/// world and on a body, also where a material has holes. Their neighbours keep their light.
+TEST(Shading, SwitchedLampsShineByTheirFactors) {
+  constexpr int count = 14;
+  const auto scene = [] {
+    TinyScene tiny;
+    scene::Material lamp = optical_material("switched_red", 0.0f), glow = optical_material("glow", 0.0f);
+    lamp.pbr.emissive = vec3(2.0f, 1.0f, 0.5f);
+    glow.pbr.emissive = vec3(0.3f);
+    scene::Material masked = lamp;
+    masked.name = "switched_green";
+    masked.pbr.alpha_mode = scene::AlphaMode::mask;
+    const uint32_t lamp_of = tiny.material_as(lamp), glow_of = tiny.material_as(glow),
+                   masked_of = tiny.material_as(masked), body = tiny.body("car");
+    for (int i = 0; i < count; ++i) {
+      const double x = i;
+      tiny.object(fmt::format("lamp_{}", i), i == 5 ? body : 0, i == 7 ? masked_of : lamp_of)
+          .quad({x, -9, 0}, {x + 1, -9, 0}, {x + 1, 0, 0}, {x, 0, 0});
+    }
+    tiny.object("glow", 0, glow_of).quad({0, 0, 0}, {count, 0, 0}, {count, 9, 0}, {0, 9, 0});
+    return tiny.build();
+  };
+  render::CameraEffects effects;
+  effects.sky = effects.sun = false;
+  const Pose above = look({0.5 * count, 0.0, 0.5 * count}, 0.0, 90.0);
+  const auto red_at = [](const render::CameraImages& images, int lamp, uint32_t column) {
+    const auto row = static_cast<size_t>(4 * count - 3 - 4 * lamp);
+    return double(images.hdr[3 * (row * images.width + column)]);
+  };
+  for (const uint32_t msaa : {1u, 4u}) {
+    CameraRig rig(scene(), plain_light(), plain_camera(4 * count, msaa), effects);
+    const scene::SwitchedLamps& lamps = rig.gpu().switched_lamps();
+    ASSERT_EQ(lamps.lamps.size(), size_t{count});
+    std::vector<float> factors;
+    for (size_t i = 0; i < lamps.lamps.size(); ++i) factors.push_back(0.0625f * float((5 * i) % count));
+    const auto check = [&] {
+      const render::CameraImages images = rig.shoot(above);
+      for (size_t i = 0; i < lamps.lamps.size(); ++i) {
+        const std::string& name = rig.scene().instances[lamps.lamps[i].instance].name;
+        const int place = std::stoi(name.substr(5));
+        EXPECT_NEAR(red_at(images, place, 3 * count), 2000.0 * double(factors[i]), 2.0) << name;
+        EXPECT_NEAR(red_at(images, place, count), 300.0, 0.3) << name;
+      }
+    };
+    rig.gpu().set_lamps(factors);
+    check();
+    std::ranges::reverse(factors);
+    rig.gpu().set_lamps(factors);
+    check();
+  }
+  // Without the effect they are dark. By day they shine without the effect `emissive`.
+  effects.switched_lamps = false;
+  CameraRig dark(scene(), plain_light(), plain_camera(4 * count), effects);
+  EXPECT_EQ(red_at(dark.shoot(above), 3, 3 * count), 0.0);
+  effects.switched_lamps = true;
+  effects.emissive = false;
+  CameraRig day(scene(), plain_light(), plain_camera(4 * count), effects);
+  EXPECT_NEAR(red_at(day.shoot(above), 3, 3 * count), 2000.0, 2.0);
+  EXPECT_EQ(red_at(day.shoot(above), 3, count), 0.0);
 }
 
 TEST(Shading, PictureIsTheDevelopedRadiance) {

@@ -74,7 +74,10 @@ scene::Scene yard() {
   const uint32_t g = tiny.material_as(ground), w = tiny.material_as(surface("wall", "concrete"));
   const uint32_t f = tiny.material_as(fence), s = tiny.material_as(sign), p = tiny.material_as(pane);
   const uint32_t l = tiny.material_as(leaves), v = tiny.material_as(surface("van", "metal"));
-  const uint32_t van = tiny.body("van");
+  scene::Material lens = leaves;
+  lens.name = "switched_red";
+  lens.pbr.emissive = vec3(50.0f);
+  const uint32_t van = tiny.body("van"), q = tiny.material_as(lens);
   tiny.object("ground", 0, g).quad({-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0});
   tiny.object("house", 0, w).box({-14, 8, 0}, {16, 12, 6});
   tiny.object("fence", 0, f).quad({4, 6, 0}, {4, 1.5, 0}, {4, 1.5, 4}, {4, 6, 4});
@@ -82,6 +85,7 @@ scene::Scene yard() {
   tiny.object("sign", 0, s).quad({15, 2, 6}, {15, -2, 6}, {15, -2, 9}, {15, 2, 9});
   tiny.object("crown", 0, l).box({-2, -0.6, 1.0}, {2, 1.2, 3.2});
   tiny.object("plate", 0, v).quad({8, 0.6, 1.6}, {8, 0.1, 1.6}, {8, 0.1, 2.1}, {8, 0.6, 2.1});
+  tiny.object("lens", 0, q).quad({8, -0.1, 1.6}, {8, -0.6, 1.6}, {8, -0.6, 2.1}, {8, -0.1, 2.1});
   tiny.object("line", 0, w).quad({-2, 2, 0.02}, {3, 2, 0.02}, {3, 2.2, 0.02}, {-2, 2.2, 0.02});
   tiny.object("pole", 0, w).box({12, 5, 0}, {12.1, 5.1, 5});
   tiny.object("van", van, v).box({-1, -2, 0}, {1, 2, 5});
@@ -284,6 +288,7 @@ const std::map<std::string, Tried> tried{
     {"normal_maps", {camera_sensor, {"sun", "textures"}}},
     {"alpha_mask", {camera_sensor, {"sky"}}},
     {"emissive", {camera_sensor, {"sky"}}},
+    {"switched_lamps", {camera_sensor, {"sky"}}},
     {"punctual_lights", {camera_sensor, {"sky"}}},
     {"haze", {camera_sensor, {"sky"}}},
     {"night_sky", {camera_sensor, {"sky"}, true}},

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/error.h"
+#include "core/units.h"
 #include "core/vec.h"
 
 namespace greatx::sim {
@@ -115,6 +117,71 @@ TEST(Gait, StaysInItsRange) {
         EXPECT_TRUE(angle >= range.least && angle <= range.most) << angle;
       }
     }
+}
+
+/// The axle of a pedal, from the joints of a leg alone: forward of the hips and down from them.
+dvec2 pedal(const Cyclist& who, double thigh, double shank) {
+  // A positive turn about +y swings a hanging limb backwards.
+  const double t = -thigh, s = -(thigh + shank), below = who.shank_m + who.pedal_m;
+  return {who.thigh_m * std::sin(t) + below * std::sin(s) + who.ball_m * std::cos(s),
+          who.thigh_m * std::cos(t) + below * std::cos(s) - who.ball_m * std::sin(s)};
+}
+
+/// The balls of both feet go round with the pedals, on a circle of the cranks' length about their axle.
+TEST(Pedalling, KeepsTheFeetOnThePedals) {
+  Cyclist who;
+  who.rest = 0.9;
+  const Pedalling pedalling(who, 0.0);
+  for (const bool left : {true, false}) {
+    const double side = left ? 1.0 : -1.0;
+    const auto place = [&](double crank) {
+      return dvec2(who.forward_m + side * who.crank_m * std::cos(crank),
+                   who.down_m + side * who.crank_m * std::sin(crank));
+    };
+    // The angles at rest, by the law of cosines in the triangle of hip, knee and axle.
+    const dvec2 rest = place(who.rest);
+    const double far = glm::length(rest), below = who.shank_m + who.pedal_m,
+                 lower = std::hypot(below, who.ball_m);
+    const auto angle = [](double a, double b, double opposite) {
+      return std::acos((a * a + b * b - opposite * opposite) / (2.0 * a * b));
+    };
+    const double thigh0 = -(std::atan2(rest.x, rest.y) + angle(far, who.thigh_m, lower)),
+                 shank0 = pi - angle(who.thigh_m, lower, far) + std::atan2(who.ball_m, below);
+    EXPECT_LT(glm::distance(pedal(who, thigh0, shank0), rest), 1e-12);
+    for (int i = 0; i < 500; ++i) {
+      const Travel travel{who.development_m * i / 100.0, 4.0, 0.0};
+      const Turned crank = pedalling.crank(travel);
+      EXPECT_NEAR(crank.rate, 2.0 * pi * 4.0 / who.development_m, 1e-12);
+      EXPECT_NEAR(std::remainder(crank.value + who.rest - 2.0 * pi * i / 100.0, 2.0 * pi), 0.0, 1e-9);
+      const double thigh = thigh0 + pedalling.joint(Limb::thigh, left, travel).value,
+                   shank = shank0 + pedalling.joint(Limb::shank, left, travel).value;
+      EXPECT_LT(glm::distance(pedal(who, thigh, shank), place(crank.value + who.rest)), 1e-12) << i;
+      EXPECT_GT(shank, 0.0) << "a knee bends backwards only";
+    }
+  }
+}
+
+TEST(Pedalling, HasExactDerivatives) {
+  const Pedalling pedalling(Cyclist{}, 0.3);
+  const auto travel_at = [](double t) { return Travel{0.4 * t * t, 0.8 * t, 0.8}; };
+  const double h = 1e-5;
+  for (const Limb limb : {Limb::thigh, Limb::shank})
+    for (const bool left : {true, false})
+      for (double t = 0.05; t < 6.0; t += 0.0371) {
+        const auto at = [&](double s) { return pedalling.joint(limb, left, travel_at(s)); };
+        const Turned now = at(t);
+        EXPECT_NEAR(now.rate, (at(t + h).value - at(t - h).value) / (2 * h), 1e-6);
+        EXPECT_NEAR(now.acceleration, (at(t + h).rate - at(t - h).rate) / (2 * h), 1e-4);
+        const Gait::Range range = Pedalling::range(Cyclist{}, limb);
+        EXPECT_GT(now.value, range.least);
+        EXPECT_LT(now.value, range.most);
+      }
+}
+
+TEST(Pedalling, RefusesLegsThatAreTooShort) {
+  Cyclist who;
+  who.thigh_m = 0.3;
+  EXPECT_THROW(Pedalling::range(who, Limb::thigh), UserError);
 }
 
 }  // namespace

@@ -76,6 +76,23 @@ TEST(StreetNetwork, NamesWhatIsWrong) {
       HasSubstr(R"(junction: expected "turn": true beside it)"));
 }
 
+TEST(StreetNetwork, KeepsItsSignals) {
+  StreetNetwork made;
+  made.junctions = {{}, {{{{0}, 9.0, 3.0, 2.0}}}};
+  made.signals = {{"signal_000", 1, 0, false}, {"walk_signal_000", 1, 2, true}};
+  const StreetNetwork back = read(scene::street_network_json(made));
+  ASSERT_EQ(back.signals.size(), 2u);
+  EXPECT_EQ(back.signals[0].node, "signal_000");
+  EXPECT_FALSE(back.signals[0].walk);
+  EXPECT_EQ(back.signals[1].junction, 1u);
+  EXPECT_EQ(back.signals[1].group, 2u);
+  EXPECT_TRUE(back.signals[1].walk);
+  EXPECT_THAT(message_of(R"({"junctions": [{}], "signals": [{"node": "a", "junction": 1, "group": 0}]})"),
+              HasSubstr("greatx_streets.signals[0].junction: expected"));
+  EXPECT_THAT(message_of(R"({"junctions": [{}], "signals": [{"junction": 0, "group": 0}]})"),
+              HasSubstr("signals[0]"));
+}
+
 /// Lanes of the city begin where others end, in the same direction.
 TEST(StreetNetwork, OfTheCityIsSmooth) {
   for (const uint64_t seed : {1, 7, 23})

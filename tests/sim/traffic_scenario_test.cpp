@@ -227,6 +227,19 @@ struct Street {
       : scenario(parse_scenario(yaml, "test.yaml", ".", "")),
         world(load_world(scenario)),
         courses(make_courses(scenario, world, 0)) {}
+  /// The turn about +y of a shank of a cyclist at rest, from hanging: knee and pedal by circles that meet.
+  static double lean_at_rest(const scene::BicycleShape& shape, double side) {
+    const dvec2 pedal(shape.bracket_m.x - shape.hip_m.x + side * shape.crank_m * std::cos(shape.rest),
+                      shape.bracket_m.z - shape.hip_m.z - side * shape.crank_m * std::sin(shape.rest));
+    const double below = shape.shank_m + shape.pedal_m, lower = std::hypot(below, shape.ball_m),
+                 far = glm::length(pedal);
+    const double along = (shape.thigh_m * shape.thigh_m - lower * lower + far * far) / (2.0 * far);
+    const dvec2 ahead(-pedal.y, pedal.x);  // across the line from the hip, forward
+    const dvec2 knee =
+        (along * pedal + std::sqrt(shape.thigh_m * shape.thigh_m - along * along) * ahead) / far;
+    const dvec2 down = pedal - knee;
+    return std::atan2(-down.x, -down.y) + std::atan2(shape.ball_m, below);
+  }
   Scenario scenario;
   World world;
   Courses courses;
@@ -266,7 +279,7 @@ TEST(TrafficWorld, PartsHaveExactDerivatives) {
       EXPECT_LT(glm::length(now.angular_velocity - rate), 2e-3) << name << " at " << t;
     }
   }
-  EXPECT_EQ(limbs, 6);
+  EXPECT_EQ(limbs, 8);
   EXPECT_GE(wheels, 6);
   const uint32_t shank = scene.body_index("pedestrian_000/shank_left");
   EXPECT_EQ(scene.bodies[scene.bodies[shank].joint->owner].name, "pedestrian_000/thigh_left");
@@ -291,6 +304,45 @@ TEST(TrafficWorld, WheelsRoll) {
     moving += glm::length(axle) > 1.0 ? 1 : 0;
   }
   EXPECT_GT(moving, 20);
+}
+
+/// The axle below the ball of a cyclist's foot is where the crank has it, and goes with it.
+TEST(TrafficWorld, FeetStayOnThePedals) {
+  const Street street(city("{cyclists: 3, warm_up_s: 5}"));
+  const scene::Scene& scene = street.world.scene;
+  int turning = 0;
+  for (int i = 0; i < 3; ++i) {
+    const std::string name = fmt::format("cyclist_{:03}", i);
+    const std::string& variant = street.scenario.traffic->members[size_t(i)].variant;
+    const scene::BicycleShape shape = scene::bicycle_shape(variant).value();
+    for (double t = 0.0; t < 40.0; t += 0.173) {
+      const auto motion = [&](const std::string& part) {
+        return body_motion(street.world, street.courses, scene.body_index(name + part), t);
+      };
+      const Motion crank = motion("/crank"), body = motion("");
+      const dvec3 left = body.pose.rotate({0.0, 1.0, 0.0});
+      for (const double side : {1.0, -1.0}) {
+        const Motion shank = motion(side > 0.0 ? "/shank_left" : "/shank_right");
+        const dvec3 arm = side * shape.crank_m * dvec3(std::cos(shape.rest), 0.0, -std::sin(shape.rest));
+        const dvec3 of_crank = crank.pose.rotate(arm);
+        // The part's frame has the bicycle's axes at rest, when the shank already leans.
+        const double lean = street.lean_at_rest(shape, side);
+        const dvec3 of_shank = shank.pose.rotate(glm::angleAxis(lean, dvec3(0.0, 1.0, 0.0)) *
+                                                 dvec3(shape.ball_m, 0.0, -shape.shank_m - shape.pedal_m));
+        dvec3 apart = crank.pose.position + of_crank - shank.pose.position - of_shank;
+        apart -= glm::dot(apart, left) * left;
+        EXPECT_LT(glm::length(apart), 2e-6) << name << " at " << t;  // the file rounds to a millionth
+        dvec3 drift = crank.velocity + glm::cross(crank.angular_velocity, of_crank) - shank.velocity -
+                      glm::cross(shank.angular_velocity, of_shank);
+        drift -= glm::dot(drift, left) * left;
+        EXPECT_LT(glm::length(drift), 1e-4 + 0.2 * glm::length(body.angular_velocity)) << name;
+      }
+      const double rate = glm::dot(crank.angular_velocity, left);
+      EXPECT_GE(rate, -1e-9);
+      turning += rate > 1.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(turning, 100);
 }
 
 /// The soles of those who walk stand on the ground: the lower end of one shank hardly moves.

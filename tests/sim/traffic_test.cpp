@@ -310,5 +310,87 @@ TEST(Traffic, SignalsExcludeEachOther) {
   EXPECT_GT(reds, 100);
 }
 
+/// Whoever turns shows it from 30 m before on, on the side to which the way bends, and nobody who does not.
+TEST(Traffic, IndicatesTurnsAndChangesOfLane) {
+  Simulation simulation(city_streets(), bodies(14, 0, 0), config_of(5), 0);
+  int turning = 0, before = 0, straight = 0, changing = 0;
+  for (uint32_t member = 0; member < simulation.member_count(); ++member)
+    for (double time_s = 0.0; time_s < 120.0; time_s += 0.5) {
+      const WayState state = simulation.at(member, time_s);
+      const Piece& piece = state.piece;
+      const int side = indicated_side(state);
+      if (piece.change_m != 0.0 && state.way_m < piece.begin_m + piece.change_length_m) {
+        EXPECT_EQ(side, piece.change_m > 0.0 ? -1 : 1);
+        // It moves to that side.
+        const WayPlace now = place_on(piece, state.way_m), later = place_on(piece, state.way_m + 0.1);
+        const dvec2 along = piece.curve->at(piece.at_m + state.way_m - piece.begin_m).tangent;
+        const dvec2 step = dvec2(later.position) - dvec2(now.position);
+        EXPECT_GE(double(side) * (along.x * step.y - along.y * step.x), -1e-6);
+        ++changing;
+        continue;
+      }
+      const double length = piece.curve->length(),
+                   to_end = length - piece.at_m - (state.way_m - piece.begin_m);
+      const bool on_turn = piece.turn_m == piece.begin_m && length < 40.0;
+      if (on_turn && piece.turn_side != 0) {
+        const dvec2 a = piece.curve->at(0.0).tangent, b = piece.curve->at(length).tangent;
+        EXPECT_EQ(side, a.x * b.y - a.y * b.x > 0.0 ? 1 : -1) << member << " at " << time_s;
+        ++turning;
+      } else if (!on_turn && to_end > 31.0) {
+        EXPECT_EQ(side, 0);
+        ++straight;
+      } else if (!on_turn && to_end < 29.0 && piece.turn_side != 0) {
+        EXPECT_EQ(side, piece.turn_side);
+        ++before;
+      }
+    }
+  EXPECT_GT(turning, 20);
+  EXPECT_GT(before, 20);
+  EXPECT_GT(straight, 100);
+  EXPECT_GT(changing, 0);
+}
+
+/// The way that is pedalled is the integral of share times speed, and a cyclist coasts while he brakes.
+TEST(Traffic, CyclistsCoastWhenTheyBrake) {
+  const Effort effort{0.75, 0.5};
+  double sum = 0.0;
+  constexpr int parts = 1000;
+  for (int i = 0; i < parts; ++i) {  // exact for each part up to its curvature
+    const double t = 0.1 * (i + 0.5) / parts;
+    sum += (0.75 - 2.5 * t) * (4.0 - 1.5 * t) * 0.1 / parts;
+  }
+  const EffortWay all = effort_way(effort, 4.0, -1.5, 0.1, 0.1);
+  EXPECT_NEAR(all.way_m, sum, 1e-9);
+  EXPECT_NEAR(all.speed_mps, 0.5 * 3.85, 1e-12);
+  EXPECT_NEAR(all.acceleration_mps2, -1.5 * 0.5 - 2.5 * 3.85, 1e-12);
+
+  Simulation simulation(city_streets(), bodies(0, 6, 0), config_of(2), 0);
+  int coasting = 0, pedalling = 0;
+  for (uint32_t member = 0; member < simulation.member_count(); ++member) {
+    double braked_s = 0.0, went_s = 0.0, before_m = -1e9;
+    for (int step = 0; step < 1500; ++step) {
+      const WayState state = simulation.at(member, 0.1 * step + 0.05);
+      EXPECT_GE(state.pedalled_m, before_m);
+      before_m = state.pedalled_m;
+      EXPECT_GE(state.pedalled_mps, -1e-12);
+      EXPECT_LE(state.pedalled_mps, state.speed_mps + 1e-12);
+      const bool brakes =
+          state.acceleration_mps2<-1.1 * coasting_mps2, goes = state.acceleration_mps2> - 0.9 * coasting_mps2;
+      braked_s = brakes ? braked_s + 0.1 : 0.0;
+      went_s = goes ? went_s + 0.1 : 0.0;
+      if (braked_s > effort_s + 0.15) {
+        EXPECT_NEAR(state.pedalled_mps, 0.0, 1e-12);
+        ++coasting;
+      }
+      if (went_s > effort_s + 0.15) {
+        EXPECT_NEAR(state.pedalled_mps, state.speed_mps, 1e-12);
+        ++pedalling;
+      }
+    }
+  }
+  EXPECT_GT(coasting, 50);
+  EXPECT_GT(pedalling, 500);
+}
+
 }  // namespace
 }  // namespace greatx::sim

@@ -19,6 +19,7 @@
 #include "scene/device/gpu_scene.h"
 #include "sim/plan/camera_desc.h"
 #include "sim/plan/plan_options.h"
+#include "sim/world/posed_scene.h"
 #include "view/scene/moment_cache.h"
 
 namespace greatx::view {
@@ -75,6 +76,7 @@ class Renderer {
     const sim::Moment& moment = moments_.at(request.sequence, request.tick);
     render::CameraPass& pass = pass_for(request);
     gpu::TickSlot& slot = ring_.begin();
+    sim::set_lamps(gpu_scene_, moment.context, moment.context.time_s);
     gpu_scene_.record_update(slot, moment.bodies);
     lighting_.record(slot, moment.bodies);
     pass.record(slot, request.view.local_from_sensor);

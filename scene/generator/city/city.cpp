@@ -103,11 +103,18 @@ class CityFurniture {
   void bench(const dvec2& where, double z, double yaw) {
     place("bench", "bench", make_bench, dvec3(where, z), yaw, SemanticClass::furniture);
   }
-  void signal(const dvec2& where, double yaw, bool green) {
-    place(
-        "signal", green ? "signal_green" : "signal_red", [&] { return make_signal(green); },
-        dvec3(where, pavement_height_m), yaw, SemanticClass::pole);
+  void signal(const dvec2& where, double yaw, uint32_t junction, uint32_t group) {
+    const std::string node =
+        place("signal", "signal", make_signal, dvec3(where, pavement_height_m), yaw, SemanticClass::pole);
+    signals_.push_back({node, junction, group, false});
   }
+  void walk_signal(const dvec2& where, double yaw, uint32_t junction, uint32_t group, bool pole) {
+    const std::string node = place(
+        "walk_signal", pole ? "walk_signal_pole" : "walk_signal", [&] { return make_walk_signal(pole); },
+        dvec3(where, pavement_height_m), yaw, SemanticClass::pole);
+    signals_.push_back({node, junction, group, true});
+  }
+  std::vector<StreetSignal> signals() const { return signals_; }
   void sign(SignKind kind, const dvec2& where, double yaw) {
     place(
         "sign", fmt::format("sign_{}", static_cast<int>(kind)), [&] { return make_traffic_sign(kind); },
@@ -135,29 +142,57 @@ class CityFurniture {
     return meshes_[name] = writer_.add_mesh(name, make());
   }
   std::string number(const std::string& name) { return fmt::format("{}_{:03}", name, counts_[name]++); }
-  void place(const std::string& name, const std::string& mesh, const std::function<MeshBuilder()>& make,
-             const dvec3& where, double yaw, SemanticClass semantic_class) {
-    writer_.add_node({.name = number(name),
+  std::string place(const std::string& name, const std::string& mesh,
+                    const std::function<MeshBuilder()>& make, const dvec3& where, double yaw,
+                    SemanticClass semantic_class) {
+    std::string node = number(name);
+    writer_.add_node({.name = node,
                       .mesh = shared(mesh, make),
                       .position = where,
                       .yaw = yaw,
                       .semantic_class = semantic_class});
+    return node;
   }
 
   SceneWriter& writer_;
   Season season_;
   std::map<std::string, int> meshes_, counts_;
   std::array<int, 4> lights_{-1, -1, -1, -1};  ///< by LampKind
+  std::vector<StreetSignal> signals_;
 };
 
 double heading(const dvec2& direction) { return std::atan2(direction.y, direction.x); }
+
+/// Places the signals along an edge, where a street meets a junction with signals: heads for drivers, who
+/// come from the edge's end, beyond the zebra, and heads for people at both ends of the zebras, which look
+/// over the street. Returns the places of their poles, m along the edge.
+std::vector<double> add_signals(const CityPlan& plan, const Block& block, int edge, CityFurniture& furniture,
+                                const std::vector<double>& taken) {
+  constexpr double from_end_m = 4.0, depth_m = 0.45, room_m = 0.8;
+  const Kerb kerb(block, edge);
+  std::vector<double> poles;
+  for (const bool start : {true, false}) {
+    const EdgeEnd end = edge_end(plan, block, edge, start);
+    if (!end.junction || (!start && !end.zebra)) continue;
+    double from = from_end_m;
+    while (std::ranges::any_of(
+        taken, [&](double t) { return std::abs(t - (start ? from : kerb.length - from)) <= room_m; }))
+      from += 0.4;
+    const double at = start ? from : kerb.length - from;
+    const dvec2 where = kerb.spot(at, depth_m);
+    if (start) furniture.signal(where, heading(kerb.along), *end.junction, end.group);
+    if (end.zebra) furniture.walk_signal(where, heading(-kerb.inwards), *end.junction, end.group, !start);
+    poles.push_back(at);
+  }
+  return poles;
+}
 
 /// Places the furniture of a block's pavements. Lamps stand about every 34 m along both sides of an avenue,
 /// staggered, and about every 30 m along the south and west edges of other blocks, so that each street has
 /// one row. Trees of one species stand along avenues. There are also signals, signs, shelters and bins.
 /// Returns the places that these take.
-TakenPlaces furnish_pavement(const Block& block, uint64_t seed, CityFurniture& furniture, CityStreet& street,
-                             RandomStream& random) {
+TakenPlaces furnish_pavement(const CityPlan& plan, const Block& block, uint64_t seed,
+                             CityFurniture& furniture, CityStreet& street, RandomStream& random) {
   TakenPlaces all;
   for (int edge = 0; edge < 4; ++edge) {
     if (!block.street[static_cast<size_t>(edge)]) continue;
@@ -183,9 +218,9 @@ TakenPlaces furnish_pavement(const Block& block, uint64_t seed, CityFurniture& f
     // Drivers beside this pavement come from b. Signals and signs for them therefore stand near a and face
     // along the edge.
     const bool crossing = block.street[static_cast<size_t>((edge + 3) % 4)];
-    if (avenue && crossing && free(2.2, 0.8)) {
-      furniture.signal(spot(2.2, 0.45), heading(along), edge % 2 == 0);
-      taken.push_back(2.2);
+    const std::vector<double> poles = add_signals(plan, block, edge, furniture, taken);
+    if (!poles.empty() && poles.front() < 0.5 * length) {
+      taken.push_back(poles.front());
     } else if (crossing && edge % 2 == 0 && free(4.4, 0.8)) {
       furniture.sign(SignKind::crossing, spot(4.4, 0.45), heading(along));
     }
@@ -217,6 +252,7 @@ TakenPlaces furnish_pavement(const Block& block, uint64_t seed, CityFurniture& f
       furniture.fallen_leaves(spot(at + 0.8, -0.45), 0.01, kind, along, {2.6, 0.42});
       taken.push_back(at);
     }
+    taken.insert(taken.end(), poles.begin(), poles.end());
   }
   return all;
 }
@@ -349,8 +385,6 @@ void write_city(SceneWriter& writer, double size_m, uint64_t seed, Season season
   };
   MeshBuilder base, road, markings;
   add_streets(plan, road, markings);
-  writer.set_scene_extras(
-      fmt::format(R"({{"{}": {}}})", street_network_key, street_network_json(city_network(plan))));
   add_base(plan, base);
   add("road", road, SemanticClass::road);
   add("lane_markings", markings, SemanticClass::lane_marking);
@@ -368,7 +402,7 @@ void write_city(SceneWriter& writer, double size_m, uint64_t seed, Season season
     add_block_ground(block, material(park ? "grass" : surfaces[details.below(4)]), pavement, courtyard);
     add(fmt::format("pavement_{:03}", i), pavement, SemanticClass::pavement);
     add(fmt::format("{}_{:03}", park ? "park" : "courtyard", i), courtyard, SemanticClass::ground);
-    street.furnish(block, furnish_pavement(block, seed, furniture, street, details));
+    street.furnish(block, furnish_pavement(plan, block, seed, furniture, street, details));
     if (park) {
       add_park(writer, block, seed, furniture, details);
       continue;
@@ -392,6 +426,9 @@ void write_city(SceneWriter& writer, double size_m, uint64_t seed, Season season
     }
   }
   park_cars(plan, furniture, details);
+  StreetNetwork network = city_network(plan);
+  network.signals = furniture.signals();
+  writer.set_scene_extras(fmt::format(R"({{"{}": {}}})", street_network_key, street_network_json(network)));
 }
 
 }  // namespace greatx::scene::generator

@@ -20,6 +20,17 @@ constexpr double parked_m = 2.3;
 
 double cross(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
 
+/// Junctions lie at the crossings i, j of the lines between the blocks.
+int junction_number(const CityPlan& plan, int i, int j) {
+  const int n = plan.blocks;
+  return i > 0 && i < n && j > 0 && j < n ? (i - 1) * (n - 1) + j - 1 : -1;
+}
+
+/// The avenues' junctions have signals.
+bool signals_at(const CityPlan& plan, int i, int j) { return i == plan.blocks / 2 || j == plan.blocks / 2; }
+
+constexpr uint32_t group_of(bool northwards) { return northwards ? 0 : 1; }
+
 /// Lanes of one direction of a street, [0] the outermost one, as indices of the network.
 using Side = std::vector<uint32_t>;
 
@@ -52,22 +63,18 @@ class NetworkMaker {
   }
 
  private:
-  int junction_at(int i, int j) const {
-    const int n = plan_.blocks;
-    return i > 0 && i < n && j > 0 && j < n ? (i - 1) * (n - 1) + j - 1 : -1;
-  }
+  int junction_at(int i, int j) const { return junction_number(plan_, i, j); }
   uint32_t block_at(int column, int row) const { return static_cast<uint32_t>(row * plan_.blocks + column); }
 
-  /// The avenues' junctions have signals: one phase for streets that run east, one for those that run north.
-  /// At time 0 the first one begins, which is what the heads of signals in the scene show.
+  /// Signals have one phase for streets that run east, and one for those that run north.
   void add_junctions() {
     const int middle = plan_.blocks / 2;
     for (int i = 1; i < plan_.blocks; ++i)
       for (int j = 1; j < plan_.blocks; ++j) {
         StreetJunction junction;
-        if (i == middle || j == middle)
-          junction.phases = {{{1}, j == middle ? 16.0 : 12.0, 3.0, 2.0},
-                             {{0}, i == middle ? 16.0 : 12.0, 3.0, 2.0}};
+        if (signals_at(plan_, i, j))
+          junction.phases = {{{group_of(false)}, j == middle ? 16.0 : 12.0, 3.0, 2.0},
+                             {{group_of(true)}, i == middle ? 16.0 : 12.0, 3.0, 2.0}};
         network_.junctions.push_back(std::move(junction));
       }
   }
@@ -137,7 +144,7 @@ class NetworkMaker {
     const auto junction = static_cast<uint32_t>(lanes.junctions[end]);
     if (!network_.junctions[junction].phases.empty()) {
       crossing.junction = junction;
-      crossing.group = lanes.northwards ? 0 : 1;
+      crossing.group = group_of(lanes.northwards);
     }
     network_.crossings.push_back(crossing);
   }
@@ -192,7 +199,7 @@ class NetworkMaker {
   void add_turn(int junction, const StreetLanes& street, uint32_t from, uint32_t to) {
     StreetLane turn;
     turn.junction = static_cast<uint32_t>(junction);
-    turn.group = street.northwards ? 0 : 1;
+    turn.group = group_of(street.northwards);
     turn.width_m = std::min(network_.lanes[from].width_m, network_.lanes[to].width_m);
     turn.speed_mps = std::min(network_.lanes[from].speed_mps, network_.lanes[to].speed_mps);
     turn.next = {to};
@@ -208,6 +215,20 @@ class NetworkMaker {
 };
 
 }  // namespace
+
+EdgeEnd edge_end(const CityPlan& plan, const Block& block, int edge, bool start) {
+  const int corner = (edge + (start ? 0 : 1)) % 4;
+  const bool east = corner == 1 || corner == 2, north = corner >= 2, northwards = edge % 2 == 1;
+  const int n = plan.blocks, i = block.column + (east ? 1 : 0), j = block.row + (north ? 1 : 0);
+  EdgeEnd end;
+  end.group = group_of(northwards);
+  if (const int junction = junction_number(plan, i, j); junction >= 0 && signals_at(plan, i, j))
+    end.junction = static_cast<uint32_t>(junction);
+  // The streets that run north come first (CityPlan).
+  const int street = northwards ? (i - 1) * n + block.row : (n - 1) * n + (j - 1) * n + block.column;
+  end.zebra = plan.streets[static_cast<size_t>(street)].crossing[(northwards ? north : east) ? 1 : 0];
+  return end;
+}
 
 StreetNetwork city_network(const CityPlan& plan) { return NetworkMaker(plan).make(); }
 

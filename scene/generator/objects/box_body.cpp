@@ -20,8 +20,10 @@ void add_lamps(VehicleBody& body, double front, double rear, double y, const dve
   const dvec3 head(front, y, z.x), tail(rear, y, z.y);
   add_boxes(body.mesh, material("lamp_cover"), head - dvec3(0.3, 0.20, 0.09), head + dvec3(0.01, 0.14, 0.09));
   add_boxes(body.mesh, material("headlight"), head - dvec3(0.1, 0.08, 0.05), head + dvec3(0.02, 0.06, 0.05));
-  add_boxes(body.mesh, material("tail_light"), tail - dvec3(0.015, 0.07, 0.16),
+  add_boxes(body.mesh, material("switched_stop"), tail - dvec3(0.015, 0.07, 0.16),
             tail + dvec3(0.2, 0.07, 0.16));
+  add_indicators(body.mesh, head + dvec3(-0.1, 0.07, -0.05), head + dvec3(0.02, 0.13, 0.05));
+  add_indicators(body.mesh, tail + dvec3(-0.015, -0.07, -0.26), tail + dvec3(0.2, 0.07, -0.165));
   body.head_lamps = {head};
   body.tail_lamps = {tail};
 }

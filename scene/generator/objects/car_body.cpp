@@ -392,8 +392,11 @@ void add_car_details(VehicleBody& body, const VehicleShape& shape, const CarStyl
   const dvec3 head(front - 0.10, 0.63 * w, style.nose - 0.055);
   add_boxes(mesh, material("headlight"), head + dvec3(-0.1, -0.055, -0.04),
             head + dvec3(0.008, 0.055, 0.015));
+  const dvec3 tail(-front, 0.66 * w, style.tail - 0.12);
+  add_indicators(mesh, head + dvec3(-0.1, -0.055, -0.078), head + dvec3(0.012, 0.055, -0.045));
+  add_indicators(mesh, tail + dvec3(-0.006, -0.06, -0.03), tail + dvec3(0.1, 0.06, 0.01));
   body.head_lamps = {head + dvec3(0.03, 0.0, 0.0)};
-  body.tail_lamps = {dvec3(-front, 0.66 * w, style.tail - 0.12)};
+  body.tail_lamps = {tail};
   const double z = shape.height_m - style.roof_cut;
   if (shape.variant == "ambulance")
     mesh.box(material("blue_beacon"), {style.screen_top - 0.35, -0.7, z - 0.05},
@@ -423,7 +426,7 @@ VehicleBody make_car_body(const VehicleShape& shape, int paint, bool detailed) {
                         material(detailed ? "car_glass" : "car_glass_dark"),
                         material("car_trim"),
                         material(detailed ? "lamp_cover" : "headlight_off"),
-                        material(detailed ? "tail_light" : "tail_light_off"),
+                        material(detailed ? "switched_stop" : "tail_light_off"),
                         shape.variant == "ambulance" ? material("car_paint_orange") : paint};
   SmoothMesh shell;
   const size_t last = columns.size();

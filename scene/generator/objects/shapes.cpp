@@ -134,4 +134,31 @@ const PersonShape& person_shape(const std::string& variant) {
   return find_shape(person_shapes(), "person", variant);
 }
 
+PersonShape rider_shape(double stature_m) {
+  PersonShape shape = person_shape("man");
+  const double scale = stature_m / shape.height_m;
+  for (double* length : {&shape.height_m, &shape.hip_m, &shape.thigh_m, &shape.shank_m, &shape.upper_arm_m,
+                         &shape.forearm_m, &shape.shoulder_m})
+    *length = generator::snap(*length * scale);
+  return shape;
+}
+
+std::optional<BicycleShape> bicycle_shape(const std::string& variant) {
+  const bool cargo = variant == "cargo_bicycle";
+  if (!cargo && variant != "bicycle") return std::nullopt;
+  constexpr double stature_m = 1.72;
+  const PersonShape rider = rider_shape(stature_m);
+  const VehicleShape::Wheel& rear = vehicle_shape(variant).wheels[1];
+  const double shift = rear.hub_m.x + 0.545;
+  BicycleShape shape;
+  shape.thigh_m = rider.thigh_m;
+  shape.shank_m = rider.shank_m;
+  shape.hip_m = {-0.30 + shift, 0.0, 0.985};
+  shape.bracket_m = {-0.115 + shift, 0.0, 0.285};
+  shape.rest = std::atan2(0.8, 0.6);               // forward and down
+  shape.gear = cargo ? 38.0 / 18.0 : 44.0 / 18.0;  // teeth
+  shape.wheel_m = rear.radius_m;
+  return shape;
+}
+
 }  // namespace greatx::scene

@@ -5,6 +5,7 @@
 // have, so that others can let wheels roll and limbs swing.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,25 @@ struct PersonShape {
   double upper_arm_m = 0, forearm_m = 0;  ///< shoulder to elbow, elbow to wrist
   double shoulder_m = 0;                  ///< height of the shoulder joints
 };
+
+/// The drive and the rider of a bicycle, in the frame of its VehicleShape.
+struct BicycleShape {
+  double thigh_m = 0, shank_m = 0;  ///< of the rider
+  dvec3 hip_m{0.0};                 ///< the middle of the hip joints
+  dvec3 bracket_m{0.0};             ///< the middle of the cranks' axle
+  double crank_m = 0.17;            ///< from this axle to those of the pedals
+  double ball_m = 0.07;             ///< of the foot, ahead of the shank: over the axle of the pedal
+  double pedal_m = 0.012;           ///< from that axle up to the sole
+  double rest = 0;                  ///< rad: the left crank points forward at 0, down at pi / 2
+  double gear = 0;                  ///< turns of the rear wheel for one of the cranks
+  double wheel_m = 0;               ///< radius of the rear wheel
+  /// Returns the way of one turn of the cranks.
+  double development_m() const { return gear * 2.0 * 3.14159265358979323846 * wheel_m; }
+};
+/// Returns it for the variants that are bicycles.
+std::optional<BicycleShape> bicycle_shape(const std::string& variant);
+/// Returns the shape of the rider of a two-wheeler.
+PersonShape rider_shape(double stature_m);
 
 /// Returns the variants of "vehicle" with four and more wheels, then the two-wheelers. The order is fixed.
 const std::vector<VehicleShape>& vehicle_shapes();

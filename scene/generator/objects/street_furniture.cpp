@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/generator/objects/street_furniture.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/units.h"
 #include "scene/generator/mesh/materials.h"
@@ -32,6 +34,39 @@ MeshBuilder arm_lamp(double height, double reach, const char* glass) {
   mesh.box(metal, {0.02, -0.1, height + 0.05}, {head + 0.05, 0.1, height + 0.16});
   mesh.box(material(glass), {reach, -0.15, height}, {head, 0.15, height + 0.08});
   return mesh;
+}
+
+/// Adds a closed prism between x0 and x1 over a profile in the y-z plane that is counter-clockwise as seen
+/// from +x.
+void add_prism_along_x(MeshBuilder& mesh, int material, const std::vector<dvec2>& profile, double x0,
+                       double x1) {
+  std::vector<dvec3> front, back;
+  for (const dvec2& p : profile) {
+    front.push_back(snap(dvec3(x1, p)));
+    back.push_back(snap(dvec3(x0, p)));
+  }
+  for (size_t i = 0; i < profile.size(); ++i) {
+    const size_t j = (i + 1) % profile.size();
+    mesh.quad(material, back[i], back[j], front[j], front[i]);
+  }
+  mesh.polygon(material, front);
+  std::ranges::reverse(back);
+  mesh.polygon(material, back);
+}
+
+/// Adds a round lens of 200 mm before the front of a housing at x, and the hood above it.
+void add_lens(MeshBuilder& mesh, const char* lens, double x, double z) {
+  constexpr double radius = 0.1, proud = 0.004;
+  std::vector<dvec3> corners;
+  for (const dvec2& p : regular_polygon(12, radius, dvec2(0.0, z), pi / 12.0))
+    corners.push_back(snap(dvec3(x + proud, p)));
+  mesh.polygon(material(lens), corners);
+  // Drivers look from below, and see the lens beneath a roof.
+  const double inner = radius + 0.01, outer = radius + 0.025, eaves = z + 0.03;
+  add_prism_along_x(
+      mesh, material("signal_housing"),
+      {{outer, eaves}, {0.0, z + outer}, {-outer, eaves}, {-inner, eaves}, {0.0, z + inner}, {inner, eaves}},
+      x - 0.01, x + 0.17);
 }
 
 }  // namespace
@@ -66,12 +101,22 @@ Lamp make_lamp(LampKind kind) {
   return lamp;
 }
 
-MeshBuilder make_signal(bool green) {
+MeshBuilder make_signal() {
   MeshBuilder mesh;
   mesh.box(material("galvanised_metal"), {-0.06, -0.06, -0.1}, {0.06, 0.06, 3.3});
-  mesh.box(material("signal_housing"), {0.05, -0.17, 2.35}, {0.3, 0.17, 3.35});
-  const double z = green ? 2.43 : 3.05;
-  mesh.box(material(green ? "signal_green" : "signal_red"), {0.25, -0.1, z}, {0.33, 0.1, z + 0.2});
+  mesh.box(material("signal_housing"), {0.05, -0.15, 2.35}, {0.3, 0.15, 3.25});
+  add_lens(mesh, "switched_green", 0.3, 2.5);
+  add_lens(mesh, "switched_amber", 0.3, 2.8);
+  add_lens(mesh, "switched_red", 0.3, 3.1);
+  return mesh;
+}
+
+MeshBuilder make_walk_signal(bool pole) {
+  MeshBuilder mesh;
+  if (pole) mesh.box(material("galvanised_metal"), {-0.06, -0.06, -0.1}, {0.06, 0.06, 2.75});
+  mesh.box(material("signal_housing"), {0.05, -0.14, 2.1}, {0.22, 0.14, 2.7});
+  add_lens(mesh, "switched_green", 0.22, 2.25);
+  add_lens(mesh, "switched_red", 0.22, 2.54);
   return mesh;
 }
 

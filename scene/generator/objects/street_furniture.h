@@ -19,8 +19,10 @@ struct Lamp {
 };
 Lamp make_lamp(LampKind kind);
 
-/// Makes a signal on its pole that faces +x, green or red.
-MeshBuilder make_signal(bool green);
+/// Makes a signal with three lenses on its pole, which faces +x.
+MeshBuilder make_signal();
+/// Makes a signal for people, red above green, that faces +x, with a pole of its own or fixed to another one.
+MeshBuilder make_walk_signal(bool pole);
 /// Makes a shelter of 4.2 m along y, open towards +x, with a poster that is lit by night.
 MeshBuilder make_shelter();
 MeshBuilder make_bin();

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/random.h"
 #include "core/units.h"
@@ -18,12 +19,15 @@ namespace {
 
 using Line = std::vector<dvec3>;
 
+/// The middles of the cranks lie this far from the middle of a bicycle.
+constexpr double crank_y = 0.072;
+
 /// Where a rider sits on a two-wheeler, and what holds hands and feet.
 struct Seat {
   dvec3 hip;                    ///< middle of the hip joints
   double lean;                  ///< of the trunk, rad
   dvec3 grip;                   ///< of the left hand
-  dvec3 foot_left, foot_right;  ///< where the soles rest
+  dvec3 foot_left, foot_right;  ///< where the soles rest, or the axles of pedals
   double stature;               ///< m
 };
 
@@ -41,17 +45,43 @@ dvec3 joint_between(const dvec3& a, const dvec3& b, double first, double second,
 /// Returns the turn about y that points a limb, which hangs down, along `direction`.
 double swing(const dvec3& direction) { return std::atan2(-direction.x, -direction.z); }
 
-PersonShape rider_shape(double stature) {
-  PersonShape shape = person_shape("man");
-  const double scale = stature / shape.height_m;
-  for (double* length : {&shape.height_m, &shape.hip_m, &shape.thigh_m, &shape.shank_m, &shape.upper_arm_m,
-                         &shape.forearm_m, &shape.shoulder_m})
-    *length = snap(*length * scale);
-  return shape;
+/// Returns the distance from the knee of a rider to the axle of the pedal.
+double to_pedal(const BicycleShape& bicycle) {
+  return std::hypot(bicycle.shank_m + bicycle.pedal_m, bicycle.ball_m);
+}
+
+/// Makes a shank with its pedal, which turns with the foot: the axle below the ball of the foot leads inwards
+/// to the crank.
+MeshBuilder pedalling_shank(const PersonShape& shape, const PersonLook& look, const BicycleShape& bicycle,
+                            double side) {
+  MeshBuilder mesh = make_shank(shape, look);
+  const double sole = -bicycle.shank_m, half = bicycle.pedal_m, ahead = bicycle.ball_m;
+  mesh.box(material("bumper"), {ahead - 0.045, -0.042, sole - 2.0 * half},
+           {ahead + 0.045, 0.042, sole - 0.001});
+  const double crank = side * (crank_y - hip_y(shape));  // from the middle of the foot
+  mesh.box(material("chrome"), {ahead - 0.006, std::min(crank, 0.0), sole - half - 0.006},
+           {ahead + 0.006, std::max(crank, 0.0), sole - half + 0.006});
+  return mesh;
+}
+
+/// Makes the cranks about their axle as they stand at rest.
+MeshBuilder make_cranks(const BicycleShape& bicycle) {
+  SmoothMesh tubes;
+  const dvec3 crank = bicycle.crank_m * dvec3(std::cos(bicycle.rest), 0.0, -std::sin(bicycle.rest));
+  for (const double side : {1.0, -1.0}) {
+    const dvec3 aside(0.0, side * crank_y, 0.0);
+    add_tube(tubes, material("chrome"), Line{aside, aside + side * crank}, 0.011, 3);
+  }
+  MeshBuilder mesh;
+  tubes.add_to(mesh, 1.3);
+  const std::vector<dvec2> ring = regular_polygon(10, 0.09);  // the chainring, on the right
+  mesh.prism_along_y(material("bumper"), ring, -0.056, -0.05);
+  return mesh;
 }
 
 /// Adds the rider's trunk and arms to the node `rider`, and his legs as nodes below it.
-void add_rider(SceneWriter& writer, const Seat& seat, const PersonLook& look, int root) {
+void add_rider(SceneWriter& writer, const Seat& seat, const PersonLook& look, int root,
+               const std::optional<BicycleShape>& bicycle) {
   const PersonShape shape = rider_shape(seat.stature);
   SmoothMesh figure;
   add_trunk(figure, shape, look, seat.hip, seat.lean);
@@ -73,26 +103,30 @@ void add_rider(SceneWriter& writer, const Seat& seat, const PersonLook& look, in
                                      .semantic_class = SemanticClass::person,
                                      .parent = root});
   const int thigh = writer.add_mesh("thigh", make_thigh(shape, look)),
-            shank = writer.add_mesh("shank", make_shank(shape, look));
+            shank = bicycle ? -1 : writer.add_mesh("shank", make_shank(shape, look));
   for (const double side : {1.0, -1.0}) {
     const std::string suffix = side > 0.0 ? "_left" : "_right";
     const dvec3 hip = seat.hip + dvec3(0.0, side * hip_y(shape), 0.0);
     dvec3 foot = side > 0.0 ? seat.foot_left : seat.foot_right;
     foot.y = hip.y;
-    const dvec3 knee = joint_between(hip, foot, shape.thigh_m, shape.shank_m, dvec3(1.0, 0.0, 0.3));
-    const double upper = swing(knee - hip), lower = swing(foot - knee);
+    const double shank_m = bicycle ? to_pedal(*bicycle) : shape.shank_m;
+    const dvec3 knee = joint_between(hip, foot, shape.thigh_m, shank_m, dvec3(1.0, 0.0, 0.3));
+    const double ahead = bicycle ? std::atan2(bicycle->ball_m, bicycle->shank_m + bicycle->pedal_m) : 0.0;
+    const double upper = swing(knee - hip), lower = swing(foot - knee) + ahead;
     const int node = writer.add_node({.name = "thigh" + suffix,
                                       .mesh = thigh,
                                       .position = hip,
                                       .pitch = upper,
                                       .semantic_class = SemanticClass::person,
                                       .parent = rider});
-    writer.add_node({.name = "shank" + suffix,
-                     .mesh = shank,
-                     .position = {0.0, 0.0, -shape.thigh_m},
-                     .pitch = lower - upper,
-                     .semantic_class = SemanticClass::person,
-                     .parent = node});
+    writer.add_node(
+        {.name = "shank" + suffix,
+         .mesh = bicycle ? writer.add_mesh("shank" + suffix, pedalling_shank(shape, look, *bicycle, side))
+                         : shank,
+         .position = {0.0, 0.0, -shape.thigh_m},
+         .pitch = lower - upper,
+         .semantic_class = SemanticClass::person,
+         .parent = node});
   }
 }
 
@@ -127,20 +161,6 @@ struct TwoWheeler {
   Seat seat;
 };
 
-/// Adds saddle, cranks and pedals. The left crank points forward and down.
-void add_drive(SmoothMesh& tubes, MeshBuilder& mesh, const dvec3& bracket, const dvec3& saddle, Seat& seat) {
-  mesh.box(material("bumper"), saddle + dvec3(-0.13, -0.08, -0.05), saddle + dvec3(0.12, 0.08, 0.0));
-  const dvec3 crank = 0.17 * glm::normalize(dvec3(0.6, 0.0, -0.8));
-  add_tube(tubes, material("chrome"), Line{bracket + dvec3(0, 0.07, 0), bracket + crank + dvec3(0, 0.075, 0)},
-           0.011, 3);
-  add_tube(tubes, material("chrome"), Line{bracket - dvec3(0, 0.07, 0), bracket - crank - dvec3(0, 0.075, 0)},
-           0.011, 3);
-  for (const double side : {1.0, -1.0}) {
-    const dvec3 pedal = bracket + side * crank + dvec3(0.0, side * 0.12, 0.0);
-    (side > 0.0 ? seat.foot_left : seat.foot_right) = pedal + dvec3(-0.05, 0.0, 0.014);
-  }
-}
-
 TwoWheeler make_bicycle(const VehicleShape& shape, int paint) {
   TwoWheeler made;
   const bool cargo = shape.variant == "cargo_bicycle";
@@ -171,8 +191,11 @@ TwoWheeler make_bicycle(const VehicleShape& shape, int paint) {
     tube(stem + dvec3(0, 0.07 * side, 0.01), dvec3(grip.x, side * 0.30, grip.z), 0.013, dark);
   MeshBuilder& mesh = made.body.mesh;
   const dvec3 lamp = cargo ? dvec3(front.x - 0.02, 0.0, front.z + 0.36) : head_top + dvec3(0.09, 0.0, 0.02);
-  made.seat = {saddle + dvec3(0.0, 0.0, 0.045), 0.30, grip, {}, {}, 1.72};
-  add_drive(tubes, mesh, bracket, saddle, made.seat);
+  mesh.box(dark, saddle + dvec3(-0.13, -0.08, -0.05), saddle + dvec3(0.12, 0.08, 0.0));
+  tube(bracket - dvec3(0.0, crank_y, 0.0), bracket + dvec3(0.0, crank_y, 0.0), 0.014, material("chrome"));
+  const BicycleShape drive = *bicycle_shape(shape.variant);
+  const dvec3 crank = drive.crank_m * dvec3(std::cos(drive.rest), 0.0, -std::sin(drive.rest));
+  made.seat = {drive.hip_m, 0.30, grip, drive.bracket_m + crank, drive.bracket_m - crank, 1.72};
   if (cargo) {
     const double low = 0.26, back = head_low.x + 0.06, fore = front.x - 0.30;
     tube(head_low, dvec3(back, 0.0, low - 0.03), 0.025, paint);
@@ -205,6 +228,14 @@ void add_hull(SmoothMesh& mesh, int material, const std::vector<dvec4>& contours
   add_rings(mesh, rings, [&](size_t, size_t) { return material; });
 }
 
+/// Adds the direction indicators of a motorcycle, on stalks beside its lamps.
+void add_stalked_indicators(MeshBuilder& mesh, const dvec3& lamp, const dvec3& tail) {
+  for (const dvec3& at : {lamp + dvec3(-0.06, 0.0, -0.05), tail + dvec3(0.05, 0.0, -0.05)}) {
+    add_boxes(mesh, material("bumper"), at + dvec3(-0.01, 0.01, -0.01), at + dvec3(0.01, 0.125, 0.01));
+    add_indicators(mesh, at + dvec3(-0.025, 0.12, -0.022), at + dvec3(0.025, 0.165, 0.022));
+  }
+}
+
 TwoWheeler make_motorcycle(const VehicleShape& shape, int paint) {
   TwoWheeler made;
   const dvec3 front = shape.wheels[0].hub_m, rear = shape.wheels[1].hub_m;
@@ -234,9 +265,10 @@ TwoWheeler make_motorcycle(const VehicleShape& shape, int paint) {
   mesh.box(dark, {front.x - 0.2, -0.07, front.z + 0.32}, {front.x + 0.2, 0.07, front.z + 0.345});
   const dvec3 lamp(0.645, 0.0, 0.93), tail(-0.92, 0.0, 0.88);
   mesh.box(material("headlight"), lamp - dvec3(0.1, 0.07, 0.05), lamp + dvec3(0.03, 0.07, 0.05));
-  mesh.box(material("tail_light"), tail - dvec3(0.02, 0.07, 0.025), tail + dvec3(0.06, 0.07, 0.025));
+  mesh.box(material("switched_stop"), tail - dvec3(0.02, 0.07, 0.025), tail + dvec3(0.06, 0.07, 0.025));
   mesh.box(material("number_plate"), {-0.99, -0.1, 0.58}, {-0.97, 0.1, 0.72});
   mesh.box(dark, {-0.975, -0.02, 0.66}, {-0.85, 0.02, 0.88});
+  add_stalked_indicators(made.body.mesh, lamp, tail);
   made.body.head_lamps = {lamp};
   made.body.tail_lamps = {tail};
   made.seat = {{-0.36, 0.0, 0.97}, 0.42, {0.30, 0.33, 1.06}, {-0.12, 0.0, 0.36}, {-0.12, 0.0, 0.36}, 1.76};
@@ -276,9 +308,10 @@ TwoWheeler make_scooter(const VehicleShape& shape, int paint) {
   mesh.box(dark, {rear.x - 0.12, -0.11, rear.z - 0.06}, {rear.x + 0.35, -0.07, rear.z + 0.1});
   const dvec3 lamp(0.36, 0.0, 0.95), tail(-0.90, 0.0, 0.66);
   mesh.box(material("headlight"), lamp - dvec3(0.1, 0.06, 0.045), lamp + dvec3(0.03, 0.06, 0.045));
-  mesh.box(material("tail_light"), tail - dvec3(0.02, 0.07, 0.03), tail + dvec3(0.1, 0.07, 0.03));
+  mesh.box(material("switched_stop"), tail - dvec3(0.02, 0.07, 0.03), tail + dvec3(0.1, 0.07, 0.03));
   mesh.box(material("number_plate"), {-0.925, -0.1, 0.46}, {-0.90, 0.1, 0.59});
   mesh.box(dark, {-0.905, -0.02, 0.5}, {-0.7, 0.02, 0.6});
+  add_stalked_indicators(made.body.mesh, lamp, tail);
   made.body.head_lamps = {lamp};
   made.body.tail_lamps = {tail};
   made.seat = {{-0.46, 0.0, 0.91}, 0.10, {0.22, 0.32, 1.02}, {0.14, 0.0, 0.32}, {0.14, 0.0, 0.32}, 1.70};
@@ -314,7 +347,14 @@ void write_two_wheeler(SceneWriter& writer, const VehicleShape& shape, uint64_t 
                      .position = wheel.hub_m,
                      .semantic_class = SemanticClass::vehicle,
                      .parent = root});
-  add_rider(writer, made.seat, look, root);
+  const std::optional<BicycleShape> bicycle = bicycle_shape(shape.variant);
+  if (bicycle)
+    writer.add_node({.name = "crank",
+                     .mesh = writer.add_mesh("crank", make_cranks(*bicycle)),
+                     .position = bicycle->bracket_m,
+                     .semantic_class = SemanticClass::vehicle,
+                     .parent = root});
+  add_rider(writer, made.seat, look, root, bicycle);
   add_vehicle_lights(writer, made.body, root);
 }
 

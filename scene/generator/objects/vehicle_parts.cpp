@@ -97,6 +97,11 @@ void add_boxes(MeshBuilder& mesh, int material, const dvec3& low, const dvec3& h
   mesh.box(material, {low.x, -high.y, low.z}, {high.x, -low.y, high.z});
 }
 
+void add_indicators(MeshBuilder& mesh, const dvec3& low, const dvec3& high) {
+  mesh.box(material("switched_left"), low, high);
+  mesh.box(material("switched_right"), {low.x, -high.y, low.z}, {high.x, -low.y, high.z});
+}
+
 void add_plate(MeshBuilder& mesh, double x, double z, bool front) {
   const double back = front ? x - 0.06 : x + 0.06;
   mesh.box(material("number_plate"), {std::min(x, back), -0.26, z - 0.055},

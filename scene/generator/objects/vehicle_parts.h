@@ -29,6 +29,8 @@ void add_axle(MeshBuilder& mesh, const dvec3& left_hub, double radius, double wi
 
 /// Adds a box and its mirror image in y.
 void add_boxes(MeshBuilder& mesh, int material, const dvec3& low, const dvec3& high);
+/// Adds a direction indicator on the left side, and its mirror image.
+void add_indicators(MeshBuilder& mesh, const dvec3& low, const dvec3& high);
 /// Adds a number plate whose outer face is at x, in front of a body (`front`) or behind it.
 void add_plate(MeshBuilder& mesh, double x, double z, bool front);
 

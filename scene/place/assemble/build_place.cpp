@@ -349,7 +349,7 @@ class Assembly {
           mesh = generator::make_conifer();
           break;
         case ObjectKind::signal:
-          mesh = generator::make_signal(true);
+          mesh = generator::make_signal();
           break;
         case ObjectKind::mast:
           mesh = generator::make_mast();

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/sensors/pose/pose_sensor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <nlohmann/json.hpp>
+
+#include "scene/description/lamps.h"
 
 namespace greatx::sim {
 
@@ -31,6 +34,17 @@ PoseSensor::PoseSensor(const Scenario& scenario, const scene::Scene& scene) {
         "[node, latitude longitude height] position on the Earth: WGS 84, height above the ellipsoid");
   }
   nlohmann::json metadata;
+  for (const scene::SwitchedLamp& lamp : scene::switched_lamps(scene).lamps)
+    metadata["lamps"].push_back(scene::name_of(scene, lamp));
+  if (metadata.contains("lamps")) {
+    lamps_ = metadata["lamps"].size();
+    spec_.arrays.push_back({"lamps",
+                            DType::f32,
+                            {static_cast<int64_t>(lamps_)},
+                            "1",
+                            "[lamp] the share of its light with which each lamp that switches shines"});
+    spec_.outputs.push_back({"lamps", FileFormat::npy_stack, {"lamps"}});
+  }
   for (const NodeConfig& node : scenario.nodes) metadata["nodes"].push_back(node.name);
   metadata["non_finite"] = {"mean_velocity"};
   metadata["local_origin_m"] = {scene.origin.x, scene.origin.y, scene.origin.z};
@@ -72,6 +86,11 @@ void PoseSensor::record(gpu::TickSlot& slot, const TickContext& context) {
       const Geodetic place = frame_->place(motions[node].pose.position);
       return dvec3(place.latitude_deg, place.longitude_deg, place.height_m);
     });
+  if (lamps_ == 0) return;
+  const std::vector<float> lamps =
+      context.lamps_at ? context.lamps_at(context.time_s) : std::vector<float>(lamps_, 1.0f);
+  arrays.emplace_back(DType::f32, std::vector<int64_t>{static_cast<int64_t>(lamps.size())});
+  std::ranges::copy(lamps, arrays.back().as<float>().begin());
 }
 
 std::vector<Array> PoseSensor::collect(const gpu::TickSlot& slot) { return std::move(arrays_[slot.index]); }

@@ -11,7 +11,8 @@
 
 namespace greatx::sim {
 
-/// Delivers the ground truth of the motion of all nodes whenever another sensor fires.
+/// Delivers the ground truth of the motion of all nodes, and of the lamps that switch, whenever another
+/// sensor fires.
 class PoseSensor : public Sensor {
  public:
   /// If the scene has a georeference, each record also has the places of the nodes on the Earth.
@@ -24,6 +25,7 @@ class PoseSensor : public Sensor {
  private:
   SensorSpec spec_;
   std::optional<LocalFrame> frame_;
+  size_t lamps_ = 0;  ///< that switch
   std::array<std::vector<Array>, slots_in_flight> arrays_;
 };
 

@@ -119,7 +119,12 @@ TEST(Night, LampsAndSignalsGlow) {
     EXPECT_GE(glow[glass], 5000.0);
     EXPECT_LE(glow[glass], 20000.0);
   }
-  EXPECT_TRUE(glow.contains("signal_red") && glow.contains("signal_green"));
+  // EN 12368: a lens of 200 mm gives 200 to 800 cd.
+  for (const char* lens : {"switched_red", "switched_amber", "switched_green"}) {
+    ASSERT_TRUE(glow.contains(lens)) << lens;
+    EXPECT_GE(glow[lens] * 0.01 * pi, 200.0) << lens;
+    EXPECT_LE(glow[lens] * 0.01 * pi, 800.0) << lens;
+  }
   EXPECT_FALSE(glow.contains("headlight")) << "nothing drives in the scene itself";
 }
 
@@ -243,9 +248,12 @@ TEST(Night, ADrivingCarHasLowBeamsAndTailLights) {
     for (const Material& m : soup.model.materials) {
       if (m.name == "headlight") {
         EXPECT_GT(emitted(m), 5000.0);
-      } else if (m.name == "tail_light") {
-        EXPECT_GT(emitted(m), 200.0);
-        EXPECT_LT(emitted(m), 1000.0);
+      } else if (m.name == "switched_stop") {  // tail lamps shine with a ninth of it
+        EXPECT_GT(emitted(m), 9.0 * 200.0);
+        EXPECT_LT(emitted(m), 9.0 * 1000.0);
+      } else if (m.name == "switched_left" || m.name == "switched_right") {
+        EXPECT_GT(emitted(m), 2000.0);
+        EXPECT_LT(emitted(m), 20000.0);
       } else {
         EXPECT_EQ(emitted(m), 0.0) << m.name;
       }

@@ -89,10 +89,10 @@ TEST_P(Vehicle, WheelsTurnAboutTheirHubsAndTouchTheGround) {
 
 TEST_P(Vehicle, KeepsToItsLimitOfTriangles) {
   const std::string& variant = shape().variant;
-  const size_t limit = shape().two_wheeler                                   ? 800
-                       : variant == "articulated_lorry" || variant == "tram" ? 1000
-                       : shape().length_m > 7.0                              ? 930
-                                                                             : 700;
+  const size_t limit = shape().two_wheeler                                   ? 870
+                       : variant == "articulated_lorry" || variant == "tram" ? 1050
+                       : shape().length_m > 7.0                              ? 980
+                                                                             : 750;
   EXPECT_LE(soup_.triangles.size(), limit);
   EXPECT_GE(soup_.triangles.size(), 300u);
 }
