@@ -227,16 +227,16 @@ std::vector<MaterialSpec> make_library() {
       {"signal_housing", "", dvec2(1.0), 0, vec3(0.03f, 0.035f, 0.03f), 0.6f, 0.0f, vec3(0), plastic},
       // Lenses of 200 mm shine with some 250 cd: 8000 cd/m^2 (EN 12368 asks for 200 cd at least). They are
       // dark glass before a black housing, and no obstacle to radio beside it.
-      {"switched_red", "", dvec2(1.0), 0, vec3(0.09f, 0.006f, 0.006f), 0.3f, 0.0f, vec3(37.4f, 0.06f, 0.03f),
+      {"switched_red", "", dvec2(1.0), 0, vec3(0.09f, 0.006f, 0.006f), 0.3f, 0.0f, vec3(37.6f, 0.0f, 0.0f),
        unseen},
-      {"switched_amber", "", dvec2(1.0), 0, vec3(0.09f, 0.045f, 0.006f), 0.3f, 0.0f, vec3(17.8f, 5.9f, 0.03f),
+      {"switched_amber", "", dvec2(1.0), 0, vec3(0.09f, 0.045f, 0.006f), 0.3f, 0.0f, vec3(17.8f, 5.9f, 0.0f),
        unseen},
-      {"switched_green", "", dvec2(1.0), 0, vec3(0.006f, 0.07f, 0.05f), 0.3f, 0.0f, vec3(0.06f, 10.8f, 3.8f),
+      {"switched_green", "", dvec2(1.0), 0, vec3(0.006f, 0.07f, 0.05f), 0.3f, 0.0f, vec3(0.0f, 11.0f, 2.0f),
        unseen},
       // Direction indicators give 50 to 500 cd (UN Regulation 6) from some 0.01 m^2.
-      {"switched_left", "", dvec2(1.0), 0, vec3(0.5f, 0.2f, 0.02f), 0.25f, 0.0f, vec3(22.0f, 7.3f, 0.04f),
+      {"switched_left", "", dvec2(1.0), 0, vec3(0.5f, 0.2f, 0.02f), 0.25f, 0.0f, vec3(22.0f, 7.3f, 0.0f),
        unseen},
-      {"switched_right", "", dvec2(1.0), 0, vec3(0.5f, 0.2f, 0.02f), 0.25f, 0.0f, vec3(22.0f, 7.3f, 0.04f),
+      {"switched_right", "", dvec2(1.0), 0, vec3(0.5f, 0.2f, 0.02f), 0.25f, 0.0f, vec3(22.0f, 7.3f, 0.0f),
        unseen},
       {"sign_blue", "", dvec2(1.0), 0, vec3(0.02f, 0.09f, 0.42f), 0.5f, 0.0f, vec3(0), sheet_metal},
       {"neon_red", "", dvec2(1.0), 0, vec3(0.55f, 0.06f, 0.08f), 0.4f, 0.0f, vec3(0.45f, 0.03f, 0.06f),
@@ -337,7 +337,7 @@ std::vector<MaterialSpec> make_library() {
        body_cover},
       {"headlight_off", "", dvec2(1.0), 0, vec3(0.5f, 0.52f, 0.55f), 0.15f, 0.0f, vec3(0), body_cover},
       // 60 to 260 cd of a stop lamp (UN Regulation 7) leave some 0.025 m^2; tail lamps shine with a ninth.
-      {"switched_stop", "", dvec2(1.0), 0, vec3(0.45f, 0.01f, 0.01f), 0.2f, 0.0f, vec3(20.7f, 0.036f, 0.027f),
+      {"switched_stop", "", dvec2(1.0), 0, vec3(0.45f, 0.01f, 0.01f), 0.2f, 0.0f, vec3(20.7f, 0.0f, 0.0f),
        body_cover},
       {"tail_light", "", dvec2(1.0), 0, vec3(0.45f, 0.01f, 0.01f), 0.2f, 0.0f, vec3(2.3f, 0.004f, 0.003f),
        body_cover},

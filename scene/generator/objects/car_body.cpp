@@ -393,7 +393,7 @@ void add_car_details(VehicleBody& body, const VehicleShape& shape, const CarStyl
   add_boxes(mesh, material("headlight"), head + dvec3(-0.1, -0.055, -0.04),
             head + dvec3(0.008, 0.055, 0.015));
   const dvec3 tail(-front, 0.66 * w, style.tail - 0.12);
-  add_indicators(mesh, head + dvec3(-0.1, -0.055, -0.078), head + dvec3(0.012, 0.055, -0.045));
+  add_indicators(mesh, head + dvec3(-0.1, 0.06, -0.036), head + dvec3(0.004, 0.11, 0.011));
   add_indicators(mesh, tail + dvec3(-0.006, -0.06, -0.03), tail + dvec3(0.1, 0.06, 0.01));
   body.head_lamps = {head + dvec3(0.03, 0.0, 0.0)};
   body.tail_lamps = {tail};
