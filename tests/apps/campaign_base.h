@@ -19,6 +19,7 @@ seed: 4
 ticks: {}
 tick_rate_hz: 10
 scene: {{generate: {{kind: canyon, seed: 3, size_m: 60}}}}
+environment: {{clouds: 0}}
 nodes:
   - name: bs
     trajectory: {{type: static, position_m: [1, -20, 6]}}

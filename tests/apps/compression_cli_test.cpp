@@ -26,6 +26,7 @@ seed: 2
 ticks: 8
 tick_rate_hz: 20
 scene: {generate: {kind: canyon, seed: 3, size_m: 60}}
+environment: {clouds: 0}
 nodes:
   - name: mast
     trajectory: {type: static, position_m: [1, -20, 6]}

@@ -32,6 +32,7 @@ seed: 3
 ticks: 2
 tick_rate_hz: 10
 scene: {generate: {kind: canyon, seed: 3, size_m: 60}}
+environment: {clouds: 0}
 nodes:
   - name: van
     trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-2, -20, 1.5]}, )"

@@ -22,6 +22,7 @@ name: events
 ticks: 100
 tick_rate_hz: 1000
 scene: {generate: {kind: canyon, seed: 3, size_m: 60}, optical_only: true}
+environment: {clouds: 0}
 nodes:
   - name: van
     trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2, -6, 0]}, )"

@@ -65,6 +65,7 @@ seed: 2
 ticks: 4
 tick_rate_hz: 20
 scene: {SCENE}
+environment: {clouds: 0}
 nodes:
   - name: mast
     trajectory: {type: static, MAST}

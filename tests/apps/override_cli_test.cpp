@@ -29,6 +29,7 @@ name: drawn
 duration_s: 0.6   # six ticks
 tick_rate_hz: 10
 scene: {generate: {kind: canyon, seed: 3, size_m: 60}}
+environment: {clouds: 0}
 nodes:
   - name: uav
     trajectory: {type: bezier, box: {min_m: [-20, -5, 2], max_m: [20, 5, 20]}, offset_m: [3, 3, 3]}

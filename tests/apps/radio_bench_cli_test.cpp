@@ -25,6 +25,7 @@ ticks: 3
 tick_rate_hz: 10
 scene:
   generate: {kind: canyon, seed: 9, size_m: 100}
+environment: {clouds: 0}
 nodes:
   - name: bs
     trajectory: {type: static, position_m: [6.3, -21.7, 9.4]}
