@@ -27,7 +27,7 @@ namespace {
 using scene::LampRole;
 using scene::Light;
 
-std::string city(const std::string& rest) {
+std::string lit_city(const std::string& rest) {
   return "greatx: 1\nname: test\nseed: 3\nticks: 100\ntick_rate_hz: 10\n"
          "scene: {generate: {kind: city, size_m: 300, seed: 7}}\n" +
          rest;
@@ -64,7 +64,7 @@ TEST(Signals, GoRoundInTheirCycle) {
 /// Every approach to a junction with signals has one head on its right, which faces those who come, and every
 /// zebra there has two heads for people.
 TEST(Signals, StandAtTheStreetsOfTheirGroup) {
-  const Scenario scenario = parse_scenario(city(""), "test.yaml", ".", "");
+  const Scenario scenario = parse_scenario(lit_city(""), "test.yaml", ".", "");
   const World world = load_world(scenario);
   const scene::StreetNetwork streets = network();
   std::map<std::string, const scene::Instance*> instances;
@@ -114,7 +114,7 @@ TEST(Signals, StandAtTheStreetsOfTheirGroup) {
 /// At every time each head shows the one light that drivers or people of the simulation see.
 TEST(Signals, ShowWhatTheTrafficSees) {
   const Scenario scenario =
-      parse_scenario(city("traffic: {vehicles: 1, warm_up_s: 1}\n"), "test.yaml", ".", "");
+      parse_scenario(lit_city("traffic: {vehicles: 1, warm_up_s: 1}\n"), "test.yaml", ".", "");
   const World world = load_world(scenario);
   const Courses courses = make_courses(scenario, world, 0);
   const scene::StreetNetwork made = network();
@@ -159,7 +159,7 @@ TEST(Signals, ShowWhatTheTrafficSees) {
 
 /// Signals switch without any traffic, too.
 TEST(Signals, NeedNoTraffic) {
-  const Scenario scenario = parse_scenario(city(""), "test.yaml", ".", "");
+  const Scenario scenario = parse_scenario(lit_city(""), "test.yaml", ".", "");
   const World world = load_world(scenario);
   const Courses courses = make_courses(scenario, world, 0);
   EXPECT_NE(world.lamps.factors(courses, 1.0), world.lamps.factors(courses, 20.0));
@@ -224,8 +224,8 @@ TEST(Indicators, FlashNinetyTimesAMinute) {
 /// turn.
 TEST(VehicleLamps, FollowTheTraffic) {
   const Scenario scenario = parse_scenario(
-      city("traffic: {vehicles: 8, cyclists: 1, warm_up_s: 20, mix: {saloon: 1, bicycle: 1}}\n"), "test.yaml",
-      ".", "");
+      lit_city("traffic: {vehicles: 8, cyclists: 1, warm_up_s: 20, mix: {saloon: 1, bicycle: 1}}\n"),
+      "test.yaml", ".", "");
   const World world = load_world(scenario);
   const Courses courses = make_courses(scenario, world, 0);
   const scene::SwitchedLamps lamps = scene::switched_lamps(world.scene);
