@@ -22,7 +22,8 @@ using test::KeptRun;
 
 const std::string street =
     "greatx: 1\nname: test\nseed: 5\nticks: 201\ntick_rate_hz: 1000\n"
-    "scene: {generate: {kind: canyon, seed: 3, size_m: 60}, optical_only: true}\nnodes:\n";
+    "scene: {generate: {kind: canyon, seed: 3, size_m: 60}, optical_only: true}\n"
+    "environment: {clouds: 0}\nnodes:\n";
 const std::string by_pixel = ", steps: {by: pixel, max_px: 0.5}";
 const std::string every_effect =
     ", threshold: {on: 0.15, off: 0.2, sigma: 0.03}, noise: {leak_rate_hz: 2, shot_rate_hz: 10}, "
@@ -147,7 +148,7 @@ TEST(EventPixel, ALensThatDistortsIsRefused) {
   };
   EXPECT_EQ(message_of(by_pixel), "");
   EXPECT_EQ(message_of(by_pixel + ", distortion: {k1: -0.1}"),
-            "test.yaml:14: nodes[1].sensors[0].steps.by: expected 'flow', 'brightness' or a number behind a "
+            "test.yaml:15: nodes[1].sensors[0].steps.by: expected 'flow', 'brightness' or a number behind a "
             "lens that distorts, found 'pixel'");
 }
 

@@ -21,7 +21,8 @@ using test::KeptRun;
 
 const std::string head =
     "greatx: 1\nname: test\nseed: 5\nticks: 201\ntick_rate_hz: 1000\n"
-    "scene: {generate: {kind: canyon, seed: 3, size_m: 60}, optical_only: true}\nnodes:\n";
+    "scene: {generate: {kind: canyon, seed: 3, size_m: 60}, optical_only: true}\n"
+    "environment: {clouds: 0}\nnodes:\n";
 
 /// Returns a node with a van in the view. It drives through the view if `moves`.
 std::string van(bool moves) {

@@ -83,7 +83,8 @@ struct Rates {
 
 std::string scenario(const Rates& rates) {
   return "greatx: 1\nname: test\nseed: 5\nticks: " + std::to_string(rates.ticks) +
-         "\ntick_rate_hz: " + rates.tick + "\nnodes:\n  - name: rig\n" + along(0.0, 2.0) +
+         "\ntick_rate_hz: " + rates.tick + "\nenvironment: {clouds: 0}\nnodes:\n  - name: rig\n" +
+         along(0.0, 2.0) +
          "    sensors:\n"
          "      - {name: camera, type: camera, rate_hz: " +
          rates.camera +

@@ -26,6 +26,7 @@ seed: 5
 ticks: 4
 tick_rate_hz: 10
 scene: {generate: {kind: city, seed: 3, size_m: 100}}
+environment: {clouds: 0}
 nodes:
   - name: mast
     trajectory: {type: static, position_m: [3, 4, 30]}
