@@ -16,7 +16,7 @@ import greatx
 import support
 
 #: Extent of the generated car along its own x, y, z: length, width, height (m).
-CAR_M = (4.058, 1.95, 1.46)
+CAR_M = (4.06, 1.95, 1.46)
 
 SCENE = """
 greatx: 1

@@ -11,6 +11,7 @@
 namespace greatx::shared {
 using glm::floatBitsToUint;
 using glm::max;
+using glm::min;
 using std::exp;
 using std::sqrt;
 }  // namespace greatx::shared
@@ -20,15 +21,16 @@ GREATX_SHARED_BEGIN
 
 /// Applies the response of film to light: 1 - exp(-2.2 x) of the brightest channel, which lifts the mid-tones
 /// and never quite reaches 1. The other channels keep their ratio to the brightest, and fade towards white as
-/// it saturates (as in Khronos' PBR Neutral tone mapper, 2024). Input and output are linear Rec. 709, from
-/// [0, inf) to [0, 1].
+/// it saturates (as in Khronos' PBR Neutral tone mapper, 2024), but keep three quarters of their saturation:
+/// by night a signal is a thousand times as bright as white, and its colour can still be told. Input and
+/// output are linear Rec. 709, from [0, inf) to [0, 1].
 GREATX_FUNCTION vec3 tone_map(vec3 color) {
   const float response = 2.2f;
-  const float desaturation = 0.15f;
+  const float desaturation = 0.15f, most_fade = 4.0f / 3.0f;
   float peak = max(max(color.x, max(color.y, color.z)), 1e-9f);
   float new_peak = 1.0f - exp(-response * peak);
   // This is color new_peak / peak, mixed with white of that peak by 1 - 1 / fade.
-  float fade = desaturation * max(peak - new_peak, 0.0f) + 1.0f;
+  float fade = min(desaturation * max(peak - new_peak, 0.0f) + 1.0f, most_fade);
   float both = new_peak / (peak * fade);
   return color * both + vec3(new_peak - peak * both);
 }

@@ -94,6 +94,15 @@ TEST(Develop, IsMonotoneAndEndsBelowWhite) {
   }
 }
 
+TEST(Develop, ALampOfOneColorKeepsThreeQuartersOfItsSaturation) {
+  for (float x = 0.01f; x < 1e5f; x *= 1.5f) {
+    const vec3 y = shared::tone_map(vec3(x, 0.0f, 0.0f));
+    EXPECT_GE(y.x - y.y, 0.75f * y.x - 1e-6f) << x;
+    EXPECT_EQ(y.y, y.z);
+  }
+  EXPECT_NEAR(shared::tone_map(vec3(1e4f, 0.0f, 0.0f)).y, 0.25f, 1e-6f);
+}
+
 TEST(Develop, SrgbBytes) {
   // IEC 61966-2-1: 18 % grey is code 118, and the linear segment ends at code 10.
   EXPECT_EQ(shared::srgb_byte(0.18f), 118u);

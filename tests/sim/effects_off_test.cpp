@@ -74,8 +74,7 @@ scene::Scene yard() {
   const uint32_t g = tiny.material_as(ground), w = tiny.material_as(surface("wall", "concrete"));
   const uint32_t f = tiny.material_as(fence), s = tiny.material_as(sign), p = tiny.material_as(pane);
   const uint32_t l = tiny.material_as(leaves), v = tiny.material_as(surface("van", "metal"));
-  scene::Material lens = leaves;
-  lens.name = "switched_red";
+  scene::Material lens = surface("switched_red", "glass", 0.003);
   lens.pbr.emissive = vec3(50.0f);
   const uint32_t van = tiny.body("van"), q = tiny.material_as(lens);
   tiny.object("ground", 0, g).quad({-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0});
