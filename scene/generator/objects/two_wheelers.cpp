@@ -310,7 +310,7 @@ TwoWheeler make_scooter(const VehicleShape& shape, int paint) {
   mesh.box(material("headlight"), lamp - dvec3(0.1, 0.06, 0.045), lamp + dvec3(0.03, 0.06, 0.045));
   mesh.box(material("switched_stop"), tail - dvec3(0.02, 0.07, 0.03), tail + dvec3(0.1, 0.07, 0.03));
   mesh.box(material("number_plate"), {-0.925, -0.1, 0.46}, {-0.90, 0.1, 0.59});
-  mesh.box(dark, {-0.905, -0.02, 0.5}, {-0.7, 0.02, 0.6});
+  mesh.box(dark, {-0.905, -0.02, 0.5}, {-0.7, 0.02, 0.605});
   add_stalked_indicators(made.body.mesh, lamp, tail);
   made.body.head_lamps = {lamp};
   made.body.tail_lamps = {tail};
