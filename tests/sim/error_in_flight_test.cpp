@@ -58,7 +58,8 @@ std::string yaml(const Beside& beside, bool radar, bool radar_first) {
   if (radar && other.empty()) sensors = radar_yaml;
   if (radar && !other.empty())
     sensors = radar_first ? radar_yaml + ",\n " + other : other + ",\n " + radar_yaml;
-  return "greatx: 1\nname: wall\nseed: 5\nticks: 6\ntick_rate_hz: 10\nnodes:\n"
+  return "greatx: 1\nname: wall\nseed: 5\nticks: 6\ntick_rate_hz: 10\nenvironment: {clouds: 0}\n"
+         "nodes:\n"
          "  - name: mast\n    trajectory: {type: static, position_m: [2, 3, 1]}\n"
          "    sensors: [{name: horn, type: antenna}]\n"
          "  - name: car\n    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [0, 0, 0]}, "

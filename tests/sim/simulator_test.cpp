@@ -36,7 +36,10 @@ void expect_same_sensor(const KeptRun& a, const KeptRun& b, const std::string& s
 }
 
 const std::string head = "greatx: 1\nname: test\nseed: 5\nticks: 3\ntick_rate_hz: 10\n";
-const std::string city = "scene: {generate: {kind: city, seed: 3, size_m: 100}}\n";
+const std::string fair_city = "scene: {generate: {kind: city, seed: 3, size_m: 100}}\n";
+/// Clouds take half of the time that such a small world needs to start. Tests that do not look at the sky do
+/// without them.
+const std::string city = fair_city + "environment: {clouds: 0}\n";
 const std::string bs =
     "  - name: bs\n    trajectory: {type: static, position_m: [3, 4, 30]}\n"
     "    sensors: [{name: panel, type: antenna, polarization: vh, rows: 2, columns: 2}]\n";
@@ -118,7 +121,7 @@ TEST(Consistency, RaysThatMeetHolesAreNotHeldAgainstThePicture) {
 
 TEST(Consistency, ModalitiesSeeOneWorld) {
   const KeptRun r =
-      keep_run(head + city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel());
+      keep_run(head + fair_city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel());
   const Consistency& c = r.statistics.consistency;
   EXPECT_GT(c.at(depth_figure).count(), 100u);
   EXPECT_LT(c.at(depth_figure).max(), 1e-4);
@@ -133,7 +136,7 @@ TEST(Consistency, ModalitiesSeeOneWorld) {
 TEST(Consistency, PicturesAndLidarSeePeopleAndCarsWhereTheyAre) {
   const KeptRun r = keep_run(
       head +
-      "scene: {generate: {kind: city, seed: 7, size_m: 225}}\n"
+      "scene: {generate: {kind: city, seed: 7, size_m: 225}}\nenvironment: {clouds: 0}\n"
       "traffic: {vehicles: 12, cyclists: 4, pedestrians: 24}\n"
       "nodes:\n  - name: mast\n    trajectory: {type: static, position_m: [-8.2, -8.2, 8]}\n    sensors:\n"
       "      - {name: camera, type: camera, rate_hz: 10, width: 320, height: 240, fov_deg: 100, outputs: "
@@ -160,10 +163,11 @@ TEST(Plan, ACameraAloneBuildsNothingOfRadioOrLidar) {
 
 TEST(Plan, OtherSensorsChangeNoByte) {
   const KeptRun all =
-      keep_run(head + city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel());
-  expect_same_sensor(all, keep_run(head + city + "nodes:\n" + bs + uav(camera, uav_model)), "uav/camera");
-  expect_same_sensor(all, keep_run(head + city + "nodes:\n" + bs + uav(lidar, uav_model)), "uav/lidar");
-  expect_same_sensor(all, keep_run(head + city + "nodes:\n" + bs + uav(antenna, uav_model) + channel()),
+      keep_run(head + fair_city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel());
+  expect_same_sensor(all, keep_run(head + fair_city + "nodes:\n" + bs + uav(camera, uav_model)),
+                     "uav/camera");
+  expect_same_sensor(all, keep_run(head + fair_city + "nodes:\n" + bs + uav(lidar, uav_model)), "uav/lidar");
+  expect_same_sensor(all, keep_run(head + fair_city + "nodes:\n" + bs + uav(antenna, uav_model) + channel()),
                      "csi");
 }
 
@@ -291,7 +295,7 @@ TEST(Simulator, SequencesDifferAndRepeat) {
 
 TEST(Simulator, StartingLaterGivesTheSameRest) {
   const std::string yaml =
-      head + city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel();
+      head + fair_city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel();
   const KeptRun whole = keep_run(yaml), rest = keep_run(yaml, 0, 1);
   ASSERT_EQ(rest.packets.size(), 2u);
   for (size_t i = 0; i < rest.packets.size(); ++i)
@@ -305,7 +309,7 @@ TEST(HardCase, N07_AtUtmCoordinatesTheSameOutput) {
     };
     return head +
            "scene: {objects: [{name: city, generate: {kind: city, seed: 3, size_m: 100}, position_m: " +
-           v(0, 0, 0) + "}]}\nnodes:\n" +
+           v(0, 0, 0) + "}]}\nenvironment: {clouds: 0}\nnodes:\n" +
            "  - name: bs\n    trajectory: {type: static, position_m: " + v(3, 4, 30) +
            "}\n    sensors: [{name: panel, type: antenna}]\n" +
            "  - name: uav\n    trajectory: {type: waypoints, points: [{t_s: 0, position_m: " +
