@@ -91,8 +91,8 @@ TEST_P(Vehicle, KeepsToItsLimitOfTriangles) {
   const std::string& variant = shape().variant;
   const size_t limit = shape().two_wheeler                                   ? 870
                        : variant == "articulated_lorry" || variant == "tram" ? 1050
-                       : shape().length_m > 7.0                              ? 980
-                                                                             : 750;
+                       : shape().length_m > 7.0 || variant == "minibus"      ? 980
+                                                                             : 850;
   EXPECT_LE(soup_.triangles.size(), limit);
   EXPECT_GE(soup_.triangles.size(), 300u);
 }
