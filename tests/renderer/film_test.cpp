@@ -80,7 +80,7 @@ TEST(Film, ToneCurveIsTheFormulaAndStaysWithinOne) {
     for (const vec3 tint : {vec3(1.0f), vec3(1.0f, 0.5f, 0.0f), vec3(0.1f, 0.9f, 1.0f)}) {
       const vec3 got = tone_map(x * tint);
       const double peak = x, new_peak = 1.0 - std::exp(-2.2 * peak);
-      const double g = 1.0 - 1.0 / (0.15 * std::max(peak - new_peak, 0.0) + 1.0);
+      const double g = std::min(1.0 - 1.0 / (0.15 * std::max(peak - new_peak, 0.0) + 1.0), 0.25);
       for (int c = 0; c < 3; ++c) {
         const double ratio = peak > 0.0 ? new_peak / peak : 2.2;
         const double expected = x * tint[c] * ratio * (1.0 - g) + new_peak * g;

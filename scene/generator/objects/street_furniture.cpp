@@ -62,7 +62,7 @@ void add_lens(MeshBuilder& mesh, const char* lens, double x, double z) {
     corners.push_back(snap(dvec3(x + proud, p)));
   mesh.polygon(material(lens), corners);
   // Drivers look from below, and see the lens beneath a roof.
-  const double inner = radius + 0.01, outer = radius + 0.025, eaves = z + 0.03;
+  const double inner = radius + 0.01, outer = radius + 0.03, eaves = z + 0.03;
   add_prism_along_x(
       mesh, material("signal_housing"),
       {{outer, eaves}, {0.0, z + outer}, {-outer, eaves}, {-inner, eaves}, {0.0, z + inner}, {inner, eaves}},
