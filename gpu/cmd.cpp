@@ -175,10 +175,9 @@ void Cmd::bind(const Pipeline& pipeline) {
 }
 
 void Cmd::push(std::span<const Descriptor> descriptors) {
-  constexpr size_t max_descriptors = most_push_descriptors;
-  GREATX_CHECK(descriptors.size() <= max_descriptors, "{} descriptors", descriptors.size());
-  std::array<VkWriteDescriptorSet, max_descriptors> writes{};
-  std::array<VkWriteDescriptorSetAccelerationStructureKHR, max_descriptors> structures{};
+  GREATX_CHECK(descriptors.size() <= most_push_descriptors, "{} descriptors", descriptors.size());
+  std::array<VkWriteDescriptorSet, most_push_descriptors> writes{};
+  std::array<VkWriteDescriptorSetAccelerationStructureKHR, most_push_descriptors> structures{};
   for (size_t i = 0; i < descriptors.size(); ++i) {
     check_range(descriptors[i]);
     writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;

@@ -301,10 +301,11 @@ Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
 ComputePipeline::ComputePipeline(Device& device, const ComputeDesc& desc, std::string_view name) {
   bind_point_ = VK_PIPELINE_BIND_POINT_COMPUTE;
   create_layout(device, desc.bindings, desc.push_constant_bytes, desc.textures, VK_SHADER_STAGE_COMPUTE_BIT);
-  spirv(variant_of(desc.shader, desc.textures));  // throws here if there is none
-  begin_build(name,
-              [&device, shader = variant_of(desc.shader, desc.textures), constants = desc.specialization,
-               layout = layout_] { return make_compute(device, shader, constants, layout); });
+  const std::string shader = variant_of(desc.shader, desc.textures);
+  spirv(shader);  // throws here if there is none
+  begin_build(name, [&device, shader, constants = desc.specialization, layout = layout_] {
+    return make_compute(device, shader, constants, layout);
+  });
 }
 
 GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsDesc& desc, std::string_view name) {

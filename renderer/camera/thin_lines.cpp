@@ -146,6 +146,23 @@ void ThinLines::add_primitive(const scene::Scene& scene, const scene::Primitive&
   }
 }
 
+namespace {
+
+/// Projects points into the picture of a view.
+struct Projection {
+  const CameraView& view;
+  double depth(const dvec3& p) const { return glm::dot(view.forward, p - view.eye); }
+  dvec2 place(const dvec3& p) const {
+    const PinholeView& pinhole = view.pinhole;
+    const dvec3 from_eye = p - view.eye;
+    return dvec2(glm::dot(view.right, from_eye) * pinhole.fx, glm::dot(view.down, from_eye) * pinhole.fy) /
+               glm::dot(view.forward, from_eye) +
+           dvec2(pinhole.cx, pinhole.cy);
+  }
+};
+
+}  // namespace
+
 /// A prism in the picture.
 struct ThinLines::Line {
   dvec2 from{0.0}, to{0.0};                     ///< the middles between its rims
@@ -155,18 +172,25 @@ struct ThinLines::Line {
   double nearest = 0.0;
 };
 
+/// The part of a prism's axis before the eye: its shares of the axis, its ends in the picture, and the normal
+/// there.
+struct ThinLines::Axis {
+  double begin = 0.0, end = 1.0;
+  std::array<dvec2, 2> ends;
+  dvec2 normal{0.0};
+};
+
 bool ThinLines::project(const Prism& prism, const CameraView& view, Line& line) const {
   const PinholeView& pinhole = view.pinhole;
+  const Projection picture{view};
   const double focal = std::max(pinhole.fx, pinhole.fy), near = view.constants.near_m;
-  const auto depth_of = [&](const dvec3& p) { return glm::dot(view.forward, p - view.eye); };
-  // Only the part before the eye counts.
-  const double from_depth = depth_of(prism.from), to_depth = depth_of(prism.to);
+  const double from_depth = picture.depth(prism.from), to_depth = picture.depth(prism.to);
   const double least = near + prism.radius;
-  double begin = 0.0, end = 1.0;
+  Axis axis;
   if (from_depth < least && to_depth < least) return false;
-  if (from_depth < least) begin = (least - from_depth) / (to_depth - from_depth);
-  if (to_depth < least) end = (least - from_depth) / (to_depth - from_depth);
-  line.depth = {glm::mix(from_depth, to_depth, begin), glm::mix(from_depth, to_depth, end)};
+  if (from_depth < least) axis.begin = (least - from_depth) / (to_depth - from_depth);
+  if (to_depth < least) axis.end = (least - from_depth) / (to_depth - from_depth);
+  line.depth = {glm::mix(from_depth, to_depth, axis.begin), glm::mix(from_depth, to_depth, axis.end)};
   line.nearest = std::min(line.depth[0], line.depth[1]);
   // A prism is at least 1.4 times as wide as its edges lie away from its axis.
   if (1.4 * prism.radius * std::min(pinhole.fx, pinhole.fy) > shared::line_most_pixels * line.nearest)
@@ -174,55 +198,59 @@ bool ThinLines::project(const Prism& prism, const CameraView& view, Line& line) 
   if (view.outside(0.5 * (prism.from + prism.to) - view.eye,
                    0.5 * glm::distance(prism.from, prism.to) + prism.radius))
     return false;
-  const auto place = [&](const dvec3& p) {
-    const dvec3 from_eye = p - view.eye;
-    return dvec2(glm::dot(view.right, from_eye) * pinhole.fx, glm::dot(view.down, from_eye) * pinhole.fy) /
-               glm::dot(view.forward, from_eye) +
-           dvec2(pinhole.cx, pinhole.cy);
-  };
-  const auto axis_at = [&](double t) { return place(glm::mix(prism.from, prism.to, t)); };
-  const std::array<dvec2, 2> ends{axis_at(begin), axis_at(end)};
-  const double length = glm::distance(ends[0], ends[1]);
+  axis.ends = {picture.place(glm::mix(prism.from, prism.to, axis.begin)),
+               picture.place(glm::mix(prism.from, prism.to, axis.end))};
+  const double length = glm::distance(axis.ends[0], axis.ends[1]);
   if (length < 0.25 || prism.radius * focal < 1e-3 * line.nearest) return false;
-  const dvec2 along = (ends[1] - ends[0]) / length, normal(-along.y, along.x);
-  std::array<dvec2, 2> middles = ends;
+  const dvec2 along = (axis.ends[1] - axis.ends[0]) / length;
+  axis.normal = {-along.y, along.x};
+  find_rims(prism, view, axis, line);
+  if (2.0 * std::max(line.half_width[0], line.half_width[1]) > shared::line_most_pixels) return false;
+  find_sides(prism, view, axis, line);
+  line.first_triangle = prism.first_triangle;
+  line.triangle_count = prism.triangle_count;
+  return line.triangle[0] != 0 && line.triangle[1] != 0;
+}
+
+void ThinLines::find_rims(const Prism& prism, const CameraView& view, const Axis& axis, Line& line) const {
+  const Projection picture{view};
+  std::array<dvec2, 2> middles = axis.ends;
   for (size_t k = 0; k < 2; ++k) {
     double low = 0.0, high = 0.0;
     for (uint32_t i = prism.first_edge; i < prism.first_edge + prism.edge_count; ++i) {
-      const dvec3 corner = glm::mix(edges_[i].from, edges_[i].to, k == 0 ? begin : end);
-      const double away = glm::dot(place(corner) - ends[k], normal);
+      const dvec3 corner = glm::mix(edges_[i].from, edges_[i].to, k == 0 ? axis.begin : axis.end);
+      const double away = glm::dot(picture.place(corner) - axis.ends[k], axis.normal);
       low = std::min(low, away);
       high = std::max(high, away);
     }
     line.half_width[k] = 0.5 * (high - low);
-    middles[k] += 0.5 * (low + high) * normal;
+    middles[k] += 0.5 * (low + high) * axis.normal;
   }
-  if (2.0 * std::max(line.half_width[0], line.half_width[1]) > shared::line_most_pixels) return false;
   line.from = middles[0];
   line.to = middles[1];
-  // The sides that face the eye in the middle of each half, halfway along.
+}
+
+void ThinLines::find_sides(const Prism& prism, const CameraView& view, const Axis& axis, Line& line) const {
+  const Projection picture{view};
   std::array<double, 2> nearest{1e300, 1e300};
-  const double half = 0.5 * (line.half_width[0] + line.half_width[1]), t = 0.5 * (begin + end);
-  const dvec2 middle = axis_at(t);
-  const double shift = 0.5 * glm::dot(middles[0] - ends[0] + middles[1] - ends[1], normal);
+  const double half = 0.5 * (line.half_width[0] + line.half_width[1]), t = 0.5 * (axis.begin + axis.end);
+  const dvec2 middle = picture.place(glm::mix(prism.from, prism.to, t));
+  const double shift = 0.5 * glm::dot(line.from - axis.ends[0] + line.to - axis.ends[1], axis.normal);
   for (uint32_t i = 0; i < prism.edge_count; ++i) {
     const Edge &edge = edges_[prism.first_edge + i],
                &next = edges_[prism.first_edge + (i + 1) % prism.edge_count];
     const dvec3 a = glm::mix(edge.from, edge.to, t), b = glm::mix(next.from, next.to, t);
-    const double at_a = glm::dot(place(a) - middle, normal) - shift,
-                 at_b = glm::dot(place(b) - middle, normal) - shift;
+    const double at_a = glm::dot(picture.place(a) - middle, axis.normal) - shift,
+                 at_b = glm::dot(picture.place(b) - middle, axis.normal) - shift;
     for (size_t k = 0; k < 2; ++k) {
       const double wanted = k == 0 ? -0.5 * half : 0.5 * half;
       if (wanted < std::min(at_a, at_b) || wanted > std::max(at_a, at_b) || at_a == at_b) continue;
-      const double depth = depth_of(glm::mix(a, b, (wanted - at_a) / (at_b - at_a)));
+      const double depth = picture.depth(glm::mix(a, b, (wanted - at_a) / (at_b - at_a)));
       if (depth >= nearest[k]) continue;
       nearest[k] = depth;
       line.triangle[k] = edge.triangle + 1;
     }
   }
-  line.first_triangle = prism.first_triangle;
-  line.triangle_count = prism.triangle_count;
-  return line.triangle[0] != 0 && line.triangle[1] != 0;
 }
 
 std::vector<uint32_t> ThinLines::words(const CameraView& view) const {

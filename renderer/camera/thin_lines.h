@@ -52,8 +52,14 @@ class ThinLines {
     double radius = 0.0;       ///< of its edges around the axis between them, at most
   };
   struct Line;
+  struct Axis;
   void add_primitive(const scene::Scene& scene, const scene::Primitive& primitive);
+  /// Returns whether a prism is a line in this view. Then it describes it.
   bool project(const Prism& prism, const CameraView& view, Line& line) const;
+  /// Finds where a line lies in the picture and how wide it is.
+  void find_rims(const Prism& prism, const CameraView& view, const Axis& axis, Line& line) const;
+  /// Finds the sides that face the eye in the middle of each half of a line, halfway along.
+  void find_sides(const Prism& prism, const CameraView& view, const Axis& axis, Line& line) const;
 
   std::vector<Prism> prisms_;
   std::vector<Edge> edges_;

@@ -9,7 +9,6 @@
 /// Returns triangle + 1 that stands behind the lines at a pixel whose centre sees `id`: that itself, or what
 /// a neighbour sees across the line.
 uint behind_lines(ivec2 at, uint id, uvec2 entries) {
-  uint behind = id;
   for (uint entry = entries.x; entry < entries.y; ++entry) {
     if (!of_line(id, entry)) continue;
     uint quad = line_words[entry];
@@ -27,6 +26,6 @@ uint behind_lines(ivec2 at, uint id, uvec2 entries) {
     }
     break;
   }
-  return behind;
+  return id;
 }
 #endif

@@ -99,6 +99,7 @@ void look_behind(inout LinesLeft lines, inout Center center, ivec2 at, vec3 ray,
     lines.behind = id == 0u ? uintBitsToFloat(0x7f800000u) : depth;
   }
 }
+
 #ifdef GREATX_PANES
 /// Returns the light of the air before a pane, times what the pane lets through, summed over its samples
 /// (bits of `same`). The light from behind has the air's light of the whole way, and the pane takes no part

@@ -25,6 +25,11 @@ class Course {
   /// Returns the length of the way from time 0, negative before it, and its derivatives. Something absent
   /// travels nowhere.
   virtual Travel travel(double time_s) const = 0;
+  /// Returns the part of travel() that a cyclist has pedalled. Those of the simulated traffic coast when they
+  /// brake; others pedal all the way.
+  virtual Travel pedalled(double time_s) const { return travel(time_s); }
+  /// Returns the side on which a driver indicates: 1 left, -1 right, 0 none. Only the simulated traffic does.
+  virtual int indicated_side(double /*time_s*/) const { return 0; }
 };
 
 /// Makes the courses of members of the traffic. A world does it (sim/world/traffic.h).

@@ -9,7 +9,7 @@
 namespace greatx::sim {
 namespace {
 
-class TrafficCourse : public Course, public TrafficState {
+class TrafficCourse : public Course {
  public:
   TrafficCourse(std::shared_ptr<Simulation> simulation, uint32_t member)
       : simulation_(std::move(simulation)), member_(member), body_(simulation_->body(member)) {

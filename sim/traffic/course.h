@@ -11,19 +11,10 @@
 
 namespace greatx::sim {
 
-/// What else the course of a member knows.
-class TrafficState {
- public:
-  virtual ~TrafficState() = default;
-  virtual int indicated_side(double time_s) const = 0;  ///< as sim/traffic/simulation.h says
-  /// Returns what a cyclist has come while pedalling, from time 0.
-  virtual Travel pedalled(double time_s) const = 0;
-};
-
-/// Makes the course of a member, which is a TrafficState, too: its point on the way, the middle of a rear
-/// axle, moves along the way without side slip, and the node's origin is ahead of it. Place and heading come
-/// from the way's curve, and speed and acceleration along it from the states: constant acceleration within a
-/// step. All derivatives are exact. A person stays upright; a vehicle has the slope of its way.
+/// Makes the course of a member: its point on the way, the middle of a rear axle, moves along the way without
+/// side slip, and the node's origin is ahead of it. Place and heading come from the way's curve, and speed
+/// and acceleration along it from the states: constant acceleration within a step. All derivatives are
+/// exact. A person stays upright; a vehicle has the slope of its way.
 std::unique_ptr<Course> make_traffic_course(std::shared_ptr<Simulation> simulation, uint32_t member);
 
 }  // namespace greatx::sim

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "core/hash.h"
-#include "sim/traffic/course.h"
+#include "sim/scenario/trajectory.h"
 #include "sim/world/moment.h"
 
 namespace greatx::sim {
@@ -40,13 +40,6 @@ struct VehicleLamps {
   bool stop = false;
   int side = 0;
 };
-
-VehicleLamps vehicle_lamps(const Course& course, double time_s) {
-  VehicleLamps lamps{stop_lamps_lit(course, time_s), 0};
-  if (const auto* state = dynamic_cast<const TrafficState*>(&course))
-    lamps.side = state->indicated_side(time_s);
-  return lamps;
-}
 
 }  // namespace
 
@@ -105,7 +98,8 @@ std::vector<float> Lamps::factors(const Courses& courses, double time_s) const {
     VehicleLamps state;
     if (lamp.node != none) {
       const auto [entry, is_new] = vehicles.try_emplace(lamp.node);
-      if (is_new) entry->second = vehicle_lamps(*courses.nodes[lamp.node], time_s);
+      const Course& course = *courses.nodes[lamp.node];
+      if (is_new) entry->second = {stop_lamps_lit(course, time_s), course.indicated_side(time_s)};
       state = entry->second;
     }
     const int side = lamp.role == LampRole::left ? 1 : -1;

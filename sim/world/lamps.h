@@ -55,7 +55,7 @@ class Lamps {
   struct Lamp {
     scene::LampRole role = scene::LampRole::red;
     uint32_t node = none;  ///< of a lamp on a body
-    uint32_t head = none;  ///< of a signal, into heads_
+    uint32_t head = none;  ///< of a signal, among signals_.heads
   };
   std::vector<Lamp> lamps_;
   std::vector<std::string> names_;  ///< [lamps] of their instances

@@ -9,7 +9,6 @@
 #include "core/hash.h"
 #include "core/random.h"
 #include "core/units.h"
-#include "sim/traffic/course.h"
 #include "sim/world/free_space.h"
 #include "sim/world/lamps.h"
 #include "sim/world/traffic.h"
@@ -70,13 +69,10 @@ class Travels {
   }
 
  private:
-  /// Cyclists of the simulated traffic coast when they brake; others pedal all the way.
   const Travel& pedalled(uint32_t node) {
     if (node == pedal_node_) return pedalled_;
     pedal_node_ = node;
-    const Course& course = *courses_.nodes[node];
-    const auto* state = dynamic_cast<const TrafficState*>(&course);
-    return pedalled_ = state != nullptr ? state->pedalled(time_s_) : course.travel(time_s_);
+    return pedalled_ = courses_.nodes[node]->pedalled(time_s_);
   }
 
   const Courses& courses_;

@@ -6,6 +6,7 @@
 #include <exception>
 #include <map>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include "core/expected.h"
@@ -38,26 +39,19 @@ scene::Model load(const ModelSource& source, const SceneConfig& config) {
   }
 }
 
-/// Loads the models of objects and nodes, on all cores. A generated one that several nodes have alike is made
-/// once.
+/// Loads models on all cores. With `shared`, a generated one that is asked for several times is made once.
 class LoadedModels {
  public:
-  explicit LoadedModels(const Scenario& scenario) {
-    for (const StaticObject& object : scenario.scene.objects) add(object.model);
-    const size_t objects = loads_.size();
-    for (const NodeConfig& node : scenario.nodes) {
-      if (!node.model) continue;
-      const auto known =
-          std::find_if(loads_.begin() + static_cast<std::ptrdiff_t>(objects), loads_.end(),
-                       [&](const Load& load) { return made_alike(*load.source, *node.model); });
-      if (known == loads_.end())
-        add(*node.model);
-      else
-        load_of_[&*node.model] = static_cast<size_t>(known - loads_.begin());
+  LoadedModels(std::span<const ModelSource* const> sources, const SceneConfig& config, bool shared) {
+    for (const ModelSource* source : sources) {
+      const auto known = std::ranges::find_if(
+          loads_, [&](const Load& load) { return shared && made_alike(*load.source, *source); });
+      load_of_[source] = static_cast<size_t>(known - loads_.begin());
+      if (known == loads_.end()) loads_.push_back({source, std::nullopt, nullptr});
     }
     parallel_for(loads_.size(), 0, [&](size_t i) {
       try {
-        loads_[i].model = load(*loads_[i].source, scenario.scene);
+        loads_[i].model = load(*loads_[i].source, config);
       } catch (const Interrupted&) {
         throw;
       } catch (...) {
@@ -65,8 +59,8 @@ class LoadedModels {
       }
     });
   }
-  /// Returns the model of an object or a node of the scenario. Throws what its loading has thrown: the first
-  /// fault in the scenario's order is then the one that is reported.
+  /// Returns the model of a source. Throws what its loading has thrown: the first fault in the order in which
+  /// models are asked for is then the one that is reported.
   scene::Model& of(const ModelSource& source) {
     Load& load = loads_[load_of_.at(&source)];
     if (load.failure) std::rethrow_exception(load.failure);
@@ -81,10 +75,6 @@ class LoadedModels {
   };
   static bool made_alike(const ModelSource& a, const ModelSource& b) {
     return std::holds_alternative<Generated>(a.source) && a.source == b.source;
-  }
-  void add(const ModelSource& source) {
-    load_of_[&source] = loads_.size();
-    loads_.push_back({&source, std::nullopt, nullptr});
   }
 
   std::vector<Load> loads_;  ///< placements point at the models
@@ -244,11 +234,13 @@ void check_world(const Scenario& scenario, const World& world) {
 World load_world(const Scenario& scenario) {
   check_optical_only(scenario);
   World world;
-  LoadedModels models(scenario);
+  std::vector<const ModelSource*> sources;
+  for (const StaticObject& object : scenario.scene.objects) sources.push_back(&object.model);
+  LoadedModels objects(sources, scenario.scene, false);
   SignalHeads signals;
   std::vector<scene::ModelPlacement> placements;
   for (const StaticObject& object : scenario.scene.objects) {
-    scene::Model& model = models.of(object.model);
+    scene::Model& model = objects.of(object.model);
     check_georeference(model, object, scenario.scene);
     if (scenario.traffic && !world.streets) world.streets = streets_of(scenario, model, object);
     if (model.streets) add_signals(signals, object.name, *model.streets);
@@ -260,12 +252,16 @@ World load_world(const Scenario& scenario) {
                           semantic_class(object.semantic_class, object.model.where),
                           {}});
   }
-  check_traffic(scenario, world);  // before as many models as the scenario asks for
+  check_traffic(scenario, world);  // before as many models are loaded as the scenario asks for
+  sources.clear();
+  for (const NodeConfig& node : scenario.nodes)
+    if (node.model) sources.push_back(&*node.model);
+  LoadedModels bodies(sources, scenario.scene, true);
   for (size_t index = 0; index < scenario.nodes.size(); ++index) {
     const NodeConfig& node = scenario.nodes[index];
     const bool fixed_in_world = never_moves(scenario, index);
     if (!node.model) continue;
-    scene::Model& model = models.of(*node.model);
+    scene::Model& model = bodies.of(*node.model);
     if (model.georeference)
       model.notes.push_back(fmt::format("{}: its georeference is not used, since node '{}' places it",
                                         model.file.string(), node.name));

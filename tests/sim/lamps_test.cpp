@@ -17,7 +17,6 @@
 #include "scene/generator/generate.h"
 #include "scene/gltf/model.h"
 #include "sim/scenario/parse/load_scenario.h"
-#include "sim/traffic/course.h"
 #include "sim/traffic/streets.h"
 #include "sim/world/moment.h"
 
@@ -237,7 +236,7 @@ TEST(VehicleLamps, FollowTheTraffic) {
       const scene::Instance& instance = world.scene.instances[lamp.instance];
       if (lamp.role <= LampRole::green || instance.body == 0) continue;
       const Course& course = *courses.nodes[world.node_of_body[instance.body]];
-      const int side = dynamic_cast<const TrafficState&>(course).indicated_side(time_s);
+      const int side = course.indicated_side(time_s);
       if (lamp.role == LampRole::stop) {
         const bool lit = stop_lamps_lit(course, time_s);
         EXPECT_EQ(factors[i], lit ? 1.0f : tail_share);

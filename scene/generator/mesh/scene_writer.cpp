@@ -142,11 +142,11 @@ void SceneWriter::add_material(int library_index) {
       out.emissive_texture = texture(known.lit[evening], name, painted.lit[evening], true);
     }
   }
-  out.extensions_json = fmt::format(R"({{"GREATX_radio_material":{}}})", spec.radio);
+  std::string transmission;
   if (spec.transmission > 0.0f)
-    out.extensions_json = fmt::format(
-        R"({{"GREATX_radio_material":{},"KHR_materials_transmission":{{"transmissionFactor":{}}}}})",
-        spec.radio, micro(spec.transmission));
+    transmission =
+        fmt::format(R"(,"KHR_materials_transmission":{{"transmissionFactor":{}}})", micro(spec.transmission));
+  out.extensions_json = fmt::format(R"({{"GREATX_radio_material":{}{}}})", spec.radio, transmission);
   const float strength = std::max(largest(spec.emissive), 1.0f);
   out.emissive = micro(spec.emissive / strength);
   out.emissive_strength = micro(strength);
