@@ -37,6 +37,15 @@ inline render::Lighting plain_light(double sun_azimuth_deg = 0.0, double sun_ele
   return lighting;
 }
 
+/// Returns a white sky of the same radiance all around, ground included, and no sun.
+inline render::Lighting white_world(double sky_illuminance_lux = 15000.0) {
+  render::Lighting lighting = plain_light();
+  lighting.sky_model = render::SkyModel::uniform;
+  lighting.sun_illuminance_lux = 0.0;
+  lighting.sky_illuminance_lux = sky_illuminance_lux;
+  return lighting;
+}
+
 inline render::CameraEffects lambertian() {
   render::CameraEffects effects;
   effects.specular = false;

@@ -137,10 +137,7 @@ TEST(Develop, NoiseIsTheHostsFunctionOfSeedSensorTickAndPixel) {
 
 /// Takes a picture of a sky of uniform luminance.
 CameraImages uniform(double luminance, const std::function<void(CameraDesc&)>& change = {}) {
-  render::Lighting light = plain_light();
-  light.sky_model = render::SkyModel::uniform;
-  light.sun_illuminance_lux = 0.0;
-  light.sky_illuminance_lux = pi * luminance;
+  const render::Lighting light = white_world(pi * luminance);
   CameraDesc desc = camera();
   desc.automatic_exposure = true;
   if (change) change(desc);

@@ -36,20 +36,13 @@ scene::Scene sphere(const scene::Material& material) {
   return scene;
 }
 
-render::Lighting furnace() {
-  render::Lighting lighting = plain_light();
-  lighting.sky_model = render::SkyModel::uniform;
-  lighting.sun_illuminance_lux = 0.0;
-  return lighting;
-}
-
 struct Contrast {
   size_t pixels = 0;     ///< pixels of the sphere
   double largest = 0.0;  ///< |L / L_world - 1|
 };
 
 Contrast contrast_of(const scene::Material& material) {
-  CameraRig rig(sphere(material), furnace(), plain_camera(64));
+  CameraRig rig(sphere(material), white_world(), plain_camera(64));
   const render::CameraImages images = rig.shoot(look({-1.8, 0, 0}));
   Contrast contrast;
   for (size_t i = 0; i < images.depth.size(); ++i) {
@@ -78,7 +71,8 @@ TEST(Furnace, NothingElseGains) {
                                                   {0.7f, 1.0f, 1.0f},
                                                   {1.0f, 0.5f, 0.1f},
                                                   {1.0f, 0.5f, 1.0f}}) {
-    CameraRig rig(sphere(optical_material("grey", grey, metallic, roughness)), furnace(), plain_camera(64));
+    CameraRig rig(sphere(optical_material("grey", grey, metallic, roughness)), white_world(),
+                  plain_camera(64));
     const render::CameraImages images = rig.shoot(look({-1.8, 0, 0}));
     for (size_t i = 0; i < images.depth.size(); ++i) {
       const double least = metallic < 1.0f ? 0.8 : 0.55;

@@ -53,9 +53,7 @@ TEST(Haze, ContrastAgainstTheHorizonFallsAsKoschmiederSays) {
 }
 
 TEST(Haze, FurnaceStaysWhite) {
-  render::Lighting furnace = plain_light();
-  furnace.sky_model = render::SkyModel::uniform;
-  furnace.sun_illuminance_lux = 0.0;
+  render::Lighting furnace = white_world();
   furnace.haze_extinction_per_m = 0.1;
   furnace.haze_depth = 4.0;
   TinyScene tiny;

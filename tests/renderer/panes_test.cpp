@@ -196,10 +196,7 @@ TEST(Panes, FadeWithDistanceUntilTheyAreSolid) {
 /// In a world that is equally bright all around, clear panes are invisible. The camera leaves out what panes
 /// behind the nearest mirror: it shows R + T^n, and lacks at most the rest.
 TEST(Panes, LackOnlyWhatPanesBehindTheNearestMirror) {
-  render::Lighting lighting = plain_light();
-  lighting.sky_model = render::SkyModel::uniform;
-  lighting.sun_illuminance_lux = 0.0;
-  lighting.sky_illuminance_lux = 1000.0 * pi;
+  const render::Lighting lighting = white_world(1000.0 * pi);
   render::CameraEffects effects;
   effects.sun = false;
   effects.panes = true;
@@ -262,10 +259,7 @@ TEST(Panes, LetLightInWhereThePathTracerLooks) {
       .quad({-90, -90, 0}, {90, -90, 0}, {90, 90, 0}, {-90, 90, 0});
   tiny.object("pane", 0, tiny.material_as(glass()))
       .quad({-90, -90, 1}, {90, -90, 1}, {90, 90, 1}, {-90, 90, 1});
-  render::Lighting lighting;
-  lighting.sky_model = render::SkyModel::uniform;
-  lighting.sun_illuminance_lux = 0.0;
-  lighting.sky_illuminance_lux = 1000.0 * pi;
+  const render::Lighting lighting = white_world(1000.0 * pi);
   render::CameraEffects effects;
   effects.specular = false;
   effects.panes = true;

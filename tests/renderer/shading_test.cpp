@@ -73,9 +73,7 @@ TEST(Shading, BothSidesOfASheetAreLit) {
 TEST(Shading, FurnaceHasNoEdges) {
   // A white surface in a uniformly white world reflects all incident light at any angle, roughness and
   // metalness.
-  render::Lighting furnace = plain_light();
-  furnace.sky_model = render::SkyModel::uniform;
-  furnace.sun_illuminance_lux = 0.0;
+  const render::Lighting furnace = white_world();
   for (const float metallic : {0.0f, 1.0f})
     for (const float roughness : {0.1f, 0.5f, 1.0f}) {
       TinyScene tiny;

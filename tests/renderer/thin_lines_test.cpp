@@ -54,13 +54,18 @@ scene::Scene wire(double width_px, int pieces = 1) {
   return scene;
 }
 
+render::CameraEffects open_light(bool lines) {
+  render::CameraEffects effects = lambertian();
+  effects.static_shadows = false;
+  effects.thin_lines = lines;
+  return effects;
+}
+
 /// Light from behind the camera alone, before a black sky: a surface that faces the camera has the radiance
 /// white / pi times the sun's illuminance there.
 render::CameraEffects sun_alone(bool lines) {
-  render::CameraEffects effects = lambertian();
+  render::CameraEffects effects = open_light(lines);
   effects.sky = false;
-  effects.static_shadows = false;
-  effects.thin_lines = lines;
   return effects;
 }
 render::CameraDesc smooth_camera(uint32_t pixels = size) {
@@ -196,13 +201,6 @@ scene::Scene street() {
   scene::Scene scene = tiny.build();
   make_poles(scene);
   return scene;
-}
-
-render::CameraEffects open_light(bool lines) {
-  render::CameraEffects effects = lambertian();
-  effects.static_shadows = false;
-  effects.thin_lines = lines;
-  return effects;
 }
 
 /// Returns a picture's luminance as the mean of `by` x `by` samples a pixel, each without smoothed edges.

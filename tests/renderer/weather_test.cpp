@@ -184,9 +184,7 @@ double mean_luminance(const render::CameraImages& images) {
 
 TEST(Rain, StreaksHideTheAreaOfTheirDrops) {
   // Before an even sky the mean picture loses what the discs of all drops hide, for any exposure time.
-  render::Lighting light = plain_light();
-  light.sky_model = render::SkyModel::uniform;
-  light.sun_illuminance_lux = 0.0;
+  render::Lighting light = white_world();
   light.rain_mm_h = 25.0;
   render::CameraEffects effects = lambertian();
   effects.rain_streaks = true;
