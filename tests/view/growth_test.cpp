@@ -122,9 +122,9 @@ TEST(Viewer, ManyFramesDoNotGrow) {
   RecordProperty("MiB after the warm-up", static_cast<int>(person.resident().front() >> 20));
   RecordProperty("MiB at the end", static_cast<int>(person.resident().back() >> 20));
   // A leak grows in every window. An allocator may grow once by the pages of a world, 40 MiB: threads take
-  // turns in making worlds, and each takes its memory from an arena of its own, which keeps its pages. So the
-  // median of the windows counts. A texture of this window that is not freed takes 0.3 MiB, a picture with its
-  // depth and ids 0.5 MiB; of one in fifty frames, they would be 9 MiB in a window of 1500.
+  // turns in making worlds, and each takes its memory from an arena of its own, which keeps its pages. The
+  // median of the windows counts, therefore. A texture of this window that is not freed takes 0.3 MiB, a
+  // picture with its depth and ids 0.5 MiB; of one in fifty frames, they would be 9 MiB in a window of 1500.
   const double tolerance = 3.2e-3 * static_cast<double>(person.window());
   std::vector<double> sorted = growth;
   std::ranges::sort(sorted);
