@@ -22,7 +22,9 @@ constexpr double aerosol_scale_m = 1200.0, air_scale_m = 8000.0;
 constexpr double air_depth_550 = 0.098;  ///< vertical optical depth of air (Rayleigh) at 550 nm
 /// Below this illuminance of the ground windows are lit and street lamps are on, lux.
 constexpr double dusk_lux = 400.0;
-constexpr double lit_window_cd_m2 = 20.0, lamp_lux = 6.0;
+/// The slope of the view in which the sky over the horizon is known.
+constexpr double air_slope = 0.03;
+constexpr double lit_window_cd_m2 = 20.0;
 
 /// Calls visit(primitive, corners, twice the area times the unit normal) for every static triangle.
 template <typename F>
@@ -87,6 +89,22 @@ double clear_air_extinction(double turbidity) {
   return air_depth_550 / air_scale_m + (turbidity - 1.0) * air_depth_550 / aerosol_scale_m;
 }
 
+std::array<dvec3, shared::air_azimuths> air_light_of(const Sky& sky, bool clouds) {
+  constexpr int azimuths = shared::air_azimuths, reach = azimuths / 12;
+  std::array<dvec3, azimuths> seen, smooth{};
+  for (int i = 0; i < azimuths; ++i) {
+    const double azimuth = (i + 0.5) * 2.0 * pi / azimuths;
+    seen[i] = sky.radiance(glm::normalize(dvec3(std::cos(azimuth), std::sin(azimuth), air_slope)));
+  }
+  if (!clouds) return seen;
+  for (int i = 0; i < azimuths; ++i)
+    for (int k = -reach; k <= reach; ++k) {
+      const double weight = (1.0 + std::cos(pi * k / (reach + 1.0))) / (2.0 * (reach + 1.0));
+      smooth[i] += weight * seen[(i + k + azimuths) % azimuths];
+    }
+  return smooth;
+}
+
 shared::GpuHorizon describe_horizon(const scene::Scene& scene, HorizonKind kind, const Lighting& lighting,
                                     const LandLight& light) {
   shared::GpuHorizon horizon{};
@@ -103,10 +121,13 @@ shared::GpuHorizon describe_horizon(const scene::Scene& scene, HorizonKind kind,
   }
   horizon.albedo = vec3(ground_color(scene, floor + 0.25 * scene.bounds.size().z));
   horizon.seed = static_cast<uint32_t>(lighting.cloud_seed);
+  for (size_t i = 0; i < light.air_light.size(); ++i)
+    horizon.air_light[i] = vec4(vec3(light.air_light[i]), 0.0f);
   const double dark = std::clamp(1.0 - luminance(level) / dusk_lux, 0.0, 1.0);
   if (kind == HorizonKind::city) {
-    horizon.lit = float(dark * lit_window_cd_m2);
-    horizon.lamps = vec3(dvec3(1.25, 0.95, 0.6) * (dark * lamp_lux / pi));
+    // The land goes on as the scene ends: a town without lamps would else lie in a sea of light.
+    horizon.lit = luminance(light.lamps) > 0.0 ? float(dark * lit_window_cd_m2) : 0.0f;
+    horizon.lamps = vec3(light.lamps * (dark / pi));
   }
   return horizon;
 }

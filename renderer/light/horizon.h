@@ -5,12 +5,16 @@
 // camera's radiance knows of it: depth stays infinite and ids stay 0 there.
 #pragma once
 
+#include <array>
+
 #include "core/vec.h"
 #include "renderer/light/lighting.h"
 #include "scene/description/scene.h"
 #include "shaders/shared/horizon.h"
 
 namespace greatx::render {
+
+class Sky;
 
 /// Returns the land that suits a scene: `city` where buildings cover a twelfth of it, else `country` where
 /// its ground is mostly green or brown, else `plain`; `none` for scenes smaller than 60 m, which are objects
@@ -27,11 +31,19 @@ dvec3 ground_color(const scene::Scene& scene, double height);
 /// with a scale height of 1.2 km.
 double clear_air_extinction(double turbidity);
 
+/// Returns the radiance of the sky over the horizon by azimuth, for LandLight. The air between the eye and
+/// the land scatters the light of a wide part of the sky. Under clouds, each cloud would else stain all the
+/// air below it, so their sky is smoothed with a Hann window of 60 degrees.
+std::array<dvec3, shared::air_azimuths> air_light_of(const Sky& sky, bool clouds);
+
 /// Holds the light that falls on the land, lux per channel.
 struct LandLight {
   dvec3 key{0.0};           ///< on a surface that faces the key light
   dvec3 sky{0.0};           ///< on level ground, from the sky alone
   double key_height = 0.0;  ///< sine of the key light's elevation
+  dvec3 lamps{0.0};         ///< on level ground, by the scene's own lamps, in the mean over the scene
+  /// Radiances of shared::GpuHorizon::air_light.
+  std::array<dvec3, shared::air_azimuths> air_light{};
 };
 
 /// Fills in the description that shaders read. `kind` is neither none nor automatic.

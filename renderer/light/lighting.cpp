@@ -211,7 +211,9 @@ void SceneLighting::bake_land(const Lighting& lighting, const Sky& sky, const dv
     land = describe_horizon(scene_->scene(), horizon_kind_, lighting,
                             {.key = effects_.sun ? sky.key_illuminance() : dvec3(0.0),
                              .sky = sky_lux,
-                             .key_height = key.direction.z});
+                             .key_height = key.direction.z,
+                             .lamps = lamps_on_ground(),
+                             .air_light = air_light_of(sky, effects_.clouds)});
   }
   horizon_ = gpu::upload_buffer(scene_->device(), std::as_bytes(std::span(&land, 1)), "horizon",
                                 VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);

@@ -23,6 +23,8 @@ const float country_lot = 60.0f;
 /// Houses and woods end at this distance from the eye; then the profile of the horizon begins, m.
 const float land_reach = 2200.0f;
 const uint land_steps = 40u;  // squares that a ray looks at, at most
+/// The azimuths, from x towards y, at which GpuHorizon::air_light is known.
+const uint air_azimuths = 128u;
 
 /// Describes the land. Radiances are cd/m^2 per channel.
 struct GpuHorizon {
@@ -38,11 +40,14 @@ struct GpuHorizon {
   uint seed;
   vec3 lamps;  ///< radiance of white level ground in the light of street lamps
   float pad;
+  /// The radiance that the air scatters into the view over a long way, which is that of the sky over the
+  /// horizon: at azimuths (i + 0.5) 2 pi / air_azimuths.
+  vec4 air_light[air_azimuths];
 };
 
 GREATX_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(greatx::shared::GpuHorizon) == 96);
+static_assert(sizeof(greatx::shared::GpuHorizon) == 96 + 16 * greatx::shared::air_azimuths);
 #endif
 #endif

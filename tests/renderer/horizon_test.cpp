@@ -126,6 +126,43 @@ TEST(Horizon, FogHidesTheLand) {
   }
 }
 
+/// The land around a town goes on with as much light as the lamps of the town give in the mean.
+TEST(Horizon, IsLitAsTheSceneIs) {
+  const scene::Scene scene = field();
+  const render::Lighting night = plain_light(20.0, -30.0);
+  const dvec3 lux(5.0, 4.0, 2.0);
+  const auto land = [&](const dvec3& lamps, double sky_lux) {
+    return render::describe_horizon(scene, HorizonKind::city, night,
+                                    {.sky = dvec3(sky_lux), .lamps = lamps, .air_light = {}});
+  };
+  const shared::GpuHorizon dark = land(dvec3(0.0), 0.4), lit = land(lux, 0.4), day = land(lux, 400.0);
+  EXPECT_EQ(dark.lamps, vec3(0.0f));
+  EXPECT_EQ(dark.lit, 0.0f);
+  EXPECT_GT(lit.lit, 0.0f);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(lit.lamps[c] * pi, lux[c] * (1.0 - 0.4 / 400.0), 1e-4);
+  EXPECT_EQ(day.lamps, vec3(0.0f));
+  EXPECT_EQ(day.lit, 0.0f);
+}
+
+/// A cloud over the horizon is a step by azimuth. The air below is the light of many clouds.
+TEST(Horizon, CloudsDoNotStripeTheAir) {
+  render::Lighting lighting = plain_light(20.0, 25.0);
+  lighting.clouds = 0.4;
+  const render::Sky sky(lighting, false, true);
+  double roughest = 0.0, bare = 0.0;
+  const auto smooth = render::air_light_of(sky, true), striped = render::air_light_of(sky, false);
+  for (size_t i = 0; i < smooth.size(); ++i) {
+    const size_t next = (i + 1) % smooth.size();
+    const auto step = [&](const auto& light) {
+      return std::abs(std::log(render::luminance(light[next]) / render::luminance(light[i])));
+    };
+    roughest = std::max(roughest, step(smooth));
+    bare = std::max(bare, step(striped));
+  }
+  EXPECT_LT(roughest, 0.4 * bare) << bare;  // per 2.8 degrees
+  EXPECT_GT(bare, 0.2);
+}
+
 TEST(Horizon, SuitsTheScene) {
   EXPECT_EQ(render::horizon_of(field()), HorizonKind::plain);
   TinyScene small;
