@@ -23,6 +23,8 @@ constexpr double room_m = 0.2;
 /// Longer vehicles take ways on which they reach beyond the lane by this at most. Lanes of opposite
 /// directions lie further apart; on turns, exclusions see to the rest.
 constexpr double beside_lane_m = 0.1, beside_turn_m = 0.35;
+/// Stops are moved back, out of the way of others' turns, in such steps and so far at most.
+constexpr double back_step_m = 0.5, furthest_back_m = 10.0;
 
 /// Returns the direction of travel at an end of a lane.
 dvec2 direction_at(const scene::StreetLane& lane, bool end) {
@@ -32,15 +34,28 @@ dvec2 direction_at(const scene::StreetLane& lane, bool end) {
   return glm::normalize(step);
 }
 
-/// The places of a body on a way, one behind the other.
+/// A turn with what leads to it and away from it, as far as bodies count there.
+struct WholeTurn {
+  const Curve &turn, &before, &after;
+  double before_m = 0.0, after_m = 0.0;  ///< fronts begin, and rears end, so far outside the turn
+  GroundBox box(double s, const Extent& extent) const {
+    if (s < 0.0 && before_m > 0.0) return box_at(before, before.length() + s, extent);
+    if (s > turn.length() && after_m > 0.0) return box_at(after, s - turn.length(), extent);
+    return box_at(turn, s, extent);
+  }
+};
+
+/// The places of a body on a turn, one behind the other.
 class Sweep {
  public:
-  Sweep(const Curve& curve, const Extent& extent) {
-    const double begin = -extent.front_m, end = curve.length() + extent.rear_m;
+  Sweep(const Curve& turn, const Extent& extent) : Sweep(WholeTurn{turn, turn, turn}, extent) {}
+  Sweep(const WholeTurn& whole, const Extent& extent) {
+    const double begin = -whole.before_m - extent.front_m,
+                 end = whole.turn.length() + whole.after_m + extent.rear_m;
     const int count = std::max(1, static_cast<int>(std::ceil((end - begin) / sample_m)));
     for (int i = 0; i <= count; ++i) {
       places_.push_back(begin + (end - begin) * i / count);
-      boxes_.push_back(box_at(curve, places_.back(), extent));
+      boxes_.push_back(whole.box(places_.back(), extent));
       if (i % group == 0) around_.push_back({boxes_.back().middle, 0.0});
       auto& [middle, radius] = around_.back();
       radius = std::max(radius, glm::distance(middle, boxes_.back().middle) + radius_of(boxes_.back()));
@@ -128,14 +143,78 @@ double reach_beside(const Curve& curve, const Extent& extent) {
   return most;
 }
 
+namespace {
+
+/// The convex hull of points, counter-clockwise (A. M. Andrew, Information Processing Letters 9, 216, 1979).
+std::vector<dvec2> convex_hull(std::vector<dvec2> points) {
+  std::ranges::sort(points,
+                    [](const dvec2& a, const dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::vector<dvec2> hull;
+  for (const bool upper : {false, true}) {
+    const size_t first = hull.size();
+    for (const dvec2& point : points) {
+      while (hull.size() >= first + 2 &&
+             cross_product(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0.0)
+        hull.pop_back();
+      hull.push_back(point);
+    }
+    hull.pop_back();
+    if (!upper) std::ranges::reverse(points);
+  }
+  return hull;
+}
+
+}  // namespace
+
+bool stays_on_lanes(const Curve& turn, double width_m, double beside_m, const Extent& extent,
+                    const std::vector<LaneMouth>& at_junction) {
+  std::vector<dvec2> corners;
+  for (const LaneMouth& mouth : at_junction)
+    for (const double side : {-0.5, 0.5})
+      corners.push_back(mouth.place + side * mouth.width_m * dvec2(-mouth.inwards.y, mouth.inwards.x));
+  const std::vector<dvec2> hull = convex_hull(corners);
+  const auto in_hull = [&](const dvec2& point) {
+    for (size_t i = 0; i < hull.size(); ++i)
+      if (cross_product(hull[(i + 1) % hull.size()] - hull[i], point - hull[i]) < 0.0) return false;
+    return true;
+  };
+  const auto on_a_lane = [&](const dvec2& point) {
+    return std::ranges::any_of(at_junction, [&](const LaneMouth& mouth) {
+      const dvec2 to = point - mouth.place;
+      const double x = glm::dot(to, mouth.inwards);
+      return std::abs(cross_product(mouth.inwards, to)) <= 0.5 * mouth.width_m + beside_lane_m &&
+             (x > 0.0 ? in_hull(point) : x > -mouth.length_m);
+    });
+  };
+  constexpr double step_m = 0.25;
+  std::vector<CurvePlace> places;
+  for (double s = -extent.front_m; s < turn.length() + extent.front_m; s += step_m)
+    places.push_back(turn.at(s));
+  const auto beside_turn = [&](const dvec2& point) {
+    return std::ranges::any_of(places, [&](const CurvePlace& place) {
+      return glm::distance(place.position, point) <= 0.5 * width_m + beside_m;
+    });
+  };
+  for (double s = 0.0; s <= turn.length() + extent.rear_m; s += step_m) {
+    const CurvePlace place = turn.at(s);
+    for (const double along : {extent.front_m, -extent.rear_m})
+      for (const double side : {-0.5, 0.5}) {
+        const dvec2 corner = place.position + along * place.tangent + side * extent.width_m * place.left();
+        if (!beside_turn(corner) && !on_a_lane(corner)) return false;
+      }
+  }
+  return true;
+}
+
 Streets::Streets(const scene::StreetNetwork& network, const LargestVehicles& largest, const std::string& name)
     : name_(name), junctions_(network.junctions), crossings_(network.crossings) {
   make_ways(network);
   find_crossings(network);
   make_gates(network);
   find_endless(largest);
-  find_exclusions(largest);
   keep_stops_clear(largest);
+  find_swept(largest);
+  find_exclusions(largest);
   make_rings(network);
   make_paths(network);
 }
@@ -225,6 +304,37 @@ void Streets::make_gates(const scene::StreetNetwork& network) {
   }
 }
 
+/// Whether a longer vehicle may take a turn on which it reaches beyond its lane.
+bool Streets::longer_may(const DriveWay& turn, const Extent& longer) const {
+  if (turn.curve.most_curvature() > 1.0 / tightest_longer_m) return false;
+  std::vector<LaneMouth> mouths;
+  std::vector<bool> known(ways_.size(), false);
+  const Sweep sweep(turn.curve, longer);
+  const auto can_wait = [&](const DriveWay& lane) {
+    // Those who wait before the junction must not stand in the way, nor too near the junction before theirs.
+    const double stop_m = lane.gates.back().stop_m - furthest_back_m;
+    const double crossing_m =
+        lane.gates.size() > 1 ? lane.gates[lane.gates.size() - 2].crossings.back().to_m : 0.0;
+    const double length_m = longer.front_m + longer.rear_m;
+    return stop_m > std::max(0.5 * lane.curve.length(), crossing_m + length_m) &&
+           !sweep.meets(box_at(lane.curve, stop_m - longer.front_m, longer));
+  };
+  const auto add = [&](uint32_t lane, bool leads_here) {
+    if (known[lane]) return;
+    known[lane] = true;
+    const DriveWay& way = ways_[lane];
+    const CurvePlace end = way.curve.at(leads_here ? way.curve.length() : 0.0);
+    mouths.push_back(
+        {end.position, leads_here ? end.tangent : -end.tangent, way.width_m, way.curve.length()});
+  };
+  for (const DriveWay& other : ways_)
+    if (other.turn() && other.junction == turn.junction && other.endless) {
+      add(other.from, true), add(other.next[0], false);
+      if (other.from != turn.from && !can_wait(ways_[other.from])) return false;
+    }
+  return stays_on_lanes(turn.curve, turn.width_m, beside_turn_m, longer, mouths);
+}
+
 /// Takes away, again and again, what ends where nothing follows: for all, then for longer vehicles.
 void Streets::find_endless(const LargestVehicles& largest) {
   const auto prune = [&](std::vector<uint32_t> DriveWay::*next, bool DriveWay::*endless) {
@@ -242,12 +352,40 @@ void Streets::find_endless(const LargestVehicles& largest) {
   for (DriveWay& way : ways_) way.endless = true;
   prune(&DriveWay::next, &DriveWay::endless);
   if (!largest.longer) return;
+  const Extent roomy = sizes_of(largest, room_m, room_m).back().second;
   for (DriveWay& way : ways_) {
     const double beside_m = 0.5 * way.width_m + (way.turn() ? beside_turn_m : beside_lane_m);
-    way.endless_longer = way.endless && !way.right && reach_beside(way.curve, *largest.longer) <= beside_m;
+    const bool stays = way.endless && !way.right && reach_beside(way.curve, *largest.longer) <= beside_m;
+    way.swings = !stays && way.endless && way.turn() && longer_may(way, roomy);
+    way.endless_longer = stays || way.swings;
     way.next_longer = way.next;
   }
   prune(&DriveWay::next_longer, &DriveWay::endless_longer);
+  for (DriveWay& way : ways_)  // a turn that no longer vehicle comes to takes no room
+    if (way.swings && !ways_[way.from].endless_longer) way.endless_longer = false;
+}
+
+/// Finds how far into the lanes behind a junction longer vehicles sweep that turn into other lanes. Nobody
+/// stops there.
+void Streets::find_swept(const LargestVehicles& largest) {
+  constexpr double step_m = 0.5, longest_m = 30.0;
+  if (!largest.longer) return;
+  const auto roomy = sizes_of(largest, room_m, room_m);
+  for (uint32_t t = 0; t < ways_.size(); ++t) {
+    const DriveWay& turn = ways_[t];
+    if (!turn.swings || !turn.endless_longer) continue;
+    // From where it begins to turn. Before that it is on its own lane, as on any other way.
+    const Extent& longer = roomy.back().second;
+    const Sweep sweep(WholeTurn{turn.curve, turn.curve, turn.curve, -longer.front_m, 0.0}, longer);
+    for (const DriveWay& other : ways_) {
+      if (other.junction != turn.junction || !other.endless || other.next[0] == turn.next[0]) continue;
+      DriveWay& lane = ways_[other.next[0]];
+      for (double s = lane.swept_m; s < std::min(longest_m, lane.curve.length()); s += step_m)
+        if (sweep.meets(box_at(lane.curve, s, {step_m, 0.0, roomy.back().second.width_m})))
+          lane.swept_m = s + step_m;
+    }
+  }
+  for (DriveWay& way : ways_) way.clear_m = std::max(way.clear_m, way.swept_m);
 }
 
 void Streets::find_exclusions(const LargestVehicles& largest) {
@@ -258,10 +396,24 @@ void Streets::find_exclusions(const LargestVehicles& largest) {
   };
   excludes_.resize(ways_.size());
   std::vector<std::vector<Taken>> of_junctions(junctions_.size());
+  std::vector<bool> swept(junctions_.size(), false);
+  for (const DriveWay& way : ways_)
+    if (way.swings && way.endless_longer) swept[*way.junction] = true;
+  // Where longer vehicles swing over other lanes, others count from their stops on, and until they have left
+  // what is swept.
+  const auto sweep_of = [&](const DriveWay& turn, const Extent& extent) {
+    const DriveWay &from = ways_[turn.from], &to = ways_[turn.endless ? turn.next[0] : turn.from];
+    WholeTurn whole{turn.curve, from.curve, to.curve};
+    if (turn.endless && swept[*turn.junction]) {
+      whole.before_m = std::max(from.curve.length() - from.gates.back().stop_m, 0.0);
+      whole.after_m = to.swept_m;
+    }
+    return Sweep(whole, extent);
+  };
   for (const auto& [size, extent] : sizes_of(largest, room_m, room_m))
     for (uint32_t w = 0; w < ways_.size(); ++w)
       if (ways_[w].turn() && (size == VehicleSize::ordinary || ways_[w].endless_longer))
-        of_junctions[*ways_[w].junction].push_back({w, size, Sweep(ways_[w].curve, extent)});
+        of_junctions[*ways_[w].junction].push_back({w, size, sweep_of(ways_[w], extent)});
   for (const std::vector<Taken>& taken : of_junctions)
     for (const Taken& a : taken)
       for (const Taken& b : taken)
@@ -290,8 +442,9 @@ void Streets::keep_stops_clear(const LargestVehicles& largest) {
     };
     for (const auto& [size, extent] : roomy)
       if (way.goes_on(size))
-        for (int tries = 0; tries < 20 && gate.stop_m > 2.0 && in_the_way(extent); ++tries)
-          gate.stop_m -= 0.5;
+        for (double back_m = 0.0; back_m < furthest_back_m && gate.stop_m > 2.0 && in_the_way(extent);
+             back_m += back_step_m)
+          gate.stop_m -= back_step_m;
   }
 }
 

@@ -79,10 +79,12 @@ struct DriveWay {
   std::vector<Gate> gates;          ///< of a lane
   std::vector<CrossingOnWay> exit;  ///< crossings at its beginning, which belong to the turn before it
   double clear_m = 0.5;             ///< rears beyond it are clear of the junction before it
-  bool endless = false;             ///< whether one can go on from it for ever
-  bool endless_longer = false;      ///< whether a longer vehicle can
-  bool straight_on = true;          ///< of a turn: it changes the direction by less than 45 degrees
-  int8_t side = 0;                  ///< of another turn: 1 to the left, -1 to the right
+  double swept_m = 0.0;         ///< of a lane: up to here longer vehicles sweep over it that turn into others
+  bool swings = false;          ///< of a turn: longer vehicles reach beyond it, onto other lanes
+  bool endless = false;         ///< whether one can go on from it for ever
+  bool endless_longer = false;  ///< whether a longer vehicle can
+  bool straight_on = true;      ///< of a turn: it changes the direction by less than 45 degrees
+  int8_t side = 0;              ///< of another turn: 1 to the left, -1 to the right
   const std::vector<uint32_t>& nexts(VehicleSize size) const {
     return size == VehicleSize::longer ? next_longer : next;
   }
@@ -111,6 +113,22 @@ struct WalkRing {
 inline constexpr double most_lateral_mps2 = 3.0;
 /// Of people from their walking line, and from the middle of a zebra.
 inline constexpr double walk_side_m = 0.33, zebra_side_m = 0.75;
+
+/// The tightest circle of the rear axle of a longer vehicle: a city bus of 12 m whose turning circle has a
+/// diameter of 21.4 m (manufacturers' data sheets, from memory) runs its rear axle on one of 5.1 m.
+inline constexpr double tightest_longer_m = 5.0;
+
+/// The end of a lane at a junction.
+struct LaneMouth {
+  dvec2 place{0.0}, inwards{1.0, 0.0};  ///< the direction into the junction
+  double width_m = 3.0, length_m = 0.0;
+};
+/// Returns whether the body of one who takes a turn, the rear axle on its line, stays on the lanes that lead
+/// to its junction and away from it, or within `beside_m` of the turn's own width. The lanes count on into
+/// the junction, so that the corners of blocks are left out, as far as the lanes' mouths reach (their convex
+/// hull).
+bool stays_on_lanes(const Curve& turn, double width_m, double beside_m, const Extent& extent,
+                    const std::vector<LaneMouth>& at_junction);
 
 using scene::Light;
 
@@ -144,8 +162,10 @@ class Streets {
   void find_crossings(const scene::StreetNetwork& network);
   void make_gates(const scene::StreetNetwork& network);
   void find_endless(const LargestVehicles& largest);
+  bool longer_may(const DriveWay& way, const Extent& longer) const;
   void find_exclusions(const LargestVehicles& largest);
   void keep_stops_clear(const LargestVehicles& largest);
+  void find_swept(const LargestVehicles& largest);
   void make_rings(const scene::StreetNetwork& network);
   void make_paths(const scene::StreetNetwork& network);
   void make_path(const scene::StreetCrossing& crossing, uint32_t index, bool back);

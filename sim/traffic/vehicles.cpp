@@ -48,11 +48,15 @@ void Simulation::enter(Agent& agent, uint32_t index) {
   if (way.turn()) {
     ++counts_.turns;
     if (streets_->light(way, now_s_) == Light::red) {
-      // The signal counts at the stop line, which the front passed before.
-      const double since_s = (agent.body.extent.front_m + streets_->ways()[way.from].curve.length() -
-                              streets_->ways()[way.from].gates.back().stop_m) /
-                             std::max(agent.speed_mps, 0.5);
-      if (streets_->light(way, now_s_ - since_s) == Light::red) ++counts_.on_red;
+      // The signal counts at the stop line, which the front passed before. One who stops stands up to a
+      // decimetre beyond it.
+      constexpr double beyond_m = 0.3;
+      const DriveWay& lane = streets_->ways()[way.from];
+      const double passed_m = agent.begin_m - (lane.curve.length() - lane.gates.back().stop_m) -
+                              agent.body.extent.front_m + beyond_m;
+      const auto passed = std::ranges::lower_bound(agent.ways_m, passed_m);
+      const double passed_s = begin_s_ + step_s * static_cast<double>(passed - agent.ways_m.begin());
+      if (streets_->light(way, passed_s) == Light::red) ++counts_.on_red;
     }
     agent.next = way.next[0];
   } else {
@@ -266,7 +270,7 @@ void Simulation::take(Agent& agent, const Gate& gate) {
   if (next.turn()) {
     lane = &streets_->ways()[next.next[0]];
     const double length = next.curve.length();
-    agent.holds.push_back({false, agent.next, begin_m, begin_m + length + rear + 1.0, true});
+    agent.holds.push_back({false, agent.next, begin_m, begin_m + length + lane->swept_m + rear + 1.0, true});
     begin_m += length;
   }
   for (const CrossingOnWay& on : lane->exit)

@@ -131,7 +131,9 @@ TEST(Traffic, LongerVehiclesStayInTheirLanes) {
     if (!way.endless_longer) continue;
     ++ways;
     EXPECT_FALSE(way.right.has_value());
-    EXPECT_LE(reach_beside(way.curve, *largest.longer), 0.5 * way.width_m + (way.turn() ? 0.35 : 0.1));
+    if (!way.swings) {
+      EXPECT_LE(reach_beside(way.curve, *largest.longer), 0.5 * way.width_m + (way.turn() ? 0.35 : 0.1));
+    }
     for (const uint32_t next : way.next_longer) EXPECT_TRUE(streets->ways()[next].endless_longer);
   }
   EXPECT_GE(ways, 20u);
@@ -144,6 +146,77 @@ TEST(Traffic, LongerVehiclesStayInTheirLanes) {
       ASSERT_NE(on, streets->ways().end());
       EXPECT_TRUE(on->endless_longer);
     }
+}
+
+bool inside(const std::vector<dvec2>& outline, const dvec2& point) {
+  bool odd = false;
+  for (size_t i = 0; i < outline.size(); ++i) {
+    const dvec2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    if ((a.y > point.y) != (b.y > point.y) && point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x))
+      odd = !odd;
+  }
+  return odd;
+}
+
+/// Buses and lorries also turn where they swing over other lanes: their bodies stay on the carriageway, as
+/// the city's plan has it, and nobody waits where they pass.
+TEST(Traffic, LongerVehiclesSwingOverTheCarriagewayAlone) {
+  for (const uint64_t seed : {7, 1, 2}) {
+    const auto plan = scene::generator::plan_city(300.0, seed);
+    std::vector<std::vector<dvec2>> carriageway = plan.junctions;
+    for (const auto& street : plan.streets)
+      carriageway.push_back({street.left[0], street.right[0], street.right[1], street.left[1]});
+    const auto streets = city_streets(300.0, seed);
+    int turns = 0;
+    for (const DriveWay& turn : streets->ways()) {
+      if (!turn.swings || !turn.endless_longer) continue;
+      ++turns;
+      EXPECT_NE(turn.side, 0);
+      EXPECT_GT(reach_beside(turn.curve, *largest.longer), 0.5 * turn.width_m + 0.35);
+      for (double s = 0.0; s <= turn.curve.length() + 3.0; s += 0.2) {
+        const GroundBox box = box_at(turn.curve, s, *largest.longer);
+        const dvec2 left(-box.forward.y, box.forward.x);
+        for (const double along : {-1.0, 1.0})
+          for (const double side : {-1.0, 1.0}) {
+            const dvec2 corner =
+                box.middle + along * box.half_length * box.forward + side * box.half_width * left;
+            EXPECT_TRUE(
+                std::ranges::any_of(carriageway, [&](const auto& part) { return inside(part, corner); }))
+                << corner.x << " " << corner.y << " at " << s;
+          }
+        for (const DriveWay& lane : streets->ways()) {
+          if (lane.turn() || lane.next.empty() || !streets->ways()[lane.next[0]].turn()) continue;
+          const auto leads = [&](const DriveWay& other) {
+            return other.turn() && other.junction == turn.junction && &streets->ways()[other.from] == &lane &&
+                   other.from != turn.from;
+          };
+          if (!std::ranges::any_of(streets->ways(), leads)) continue;
+          const double stop_m = lane.gates.back().stop_m;
+          EXPECT_FALSE(overlap(box, box_at(lane.curve, stop_m - largest.ordinary.front_m, largest.ordinary)));
+        }
+      }
+    }
+    RecordProperty("turns_of_city_" + std::to_string(seed), turns);
+    EXPECT_GT(turns, 3) << seed;
+  }
+}
+
+/// They do take them.
+TEST(Traffic, BusesTurnAtJunctions) {
+  const auto streets = city_streets();
+  Simulation simulation(streets, bodies(22, 0, 0), config_of(6), 0);
+  int turns = 0;
+  for (const uint32_t member : {7u, 8u, 9u, 18u, 19u, 20u}) {
+    const Curve* before = nullptr;
+    for (double time_s = 0.0; time_s < 600.0; time_s += 0.5) {
+      const Curve* now = simulation.at(member, time_s).piece.curve;
+      if (now == before) continue;
+      before = now;
+      for (const DriveWay& way : streets->ways()) turns += &way.curve == now && way.swings ? 1 : 0;
+    }
+  }
+  RecordProperty("turns", turns);
+  EXPECT_GT(turns, 10);
 }
 
 /// The mean speed of twenty vehicles is that of level of service D or better: 40 % of the free flow
