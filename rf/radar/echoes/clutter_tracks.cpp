@@ -25,8 +25,8 @@ size_t chunks_of(size_t count) { return (count + scatterer_chunk - 1) / scattere
 class Ways {
  public:
   Ways(const std::vector<Scatterer>& all, const FacetWorld& world, size_t bodies, const EchoMotion& motion,
-       std::vector<double> times)
-      : all_(all), world_(world), table_(motion, asked(bodies), std::move(times)) {}
+       std::vector<double> times, uint32_t threads)
+      : all_(all), world_(world), table_(motion, asked(bodies), std::move(times), threads) {}
 
   double length(size_t i, size_t time) const {
     const uint32_t body = world_.facet(all_[i].facet).body;
@@ -115,7 +115,7 @@ void ClutterPatches::add_blocks(const std::vector<Scatterer>& all, const FacetWo
     for (const double time :
          about(patch_block(options_.waveform, motion.first_slot, slots, list.blocks, block).middle_s, step_s))
       times.push_back(time);
-  const Ways ways(all, world, scene_.bodies.size(), motion, std::move(times));
+  const Ways ways(all, world, scene_.bodies.size(), motion, std::move(times), options_.threads);
   parallel_for(chunks_of(count), options_.threads, [&](size_t chunk) {
     for (size_t i = chunk * scatterer_chunk; i < std::min(count, (chunk + 1) * scatterer_chunk); ++i) {
       const Scatterer& one = all[i];
@@ -144,7 +144,7 @@ FoundPatches ClutterPatches::timed(std::vector<Scatterer> all, const FacetWorld&
   {
     const double step_s = 0.5 * frame_s;
     const Ways ways(all, world, scene_.bodies.size(), motion,
-                    about(motion.slot_start_s.front() + step_s, step_s));
+                    about(motion.slot_start_s.front() + step_s, step_s), options_.threads);
     parallel_for(chunks_of(all.size()), options_.threads, [&](size_t chunk) {
       for (size_t i = chunk * scatterer_chunk; i < std::min(all.size(), (chunk + 1) * scatterer_chunk); ++i) {
         const Slopes at = slopes(ways, i, 0, step_s);

@@ -75,8 +75,16 @@ class Movers {
   CarriedPath vertices(const RawEcho& echo) const {
     return carried_vertices(world_, transmitter_, echo.departure, raw_.chain(echo), echo.point);
   }
+  /// Returns the poses of all bodies that echoes have met.
   PoseTable poses(std::vector<double> times) const {
-    return PoseTable(motion_, std::span(asked_.get(), scene_.bodies.size()), std::move(times));
+    return PoseTable(motion_, std::span(asked_.get(), scene_.bodies.size()), std::move(times), threads_);
+  }
+  /// Returns the poses of the bodies that some echoes have met, given by their indices.
+  PoseTable poses_of(std::span<const uint32_t> echoes, std::vector<double> times) const {
+    const auto met = std::make_unique<bool[]>(scene_.bodies.size());
+    for (const uint32_t echo : echoes)
+      for (const uint32_t facet : raw_.chain(raw_.echoes[echo])) met[world_.facet(facet).body] = true;
+    return PoseTable(motion_, std::span(met.get(), scene_.bodies.size()), std::move(times), threads_);
   }
   /// Returns the rates of path length in the middle of the frame, m/s.
   std::vector<double> rates() const {
@@ -198,11 +206,12 @@ void add_tracks(const Movers& movers, const RawEchoes& raw, std::span<const Merg
   if (wild.empty()) return;
   std::vector<double> times = motion.slot_start_s;
   for (const double start : motion.slot_start_s) times.push_back(start + rate_step_s);
-  const PoseTable at_slots = movers.poses(std::move(times));
+  std::vector<uint32_t> strongest;
+  for (const uint32_t i : wild) strongest.push_back(merged[i].strongest);
+  const PoseTable at_slots = movers.poses_of(strongest, std::move(times));
   list.tables.resize(wild.size() * motion.slot_start_s.size());
   parallel_for(wild.size(), threads, [&](size_t row) {
-    const auto table =
-        track_table(at_slots, movers.vertices(raw.echoes[merged[wild[row]].strongest]), rate_step_s);
+    const auto table = track_table(at_slots, movers.vertices(raw.echoes[strongest[row]]), rate_step_s);
     std::copy(table.begin(), table.end(), list.tables.begin() + row * table.size());
     DelayTrack& track = list.echoes[wild[row]].delay;
     track.coefficients = {table[table.size() / 2][0], table[table.size() / 2][1], 0.0, 0.0};
@@ -228,6 +237,7 @@ EchoFinder::EchoFinder(scene::GpuScene& scene, const RadioSurfaces& surfaces, co
               [&world = scene.scene()](uint32_t facet) {
                 return !scene::is_lossless(world.materials[world.facets[facet].material]);
               }),
+      memory_(std::make_unique<BeamMemory>(scene.scene().facets.size())),
       traced_(options.max_bounces + (monostatic_ && options.max_bounces >= mirror_bounces ? 1 : 0)) {
   const bool on_host = traces_on_host(scene.device(), options);
   const bool over_mirrors = traced_ > options.max_bounces;
@@ -305,6 +315,27 @@ void EchoFinder::check_antenna(const dvec3& at, const RayGrid& grid, std::span<c
   }
 }
 
+/// Finds the echoes of the facets with beams that are seen through veils.
+class EchoFinder::VeiledSearch {
+ public:
+  VeiledSearch(const EchoFinder& finder, const BeamedFacets& beamed, const RayGrid& grid,
+               const EchoField& field, const dvec3& source)
+      : scene_{finder.world_, finder.trees_, finder.veils_->sight(), &*finder.veils_},
+        search_(scene_, grid, field, finder.options_, source, finder.monostatic_,
+                finder.transmitter_.own_body, finder.receiver_.own_body) {
+    const Veils::Ends ends{source, field.receiver_at(), finder.transmitter_.own_body,
+                           finder.receiver_.own_body};
+    behind_.facets = finder.veils_->behind(beamed.facets, ends, finder.options_.threads);
+  }
+  size_t parts() const { return FacetEchoes::parts(behind_); }
+  void find(size_t part, RawEchoes& out) const { search_.find(behind_, part, out, nullptr); }
+
+ private:
+  FacetScene scene_;
+  FacetEchoes search_;
+  BeamedFacets behind_;
+};
+
 RawEchoes EchoFinder::raw_echoes(const Pending& pending, const RayGrid& grid, const RayHits& hits,
                                  const EchoField& field, EchoStatistics& statistics) const {
   const dvec3& source = pending.transmitter.position;
@@ -313,23 +344,39 @@ RawEchoes EchoFinder::raw_echoes(const Pending& pending, const RayGrid& grid, co
                           receiver_.own_body);
   std::vector<MirroredFacet> images;
   if (mirrors_)
-    images =
-        mirrors_->find(targets(pending.body_poses), world_, trees_, tracer_, source, transmitter_.own_body);
+    images = mirrors_->find(targets(pending.body_poses), world_, trees_, tracer_, source,
+                            transmitter_.own_body, options_.threads);
   const BeamedFacets beamed = small.choose(images);
-  std::array<RawEchoes, 4> parts{TubeEchoes(grid, hits, world_, trees_, field, scene_->scene(), source,
-                                            monostatic_, options_, clutter_ ? &*clutter_ : nullptr, beamed)
-                                     .find(),
-                                 small.find(beamed)};
+  const TubeEchoes tubes(grid, hits, world_, trees_, field, scene_->scene(), source, monostatic_, options_,
+                         clutter_ ? &*clutter_ : nullptr, beamed);
+  std::optional<VeiledSearch> veiled;
+  if (veils_) veiled.emplace(*this, beamed, grid, field, source);
+  std::optional<EdgeEchoes::Search> edges;
+  const EchoSender edge_sender(world_, trees_, field, options_, monostatic_);
   if (edges_)
-    parts[2] =
-        edges_->find(world_, tracer_, field, EchoSender(world_, trees_, field, options_, monostatic_),
-                     {source, transmitter_.own_body, receiver_.own_body, monostatic_}, options_.threads);
-  if (veils_) parts[3] = veiled_echoes(beamed, grid, field, source);
+    edges.emplace(*edges_, world_, tracer_, field, edge_sender,
+                  EdgeEchoes::Ends{source, transmitter_.own_body, receiver_.own_body, monostatic_});
+
+  // The four searches run side by side, the longest works first. The order of the echoes is another one.
+  std::array<std::vector<RawEchoes>, 4> found;
+  LoopsBeside loops;
+  const auto add = [&](size_t search, size_t parts, const auto& find) {
+    found[search].resize(parts);
+    loops.add(parts, [&found, search, find](size_t part) { find(part, found[search][part]); });
+  };
+  add(1, FacetEchoes::parts(beamed),
+      [&](size_t part, RawEchoes& out) { small.find(beamed, part, out, memory_.get()); });
+  if (veiled) add(3, veiled->parts(), [&](size_t part, RawEchoes& out) { veiled->find(part, out); });
+  add(0, tubes.parts(), [&](size_t part, RawEchoes& out) { tubes.find(part, out); });
+  if (edges) add(2, edges->parts(), [&](size_t part, RawEchoes& out) { edges->find(part, out); });
+  loops.run(options_.threads);
+
   statistics.tubes = grid.size();
   statistics.facets = static_cast<uint32_t>(beamed.facets.size());
   statistics.images = static_cast<uint32_t>(beamed.images.size());
   RawEchoes all;
-  all.join(parts);
+  for (std::vector<RawEchoes>& parts : found) all.join(parts);
+  statistics.remembered = all.remembered;
   return all;
 }
 
@@ -341,18 +388,6 @@ std::complex<double> EchoFinder::direct(const Pending& pending, const EchoEnd& o
   const TurnedElement sender = turned(other, pose), receiver = turned(receiver_, pending.receiver);
   const EchoField field(world_, surfaces_, options_, sender, receiver, to);
   return field.direct(from) * amplitude(options_.air_db_per_km, glm::distance(from, to));
-}
-
-RawEchoes EchoFinder::veiled_echoes(const BeamedFacets& beamed, const RayGrid& grid, const EchoField& field,
-                                    const dvec3& source) const {
-  const Veils::Ends ends{source, field.receiver_at(), transmitter_.own_body, receiver_.own_body};
-  BeamedFacets behind = beamed;
-  behind.facets = veils_->behind(beamed.facets, ends, options_.threads);
-  behind.images.clear();
-  const FacetScene scene{world_, trees_, veils_->sight(), &*veils_};
-  return FacetEchoes(scene, grid, field, options_, source, monostatic_, transmitter_.own_body,
-                     receiver_.own_body)
-      .find(behind);
 }
 
 EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, EchoStatistics* statistics) {
@@ -378,6 +413,7 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   RayHits hits(words, grid->size());
   if (monostatic_) hits.find_seen(*grid, world_, source, options_.max_bounces, options_.threads);
   EchoStatistics counted;
+  memory_->begin(pending.transmitter, pending.receiver);
   RawEchoes raw = raw_echoes(pending, *grid, hits, field, counted);
   FoundPatches patches;
   if (clutter_) {

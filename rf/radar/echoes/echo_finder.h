@@ -19,6 +19,7 @@
 
 #include "rf/config/echo_options.h"
 #include "rf/facets/facet_world.h"
+#include "rf/radar/echoes/beam_memory.h"
 #include "rf/radar/echoes/clutter_patches.h"
 #include "rf/radar/echoes/echo_field.h"
 #include "rf/radar/echoes/echo_motion.h"
@@ -88,9 +89,7 @@ class EchoFinder {
   /// Returns the echoes of tubes and of small facets. world_ must already be in its poses.
   RawEchoes raw_echoes(const Pending& pending, const RayGrid& grid, const RayHits& hits,
                        const EchoField& field, EchoStatistics& statistics) const;
-  /// Returns the echoes of the facets with beams that are seen through veils.
-  RawEchoes veiled_echoes(const BeamedFacets& beamed, const RayGrid& grid, const EchoField& field,
-                          const dvec3& source) const;
+  class VeiledSearch;
   EchoRays rays_of(const Pending& pending) const {
     return {pending.transmitter.position, pending.receiver.position, transmitter_.own_body,
             receiver_.own_body};
@@ -110,6 +109,7 @@ class EchoFinder {
   FacetWorld world_;
   FacetTrees trees_;
   EchoTracer tracer_;
+  std::unique_ptr<BeamMemory> memory_;
   uint32_t traced_;               ///< number of surfaces that a ray may meet
   std::optional<EchoPass> pass_;  ///< empty if the host traces
   std::optional<MirrorFinder> mirrors_;

@@ -17,7 +17,7 @@ namespace greatx::rf {
 struct EchoMotion {
   std::function<Pose(double time_s)> transmitter, receiver;
   /// Returns the pose of a body. It is never called for body 0. At `traced_s` it must return the pose with
-  /// which the scene was traced.
+  /// which the scene was traced. Several threads call it.
   std::function<Pose(uint32_t body, double time_s)> body;
   double traced_s = 0.0;
   uint64_t frame = 0;  ///< number of the frame, for what is drawn afresh in each
@@ -33,6 +33,7 @@ struct EchoMotion {
 struct EchoStatistics {
   uint32_t tubes = 0;
   uint32_t facets = 0;          ///< facets with beams of their own
+  uint32_t remembered = 0;      ///< of `facets`, those whose echoes were kept from an earlier search
   uint32_t images = 0;          ///< facets with beams over mirrors, counted once for each mirror
   uint64_t contributions = 0;   ///< number of contributions before merging
   uint64_t below_floor = 0;     ///< number of edges, corners and echoes that are left out as too weak

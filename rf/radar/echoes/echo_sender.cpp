@@ -27,6 +27,18 @@ Polygon on_facet(const PosedFacet& facet, const TubeBeam& beam, const Polygon& p
   return Polygon(std::span(points.data(), part.size()));
 }
 
+void RawEchoes::append(const RawEchoes& more) {
+  const uint32_t shift = static_cast<uint32_t>(chains.size());
+  below_floor += more.below_floor;
+  remembered += more.remembered;
+  rough.append(more.rough);
+  chains.insert(chains.end(), more.chains.begin(), more.chains.end());
+  for (RawEcho echo : more.echoes) {
+    echo.first_facet += shift;
+    echoes.push_back(echo);
+  }
+}
+
 void RawEchoes::join(std::span<RawEchoes> parts) {
   size_t held = echoes.size(), links = chains.size(), pieces = rough.parts.size(),
          corners = rough.corners.size();
@@ -37,14 +49,7 @@ void RawEchoes::join(std::span<RawEchoes> parts) {
   echoes.reserve(held + 1), chains.reserve(links);
   rough.parts.reserve(pieces), rough.corners.reserve(corners);
   for (RawEchoes& part : parts) {
-    const uint32_t shift = static_cast<uint32_t>(chains.size());
-    below_floor += part.below_floor;
-    rough.append(part.rough);
-    chains.insert(chains.end(), part.chains.begin(), part.chains.end());
-    for (RawEcho& echo : part.echoes) {
-      echo.first_facet += shift;
-      echoes.push_back(echo);
-    }
+    append(part);
     part = {};
   }
 }

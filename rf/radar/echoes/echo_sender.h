@@ -33,10 +33,13 @@ struct RawEchoes {
   std::vector<RawEcho> echoes;
   std::vector<uint32_t> chains;
   uint64_t below_floor = 0;
-  ClutterParts rough;  ///< what the tubes see of surfaces that scatter, first or over a mirror
+  uint32_t remembered = 0;  ///< facets with beams whose echoes were kept from an earlier search
+  ClutterParts rough;       ///< what the tubes see of surfaces that scatter, first or over a mirror
   std::span<const uint32_t> chain(const RawEcho& echo) const {
     return std::span(chains).subspan(echo.first_facet, echo.bounces);
   }
+  /// Appends other echoes.
+  void append(const RawEchoes& more);
   /// Appends all parts in their order. The parts lose their contents.
   void join(std::span<RawEchoes> parts);
 };

@@ -25,6 +25,8 @@ constexpr uint32_t tubes_at_once = 256;
 constexpr double lift = 4.2e-7;
 /// Length by which cones are followed past the farthest point of a body, metres.
 constexpr double past_m = 1e-3;
+/// Fraction of a coordinate by which balls are widened, sixteen times the rounding error of fp32.
+constexpr double fp32_share = 1e-6;
 
 double largest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
@@ -75,11 +77,12 @@ EchoTracer::Piece EchoTracer::piece_of(const scene::Facet& facet, FacetPiece ind
 
 EchoTracer::EchoTracer(const scene::Scene& scene, const FacetTrees& trees,
                        const std::function<bool(uint32_t facet)>& takes) {
+  uint32_t facet = 0;  // the facets of a body are a range
   for (uint32_t body = 0; body < scene.bodies.size(); ++body) {
     Build work;
     Tree tree{0, body, scene.owner_of(body), {}};
-    for (uint32_t facet = 0; facet < scene.facets.size(); ++facet) {
-      if (scene.facets[facet].body != body || (takes && !takes(facet))) continue;
+    for (; facet < scene.facets.size() && scene.facets[facet].body == body; ++facet) {
+      if (takes && !takes(facet)) continue;
       for (const uint32_t index : trees.pieces(facet)) {
         const std::span<const dvec3> corners = trees.corners(index);
         scene::Bounds bounds;
@@ -276,6 +279,15 @@ EchoTracer::Poses EchoTracer::standing(const FacetWorld& world, const Hidden& hi
           std::max(group.radius, glm::distance(group.center, one.center) + std::sqrt(one.squared_radius));
     group.radius += 1e-9 * (group.radius + largest(group.center));  // more than the rounding errors
   }
+  all.balls.resize((all.groups.size() + wide - 1) / wide);
+  for (size_t i = 0; i < wide * all.balls.size(); ++i) {
+    Poses::EightBalls& eight = all.balls[i / wide];
+    const Group group = i < all.groups.size() ? all.groups[i] : Group{};
+    eight.x.lane[i % wide] = static_cast<float>(group.center.x);
+    eight.y.lane[i % wide] = static_cast<float>(group.center.y);
+    eight.z.lane[i % wide] = static_cast<float>(group.center.z);
+    eight.radius.lane[i % wide] = static_cast<float>(group.radius + fp32_share * largest(group.center));
+  }
   return all;
 }
 
@@ -289,22 +301,71 @@ void EchoTracer::meet_body(const Standing& one, double squared, Query& query) co
   if (query.facet != own.facet) query.facet = own.facet, query.piece = Query::none;
 }
 
+/// Sets the bits of the balls, eight in each word of `near`, that the ray comes near. Everything is relative
+/// to the origin of the ray.
+GREATX_LANES void EchoTracer::near_balls(const Poses::EightBalls* balls, uint32_t count, const float* origin,
+                                         const float* direction, float to, float slope, uint32_t* near) {
+  const float squared =
+                  direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2],
+              share = static_cast<float>(fp32_share),
+              room = share * std::max({std::abs(origin[0]), std::abs(origin[1]), std::abs(origin[2])});
+  for (uint32_t i = 0; i < count; ++i) {
+    const Lane x = *reinterpret_cast<const Lane*>(balls[i].x.lane) - origin[0],
+               y = *reinterpret_cast<const Lane*>(balls[i].y.lane) - origin[1],
+               z = *reinterpret_cast<const Lane*>(balls[i].z.lane) - origin[2],
+               radius = *reinterpret_cast<const Lane*>(balls[i].radius.lane);
+    const Lane cx = y * direction[2] - z * direction[1], cy = z * direction[0] - x * direction[2],
+               cz = x * direction[1] - y * direction[0];
+    // No shorter than the distance.
+    const Lane longest = (x < 0.0f ? -x : x) + (y < 0.0f ? -y : y) + (z < 0.0f ? -z : z);
+    Lane reach = longest + radius + 0.01f;
+    reach = reach < to ? reach : Lane{} + to;
+    const Lane most = radius + room + share * longest + reach * slope;
+    near[i] = mask_of(cx * cx + cy * cy + cz * cz <= most * most * squared * 1.00001f);
+  }
+}
+
+template <typename Visit>
+void EchoTracer::near_groups(const Poses& poses, const dvec3& origin, const dvec3& direction, double to,
+                             double slope, const Visit& visit) {
+  constexpr uint32_t at_once = 32;
+  for (const Group& group : poses.groups)
+    if (group.is_static && visit(group)) return;
+  const float from[3] = {static_cast<float>(origin.x), static_cast<float>(origin.y),
+                         static_cast<float>(origin.z)},
+              along[3] = {static_cast<float>(direction.x), static_cast<float>(direction.y),
+                          static_cast<float>(direction.z)};
+  std::array<uint32_t, at_once> near;
+  const uint32_t count = static_cast<uint32_t>(poses.balls.size());
+  for (uint32_t first = 0; first < count; first += at_once) {
+    const uint32_t some = std::min(at_once, count - first);
+    near_balls(poses.balls.data() + first, some, from, along, static_cast<float>(std::min(to, 1e30)),
+               static_cast<float>(slope), near.data());
+    for (uint32_t i = 0; i < some; ++i)
+      for (uint32_t bits = near[i]; bits != 0; bits &= bits - 1) {
+        const size_t group = size_t{wide} * (first + i) + std::countr_zero(bits);
+        if (group < poses.groups.size() && !poses.groups[group].is_static && visit(poses.groups[group]))
+          return;
+      }
+  }
+}
+
 void EchoTracer::meet_all(const Poses& poses, Query& query, uint32_t guess) const {
   const double squared = glm::dot(query.direction, query.direction);
-  for (const Group& group : poses.groups) {
+  near_groups(poses, query.origin, query.direction, 1e30, 0.0, [&](const Group& group) {
     if (group.is_static) {
       if (guess != Query::none) test(pieces_.data(), guess, sides_.data(), query);
       meet(nodes_.data(), pieces_.data(), sides_.data(), poses.trees[group.first].tree->root, query);
-      if (query.any && query.facet != ~0u) return;
-      continue;
+      return query.any && query.facet != ~0u;
     }
     const dvec3 across = glm::cross(group.center - query.origin, query.direction);
-    if (glm::dot(across, across) > group.radius * group.radius * squared) continue;
+    if (glm::dot(across, across) > group.radius * group.radius * squared) return false;
     for (uint32_t i = group.first; i < group.first + group.count; ++i) {
       meet_body(poses.trees[i], squared, query);
-      if (query.any && query.facet != ~0u) return;
+      if (query.any && query.facet != ~0u) return true;
     }
-  }
+    return false;
+  });
 }
 
 bool EchoTracer::sees(const Poses& poses, const dvec3& from, const dvec3& to, uint32_t leaving) const {
@@ -415,18 +476,45 @@ void EchoTracer::gather(const Standing& one, const Cone& cone, double squared,
 void EchoTracer::gather(const View& view, const Cone& cone, std::vector<FacetPiece>& pieces) const {
   const double squared = glm::dot(cone.direction, cone.direction);
   GREATX_CHECK(cone.sides.size() <= most_sides, "{} half-spaces", cone.sides.size());
-  for (const Group& group : view.poses_.groups) {
+  near_groups(view.poses_, cone.origin, cone.direction, cone.to, cone.slope, [&](const Group& group) {
     if (!group.is_static) {
       // A body of the group that the cone comes near has its centre within `most` of the ball's.
       const dvec3 arm = group.center - cone.origin, across = glm::cross(arm, cone.direction);
       const double reach = std::min(cone.to, glm::length(arm) + group.radius + past_m),
                    most = (group.radius + reach * cone.slope) * (1.0 + 1e-9);
-      if (glm::dot(across, across) > most * most * squared) continue;
+      if (glm::dot(across, across) > most * most * squared) return false;
     }
     for (uint32_t i = group.first; i < group.first + group.count; ++i)
       gather(view.poses_.trees[i], cone, squared, pieces);
-  }
+    return false;
+  });
   std::sort(pieces.begin(), pieces.end());
+}
+
+EchoTracer::Reach::Reach(const dvec3& from, const dvec3& along, double to_, double slope_)
+    : origin{static_cast<float>(from.x), static_cast<float>(from.y), static_cast<float>(from.z)},
+      direction{static_cast<float>(along.x), static_cast<float>(along.y), static_cast<float>(along.z)},
+      to(static_cast<float>(std::min(to_, 1e30) * (1.0 + fp32_share))),
+      slope(static_cast<float>(slope_ * (1.0 + fp32_share) + fp32_share)) {}
+
+bool EchoTracer::moving_near(const View& view, const Reach& reach) const {
+  const dvec3 origin(reach.origin[0], reach.origin[1], reach.origin[2]),
+      direction(reach.direction[0], reach.direction[1], reach.direction[2]);
+  const double length = glm::length(direction);
+  bool is_near = false;
+  near_groups(view.poses_, origin, direction, reach.to, reach.slope, [&](const Group& group) {
+    if (group.is_static) return false;
+    const dvec3 arm = group.center - origin;
+    const double distance = glm::length(arm),
+                 radius = group.radius + past_m + fp32_share * (largest(origin) + distance),
+                 at = glm::dot(arm, direction) / length;
+    const double most = radius + std::min<double>(reach.to, distance + radius) * reach.slope;
+    if (at < -most || at > reach.to * length + most) return false;
+    const dvec3 across = glm::cross(arm, direction);
+    is_near = glm::dot(across, across) <= most * most * length * length;
+    return is_near;
+  });
+  return is_near;
 }
 
 dvec3 EchoTracer::lifted(const dvec3& at, const dvec3& normal) { return at + lift * largest(at) * normal; }

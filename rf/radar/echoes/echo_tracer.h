@@ -61,6 +61,14 @@ class EchoTracer {
   static constexpr uint32_t most_sides = 6;
   /// Appends the pieces of facets that a cone may meet, and perhaps some more, in the order of FacetPiece.
   void gather(const View& view, const Cone& cone, std::vector<FacetPiece>& pieces) const;
+  /// The cone of a question in fp32, to be kept.
+  struct Reach {
+    float origin[3], direction[3], to, slope;
+    Reach(const dvec3& from, const dvec3& along, double to_, double slope_);
+  };
+  /// Returns whether a moving body comes near a cone. False says that neither gather() nor first() would meet
+  /// one there; a ray ends at `to`.
+  bool moving_near(const View& view, const Reach& reach) const;
   /// Returns whether nothing but the facet `leaving` is between two points.
   bool clear(const View& view, const dvec3& from, const dvec3& to, uint32_t leaving) const;
   /// Returns a point slightly above a surface, from which a ray that leaves it does not meet what lies in its
@@ -69,6 +77,9 @@ class EchoTracer {
 
  private:
   static constexpr uint32_t wide = 8, leaf_size = 4, bins = 16;
+  struct alignas(32) Eight {
+    float lane[wide];
+  };
   /// Holds eight children side by side. A leaf has `count` pieces from index `child` on. An inner child is
   /// the node `child`, with `count` = 0. The box of an absent child is empty, so that no ray meets it.
   struct alignas(32) Node {
@@ -119,6 +130,12 @@ class EchoTracer {
   struct Poses {
     std::vector<Standing> trees;
     std::vector<Group> groups;
+    /// The balls of the groups in fp32, wider than the rounding errors, eight side by side. A street has
+    /// hundreds of groups, and a ray comes near a few of them.
+    struct EightBalls {
+      Eight x, y, z, radius;
+    };
+    std::vector<EightBalls> balls;
   };
   using Hidden = std::array<uint32_t, 2>;  ///< owners of the bodies that rays pass through; 0: none
 
@@ -130,6 +147,13 @@ class EchoTracer {
                      std::vector<FacetPiece>& found);
   /// Returns all trees except those of hidden bodies.
   Poses standing(const FacetWorld& world, const Hidden& hidden) const;
+  /// Calls visit(group) for all groups that points within t `slope` of a ray up to `to` may come near, and
+  /// perhaps some more, until it returns true. The static group comes first.
+  template <typename Visit>
+  static void near_groups(const Poses& poses, const dvec3& origin, const dvec3& direction, double to,
+                          double slope, const Visit& visit);
+  static void near_balls(const Poses::EightBalls* balls, uint32_t count, const float* origin,
+                         const float* direction, float to, float slope, uint32_t* near);
   /// Tests the ray against all bodies. `query` is in local coordinates. `guess` is a piece of the static body
   /// that the ray probably meets, or Query::none: it is tested first, so that farther boxes are passed over.
   void meet_all(const Poses& poses, Query& query, uint32_t guess = Query::none) const;

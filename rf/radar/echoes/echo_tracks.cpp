@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/units.h"
 
 namespace greatx::rf {
@@ -40,11 +41,17 @@ std::array<double, 4> cubic_through(const std::array<double, 4>& x, std::array<d
 
 }  // namespace
 
-PoseTable::PoseTable(const EchoMotion& motion, std::span<const bool> bodies, std::vector<double> times_s)
+PoseTable::PoseTable(const EchoMotion& motion, std::span<const bool> bodies, std::vector<double> times_s,
+                     uint32_t threads)
     : times_s_(std::move(times_s)), bodies_(bodies.size()) {
-  for (size_t body = 1; body < bodies.size(); ++body)
-    if (bodies[body])
-      for (const double t : times_s_) bodies_[body].push_back(motion.body(static_cast<uint32_t>(body), t));
+  std::vector<uint32_t> asked;
+  for (uint32_t body = 1; body < bodies.size(); ++body)
+    if (bodies[body]) asked.push_back(body);
+  parallel_for(asked.size(), threads, [&](size_t i) {
+    std::vector<Pose>& poses = bodies_[asked[i]];
+    poses.reserve(times_s_.size());
+    for (const double t : times_s_) poses.push_back(motion.body(asked[i], t));
+  });
   for (const double t : times_s_) {
     transmitter_.push_back(motion.transmitter(t).position);
     receiver_.push_back(motion.receiver(t).position);

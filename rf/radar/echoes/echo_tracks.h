@@ -39,8 +39,9 @@ struct CarriedPath {
 /// thread-safe.
 class PoseTable {
  public:
-  /// `bodies` [bodies of the scene] tells which poses may be asked for.
-  PoseTable(const EchoMotion& motion, std::span<const bool> bodies, std::vector<double> times_s);
+  /// `bodies` [bodies of the scene] tells which poses may be asked for. Uses `threads` threads.
+  PoseTable(const EchoMotion& motion, std::span<const bool> bodies, std::vector<double> times_s,
+            uint32_t threads);
   const std::vector<double>& times_s() const { return times_s_; }
   const Pose& body(uint32_t body, size_t time) const { return bodies_[body][time]; }
   const dvec3& transmitter(size_t time) const { return transmitter_[time]; }

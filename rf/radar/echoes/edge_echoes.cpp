@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/parallel.h"
 #include "core/units.h"
 #include "rf/radar/echoes/fringe.h"
 
@@ -49,47 +48,33 @@ PosedEdge posed_edge(const scene::Wedge& wedge, const FacetWorld& world) {
 
 }  // namespace
 
-/// Holds what a search looks with.
-struct EdgeEchoes::Look {
-  const FacetWorld& world;
-  const EchoTracer& tracer;
-  const EchoField& field;
-  const EchoSender& sender;
-  const Ends& ends;
-  EchoTracer::View out, home;
-};
-
 EdgeEchoes::EdgeEchoes(const scene::Scene& scene, const scene::EdgeSurvey* survey)
     : wedges_(scene::find_wedges(scene, {.free_edges = true, .flat_angle_rad = seam_rad}, nullptr, survey)) {}
 
-RawEchoes EdgeEchoes::find(const FacetWorld& world, const EchoTracer& tracer, const EchoField& field,
-                           const EchoSender& sender, const Ends& ends, uint32_t threads) const {
-  constexpr size_t chunk = 512;
-  const Look look{world,
-                  tracer,
-                  field,
-                  sender,
-                  ends,
-                  tracer.view(world, ends.own_body),
-                  tracer.view(world, ends.own_body, ends.receiver_body)};
-  std::vector<RawEchoes> parts((wedges_.size() + chunk - 1) / chunk);
-  parallel_for(parts.size(), threads, [&](size_t part) {
-    for (size_t i = part * chunk; i < std::min(wedges_.size(), (part + 1) * chunk); ++i)
-      solve(wedges_[i], look, parts[part]);
-  });
-  RawEchoes all;
-  all.join(parts);
-  return all;
+EdgeEchoes::Search::Search(const EdgeEchoes& edges, const FacetWorld& world, const EchoTracer& tracer,
+                           const EchoField& field, const EchoSender& sender, const Ends& ends)
+    : edges_(edges),
+      world_(world),
+      tracer_(tracer),
+      field_(field),
+      sender_(sender),
+      ends_(ends),
+      out_(tracer.view(world, ends.own_body)),
+      home_(tracer.view(world, ends.own_body, ends.receiver_body)) {}
+
+void EdgeEchoes::Search::find(size_t part, RawEchoes& out) const {
+  const std::vector<scene::Wedge>& wedges = edges_.wedges_;
+  for (size_t i = part * chunk; i < std::min(wedges.size(), (part + 1) * chunk); ++i) solve(wedges[i], out);
 }
 
-void EdgeEchoes::solve(const scene::Wedge& wedge, const Look& look, RawEchoes& out) const {
-  const EchoField& field = look.field;
-  const uint32_t own = look.ends.own_body;
-  if (own != 0 && wedge.body != 0 && look.world.facet(wedge.facet_0).owner == own) return;
+void EdgeEchoes::Search::solve(const scene::Wedge& wedge, RawEchoes& out) const {
+  const EchoField& field = field_;
+  const uint32_t own = ends_.own_body;
+  if (own != 0 && wedge.body != 0 && world_.facet(wedge.facet_0).owner == own) return;
   if (!field.reflects(wedge.facet_0) || (wedge.facet_n != scene::no_facet && !field.reflects(wedge.facet_n)))
     return;
-  const PosedEdge edge = posed_edge(wedge, look.world);
-  const dvec3 &source = look.ends.source, &receiver = field.receiver_at();
+  const PosedEdge edge = posed_edge(wedge, world_);
+  const dvec3 &source = ends_.source, &receiver = field.receiver_at();
   const PhaseLine line{edge.place(source), edge.place(receiver), field.wavenumber()};
   const double middle = 0.5 * edge.length;
   const auto distance = [&](const dvec2& end) { return std::hypot(middle - end.x, end.y); };
@@ -101,7 +86,7 @@ void EdgeEchoes::solve(const scene::Wedge& wedge, const Look& look, RawEchoes& o
       slope_a * slope_b > 0.0
           ? std::min(edge.length, 2.0 / std::max(1e-9, std::min(std::abs(slope_a), std::abs(slope_b))))
           : edge.length;
-  if (most_fringe * most / field.wavenumber() < look.sender.floor_at(before, after)) return;
+  if (most_fringe * most / field.wavenumber() < sender_.floor_at(before, after)) return;
   const double incident = edge.angle(source), observed = edge.angle(receiver), width = wedge.n * pi;
   if (incident > width || observed > width) return;
   const Fringe strength = fringe(wedge.n, incident, observed);
@@ -111,9 +96,9 @@ void EdgeEchoes::solve(const scene::Wedge& wedge, const Look& look, RawEchoes& o
     const dvec3 at = edge.a + edge.length * (i + 0.5) / stretches * edge.along;
     const auto clear = [&](const EchoTracer::View& view, const dvec3& end) {
       const dvec3 across = end - at - glm::dot(end - at, edge.along) * edge.along;
-      return look.tracer.clear(view, at + lift_m * glm::normalize(across), end, wedge.facet_0);
+      return tracer_.clear(view, at + lift_m * glm::normalize(across), end, wedge.facet_0);
     };
-    return clear(look.out, source) && (look.ends.monostatic || clear(look.home, receiver));
+    return clear(out_, source) && (ends_.monostatic || clear(home_, receiver));
   };
   std::vector<LineContribution> contributions;
   for (uint32_t first = 0; first < stretches;) {
@@ -126,7 +111,7 @@ void EdgeEchoes::solve(const scene::Wedge& wedge, const Look& look, RawEchoes& o
     integrate(line, edge.length * first / stretches, edge.length * last / stretches, contributions);
     first = last + 1;
   }
-  const double least = look.sender.floor_at(before, after);
+  const double least = sender_.floor_at(before, after);
   for (const LineContribution& c : contributions) {
     const double size = std::max(std::abs(strength.soft), std::abs(strength.hard)) * std::abs(c.value);
     if (size / field.wavenumber() < least) {

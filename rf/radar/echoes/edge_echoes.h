@@ -25,16 +25,33 @@ class EdgeEchoes {
     uint32_t own_body = 0, receiver_body = 0;
     bool monostatic = true;
   };
-  /// Returns the echoes of all edges that both ends see and that may stand above the floor, with one bounce,
-  /// at the first of their two faces. Uses `threads` threads.
-  RawEchoes find(const FacetWorld& world, const EchoTracer& tracer, const EchoField& field,
-                 const EchoSender& sender, const Ends& ends, uint32_t threads) const;
+  class Search;
 
  private:
-  struct Look;
-  void solve(const scene::Wedge& wedge, const Look& look, RawEchoes& out) const;
-
   std::vector<scene::Wedge> wedges_;
+};
+
+/// Finds the echoes of all edges that both ends see and that may stand above the floor, with one bounce, at
+/// the first of their two faces. All references outlive it.
+class EdgeEchoes::Search {
+ public:
+  Search(const EdgeEchoes& edges, const FacetWorld& world, const EchoTracer& tracer, const EchoField& field,
+         const EchoSender& sender, const Ends& ends);
+  /// The echoes of all parts, in their order, are those of all edges. Parts do not depend on each other.
+  size_t parts() const { return (edges_.wedges_.size() + chunk - 1) / chunk; }
+  void find(size_t part, RawEchoes& out) const;
+
+ private:
+  static constexpr size_t chunk = 512;
+  void solve(const scene::Wedge& wedge, RawEchoes& out) const;
+
+  const EdgeEchoes& edges_;
+  const FacetWorld& world_;
+  const EchoTracer& tracer_;
+  const EchoField& field_;
+  const EchoSender& sender_;
+  Ends ends_;
+  EchoTracer::View out_, home_;
 };
 
 }  // namespace greatx::rf

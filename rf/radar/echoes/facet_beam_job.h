@@ -43,12 +43,16 @@ struct FacetEchoes::Job : BeamWay {
   double smallest = 0.0;  ///< area in the (u, v) plane; smaller parts are dropped
   std::vector<FacetPiece> pieces;
   std::array<std::vector<VisibleCell>, most_surfaces> cells;
-  std::vector<FacetPiece> hiding;            ///< what may hide a part from the receiver
-  std::vector<VisibleCell> seen, on_mirror;  ///< of the way to the receiver
-  std::vector<VisibleCell> behind;           ///< veils
-  std::vector<Polygon> sending;              ///< what the receiver sees of a part
-  std::vector<Lit> lit;                      ///< of the present beam
-  std::vector<Shown> shown;                  ///< without repetition
+  std::array<std::vector<Polygon>, most_surfaces> parts;  ///< of one facet
+  std::vector<FacetPiece> hiding;                         ///< what may hide a part from the receiver
+  std::vector<Polygon> seen;                              ///< of a part, by the receiver
+  std::vector<VisibleCell> on_mirror;                     ///< of the way to the receiver
+  std::vector<VisibleCell> behind;                        ///< veils
+  std::vector<Polygon> sending;                           ///< what the receiver sees of a part
+  std::vector<Lit> lit;                                   ///< of the present beam
+  std::vector<Shown> shown;                               ///< without repetition
+  bool records = false;                                   ///< into `cones`
+  std::vector<EchoTracer::Reach> cones;                   ///< what the tracer was asked for the present facet
   VisibleScratch scratch;
 };
 

@@ -68,7 +68,7 @@ bool FacetEchoes::chosen(uint32_t facet, const PosedFacet* mirror) const {
 }
 
 BeamedFacets FacetEchoes::choose(std::span<const MirroredFacet> images) const {
-  constexpr uint32_t at_once = 4096;
+  constexpr uint32_t at_once = 1024;
   const uint32_t facets = scene_.world.facet_count();
   BeamedFacets found;
   found.marks.assign(facets, 0), found.mirrors.assign(facets, 0);
@@ -79,30 +79,51 @@ BeamedFacets FacetEchoes::choose(std::span<const MirroredFacet> images) const {
   });
   for (uint32_t facet = 0; facet < facets; ++facet)
     if (found.marks[facet] != 0) found.facets.push_back(facet);
-  for (const MirroredFacet& image : images)
-    if (chosen(image.facet, &scene_.world.facet(image.mirror))) {
-      found.images.push_back(image);
-      found.mirrors[image.mirror] = 1;
+  std::vector<uint8_t> shown(images.size());
+  parallel_for((images.size() + at_once - 1) / at_once, options_.threads, [&](size_t part) {
+    for (size_t i = part * at_once; i < std::min(images.size(), (part + 1) * at_once); ++i)
+      shown[i] = chosen(images[i].facet, &scene_.world.facet(images[i].mirror)) ? 1 : 0;
+  });
+  for (size_t i = 0; i < images.size(); ++i)
+    if (shown[i] != 0) {
+      found.images.push_back(images[i]);
+      found.mirrors[images[i].mirror] = 1;
     }
   return found;
 }
 
-RawEchoes FacetEchoes::find(const BeamedFacets& chosen) const {
+void FacetEchoes::find(const BeamedFacets& chosen, size_t part, RawEchoes& out, BeamMemory* memory) const {
   const size_t direct = chosen.facets.size(), count = direct + chosen.images.size();
-  std::vector<RawEchoes> found((count + chunk - 1) / chunk);
-  parallel_for(found.size(), options_.threads, [&](size_t part) {
-    Job job;
-    job.out = &found[part];
-    for (size_t i = part * chunk; i < std::min(count, (part + 1) * chunk); ++i) {
-      if (i < direct)
-        solve(chosen.facets[i], job);
-      else
-        solve_over(chosen.images[i - direct], job);
-    }
-  });
-  RawEchoes all;
-  all.join(found);
-  return all;
+  const bool remembers = memory != nullptr && memory->stands_still() && scene_.veils == nullptr;
+  Job job;
+  job.out = &out;
+  for (size_t i = part * chunk; i < std::min(count, (part + 1) * chunk); ++i) {
+    if (i >= direct)
+      solve_over(chosen.images[i - direct], job);
+    else if (remembers && scene_.world.facet(chosen.facets[i]).body == 0)
+      solve_or_remember(chosen.facets[i], job, *memory);
+    else
+      solve(chosen.facets[i], job);
+  }
+}
+
+void FacetEchoes::solve_or_remember(uint32_t facet, Job& job, BeamMemory& memory) const {
+  RawEchoes& out = *job.out;
+  // The receiver's view hides what this one hides, and perhaps more.
+  if (const RawEchoes* known = memory.find(facet, scene_.tracer, beams_)) {
+    out.append(*known);
+    ++out.remembered;
+    return;
+  }
+  RawEchoes sent;
+  job.out = &sent;
+  job.records = true;
+  job.cones.clear();
+  solve(facet, job);
+  job.records = false;
+  job.out = &out;
+  memory.keep(facet, sent, job.cones, scene_.tracer, beams_);
+  out.append(sent);
 }
 
 Polygon FacetEchoes::outline_of(uint32_t facet, uint32_t piece, const TubeBeam& beam,
@@ -130,23 +151,21 @@ void FacetEchoes::solve(uint32_t facet, Job& job) const {
     const Polygon outline = outline_of(facet, piece, beam, farthest);
     if (outline.empty()) continue;
     // Most facets that something hides are hidden by one piece of one other facet.
-    const EchoTracer::Met met =
-        scene_.tracer.first(beams_, ends_.source, glm::normalize(beam.along(outline.centroid())), ~0u);
+    const EchoTracer::Met met = first(job, ends_.source, glm::normalize(beam.along(outline.centroid())), ~0u);
     if (met.facet != facet && met.facet != ~0u && met.distance < farthest &&
         covers(world, scene_.trees, beam, {}, outline, met.facet, job.scratch, &world.facet(facet)))
       continue;
     job.smallest = smallest_beam_part * outline.area();
-    gather(scene_.tracer, beams_, beam, {}, outline, farthest, job.pieces);
-    std::vector<VisibleCell>& cells = job.cells[0];
-    find_visible(world, scene_.trees, beam, {}, outline, facet, job.pieces, job.smallest, job.scratch, cells);
-    for (size_t i = 0; i < cells.size(); ++i)
-      if (cells[i].facet == facet) {
-        if (scene_.veils == nullptr) {
-          keep_rough(facet, cells[i].part, job);
-          bounce_off(job, 0, cells[i].part, facet);
-        } else {
-          solve_behind(facet, cells[i].part, farthest, job);
-        }
+    gather(job, scene_.tracer, beams_, beam, {}, outline, farthest, job.pieces);
+    std::vector<Polygon>& parts = job.parts[0];
+    find_unhidden(world, scene_.trees, beam, {}, outline, facet, job.pieces, job.smallest, job.scratch,
+                  parts);
+    for (size_t i = 0; i < parts.size(); ++i)
+      if (scene_.veils == nullptr) {
+        keep_rough(facet, parts[i], job);
+        bounce_off(job, 0, parts[i], facet);
+      } else {
+        solve_behind(facet, parts[i], farthest, job);
       }
   }
   if (scene_.veils == nullptr) send_over_shown(job);
@@ -154,7 +173,7 @@ void FacetEchoes::solve(uint32_t facet, Job& job) const {
 
 void FacetEchoes::solve_behind(uint32_t facet, const Polygon& part, double farthest, Job& job) const {
   const TubeBeam& beam = job.beams[0];
-  gather(scene_.veils->tracer(), veil_views_.out, beam, {}, part, farthest, job.hiding);
+  gather(job, scene_.veils->tracer(), veil_views_.out, beam, {}, part, farthest, job.hiding);
   std::vector<VisibleCell>& behind = job.behind;
   find_visible(scene_.world, scene_.trees, beam, {}, part, facet, job.hiding, job.smallest, job.scratch,
                behind);
@@ -203,26 +222,26 @@ void FacetEchoes::solve_over(const MirroredFacet& image, Job& job) const {
     job.smallest = smallest_beam_part * outline.area();
     double to = 0.0;  // the mirror is not farther away
     for (uint32_t i = 0; i < outline.size(); ++i) to = std::max(to, out.reach(mirror, out.along(outline[i])));
-    std::vector<VisibleCell>&on_mirror = job.cells[0], &on_facet = job.cells[1];
-    gather(scene_.tracer, beams_, out, {}, outline, to * (1.0 + same_beam_distance), job.pieces);
+    std::vector<VisibleCell>& on_mirror = job.cells[0];
+    std::vector<Polygon>& on_facet = job.parts[1];
+    gather(job, scene_.tracer, beams_, out, {}, outline, to * (1.0 + same_beam_distance), job.pieces);
     find_visible(world, scene_.trees, out, {}, outline, VisibleCell::nothing, job.pieces, job.smallest,
                  job.scratch, on_mirror);
     for (size_t i = 0; i < on_mirror.size(); ++i) {
       if (on_mirror[i].facet != image.mirror) continue;
       const Polygon part = on_mirror[i].part;
-      gather(scene_.tracer, beams_, beam, start, part, farthest, job.pieces);
-      find_visible(world, scene_.trees, beam, start, part, image.facet, job.pieces, job.smallest, job.scratch,
-                   on_facet);
+      gather(job, scene_.tracer, beams_, beam, start, part, farthest, job.pieces);
+      find_unhidden(world, scene_.trees, beam, start, part, image.facet, job.pieces, job.smallest,
+                    job.scratch, on_facet);
       job.chain[0] = image.mirror;
-      for (size_t k = 0; k < on_facet.size(); ++k)
-        if (on_facet[k].facet == image.facet) bounce_off(job, 1, on_facet[k].part, image.facet);
+      for (size_t k = 0; k < on_facet.size(); ++k) bounce_off(job, 1, on_facet[k], image.facet);
     }
   }
   send_over_shown(job);
 }
 
-void FacetEchoes::gather(const EchoTracer& tracer, const EchoTracer::View& view, const TubeBeam& beam,
-                         const BeamStart& start, const Polygon& part, double to,
+void FacetEchoes::gather(Job& job, const EchoTracer& tracer, const EchoTracer::View& view,
+                         const TubeBeam& beam, const BeamStart& start, const Polygon& part, double to,
                          std::vector<FacetPiece>& pieces) const {
   const PartBox box(part);
   const dvec2 middle = 0.5 * (box.low + box.high);
@@ -235,8 +254,16 @@ void FacetEchoes::gather(const EchoTracer& tracer, const EchoTracer::View& view,
   }
   const BeamSpaces spaces(beam, start, box);
   cone.sides = spaces.used();
+  if (job.records) job.cones.emplace_back(cone.origin, cone.direction, cone.to, cone.slope);
   pieces.clear();
   tracer.gather(view, cone, pieces);
+}
+
+EchoTracer::Met FacetEchoes::first(Job& job, const dvec3& origin, const dvec3& direction,
+                                   uint32_t leaving) const {
+  const EchoTracer::Met met = scene_.tracer.first(beams_, origin, direction, leaving);
+  if (job.records) job.cones.emplace_back(origin, direction, met.distance, 0.0);
+  return met;
 }
 
 void FacetEchoes::follow(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start) const {
@@ -255,9 +282,9 @@ uint32_t FacetEchoes::gather_next(Job& job, const TubeBeam& beam, const BeamStar
                                   const Polygon& part) const {
   const dvec3 direction = glm::normalize(beam.along(part.centroid()));
   const double reach = beam.reach(*start.facet, direction);
-  const EchoTracer::Met met = scene_.tracer.first(
-      beams_, EchoTracer::lifted(beam.source + reach * direction, start.side * start.facet->normal),
-      direction, start.index);
+  const EchoTracer::Met met =
+      first(job, EchoTracer::lifted(beam.source + reach * direction, start.side * start.facet->normal),
+            direction, start.index);
   double to = 1e30;
   uint32_t wall = VisibleCell::nothing;
   if (met.facet != ~0u && covers(scene_.world, scene_.trees, beam, start, part, met.facet, job.scratch)) {
@@ -265,7 +292,7 @@ uint32_t FacetEchoes::gather_next(Job& job, const TubeBeam& beam, const BeamStar
     for (uint32_t i = 0; i < part.size(); ++i)
       to = std::max(to, beam.reach(scene_.world.facet(wall), beam.along(part[i])));
   }
-  gather(scene_.tracer, beams_, beam, start, part, to, job.pieces);
+  gather(job, scene_.tracer, beams_, beam, start, part, to, job.pieces);
   return wall;
 }
 
@@ -273,7 +300,8 @@ void FacetEchoes::finish(Job& job, uint32_t bounce, const Polygon& part, const B
   const FacetWorld& world = scene_.world;
   const TubeBeam& beam = job.beams[bounce];
   gather_next(job, beam, start, part);
-  std::vector<VisibleCell>&senders = job.cells[bounce], &cells = job.cells[bounce + 1];
+  std::vector<VisibleCell>& senders = job.cells[bounce];
+  std::vector<Polygon>& parts = job.parts[bounce + 1];
   senders.clear();
   const PartBox within(part);
   std::array<dvec3, FacetTrees::most_corners> room;
@@ -287,13 +315,12 @@ void FacetEchoes::finish(Job& job, uint32_t bounce, const Polygon& part, const B
   }
   for (size_t i = 0; i < senders.size(); ++i) {
     const uint32_t facet = senders[i].facet;
-    find_visible(world, scene_.trees, beam, start, senders[i].part, facet, job.pieces, job.smallest,
-                 job.scratch, cells);
-    for (const VisibleCell& cell : cells) {
-      if (cell.facet != facet) continue;
+    find_unhidden(world, scene_.trees, beam, start, senders[i].part, facet, job.pieces, job.smallest,
+                  job.scratch, parts);
+    for (const Polygon& part_seen : parts) {
       add_shown(job, bounce, facet);
       job.chain[bounce] = facet, job.chain_at = ~0u;
-      if (may_send(job, bounce, cell.part, facet)) send(job, bounce, cell.part);
+      if (may_send(job, bounce, part_seen, facet)) send(job, bounce, part_seen);
     }
   }
   job.chain_at = ~0u;

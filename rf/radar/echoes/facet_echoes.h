@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "rf/radar/echoes/beam_memory.h"
 #include "rf/radar/echoes/echo_sender.h"
 #include "rf/radar/echoes/echo_tracer.h"
 #include "rf/radar/echoes/mirrors.h"
@@ -60,25 +61,33 @@ class FacetEchoes {
   /// Returns the facets of which the grid may miss a part: those narrower than a few tubes, entirely in the
   /// field of view, whose echo may stand above the floor. `images` are those that are seen over mirrors.
   BeamedFacets choose(std::span<const MirroredFacet> images) const;
-  /// Returns the raw echoes of the chosen facets, in their order. Uses options.threads threads.
-  RawEchoes find(const BeamedFacets& chosen) const;
+  /// The raw echoes of all parts, in their order, are those of the chosen facets. Parts do not depend on each
+  /// other.
+  static size_t parts(const BeamedFacets& chosen) {
+    return (chosen.facets.size() + chosen.images.size() + chunk - 1) / chunk;
+  }
+  /// `memory` keeps the echoes of facets at rest; null: nothing is kept.
+  void find(const BeamedFacets& chosen, size_t part, RawEchoes& out, BeamMemory* memory) const;
 
  private:
   struct Job;
-  static constexpr uint32_t chunk = 64;
+  static constexpr uint32_t chunk = 32;
   bool chosen(uint32_t facet, const PosedFacet* mirror) const;
   /// Returns the outline of a piece in the coordinates of `beam`, and the largest distance of its corners
   /// along the axis. Returns an empty polygon if the piece is seen edge on.
   Polygon outline_of(uint32_t facet, uint32_t piece, const TubeBeam& beam, double& farthest) const;
   void solve(uint32_t facet, Job& job) const;
+  void solve_or_remember(uint32_t facet, Job& job, BeamMemory& memory) const;
   void solve_over(const MirroredFacet& image, Job& job) const;
   /// Keeps what both ends see of a part of the first facet, if it is rough.
   void keep_rough(uint32_t facet, const Polygon& part, Job& job) const;
   /// Sends back from what is behind veils of a part that the source sees of a facet.
   void solve_behind(uint32_t facet, const Polygon& part, double farthest, Job& job) const;
   /// Replaces `pieces` by those that a part of a beam may meet nearer than `to`.
-  void gather(const EchoTracer& tracer, const EchoTracer::View& view, const TubeBeam& beam,
+  void gather(Job& job, const EchoTracer& tracer, const EchoTracer::View& view, const TubeBeam& beam,
               const BeamStart& start, const Polygon& part, double to, std::vector<FacetPiece>& pieces) const;
+  /// Returns the first facet that a ray of the transmitter's beams meets.
+  EchoTracer::Met first(Job& job, const dvec3& origin, const dvec3& direction, uint32_t leaving) const;
   void follow(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start) const;
   /// Gathers what a part of a beam that leaves a surface may meet. Returns a facet that covers all of the
   /// part, so that nothing behind it is seen, or VisibleCell::nothing.
@@ -112,7 +121,7 @@ class FacetEchoes {
   };
   /// Returns false if the part is too wide for one view, or seen edge on.
   bool view_back(const Job& job, uint32_t last, const Polygon& part, const dvec3& from, BackView& view) const;
-  /// Adds the cells of job.seen on surface `last`, in the coordinates of the beam, to job.sending.
+  /// Adds the parts in job.seen on surface `last`, in the coordinates of the beam, to job.sending.
   void keep_seen(Job& job, uint32_t last, const TubeBeam& back) const;
 
   const FacetScene& scene_;

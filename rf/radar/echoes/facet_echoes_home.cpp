@@ -115,11 +115,9 @@ bool FacetEchoes::view_back(const Job& job, uint32_t last, const Polygon& part, 
 void FacetEchoes::keep_seen(Job& job, uint32_t last, const TubeBeam& back) const {
   const PosedFacet& posed = scene_.world.facet(job.chain[last]);
   std::array<dvec2, Polygon::capacity> points;
-  for (const VisibleCell& cell : job.seen) {
-    if (cell.facet != job.chain[last]) continue;
-    for (uint32_t i = 0; i < cell.part.size(); ++i)
-      points[i] = job.beams[last].uv(back.on(posed, cell.part[i]));
-    job.sending.emplace_back(std::span<const dvec2>(points).first(cell.part.size()));
+  for (const Polygon& part : job.seen) {
+    for (uint32_t i = 0; i < part.size(); ++i) points[i] = job.beams[last].uv(back.on(posed, part[i]));
+    job.sending.emplace_back(std::span<const dvec2>(points).first(part.size()));
   }
 }
 
@@ -127,9 +125,9 @@ void FacetEchoes::find_seen(Job& job, uint32_t last, const Polygon& part) const 
   job.sending.clear();
   BackView view;
   if (!view_back(job, last, part, field_.receiver_at(), view)) return;
-  gather(scene_.tracer, receiver_, view.beam, {}, view.outline, view.farthest, job.hiding);
-  find_visible(scene_.world, scene_.trees, view.beam, {}, view.outline, job.chain[last], job.hiding,
-               smallest_beam_part * view.outline.area(), job.scratch, job.seen);
+  gather(job, scene_.tracer, receiver_, view.beam, {}, view.outline, view.farthest, job.hiding);
+  find_unhidden(scene_.world, scene_.trees, view.beam, {}, view.outline, job.chain[last], job.hiding,
+                smallest_beam_part * view.outline.area(), job.scratch, job.seen);
   keep_seen(job, last, view.beam);
 }
 
@@ -145,15 +143,15 @@ void FacetEchoes::find_seen_over(Job& job, uint32_t last, const Polygon& part, u
   for (uint32_t i = 0; i < view.outline.size(); ++i)
     to = std::max(to, out.reach(wall, out.along(view.outline[i])));
   const double smallest = smallest_beam_part * view.outline.area();
-  gather(scene_.tracer, receiver_, out, {}, view.outline, to * (1.0 + same_beam_distance), job.hiding);
+  gather(job, scene_.tracer, receiver_, out, {}, view.outline, to * (1.0 + same_beam_distance), job.hiding);
   find_visible(world, scene_.trees, out, {}, view.outline, VisibleCell::nothing, job.hiding, smallest,
                job.scratch, job.on_mirror);
   const BeamStart start{&wall, mirror, side > 0.0 ? 1.0 : -1.0};
   for (const VisibleCell& cell : job.on_mirror) {
     if (cell.facet != mirror) continue;
-    gather(scene_.tracer, receiver_, view.beam, start, cell.part, view.farthest, job.hiding);
-    find_visible(world, scene_.trees, view.beam, start, cell.part, job.chain[last], job.hiding, smallest,
-                 job.scratch, job.seen);
+    gather(job, scene_.tracer, receiver_, view.beam, start, cell.part, view.farthest, job.hiding);
+    find_unhidden(world, scene_.trees, view.beam, start, cell.part, job.chain[last], job.hiding, smallest,
+                  job.scratch, job.seen);
     keep_seen(job, last, view.beam);
   }
 }

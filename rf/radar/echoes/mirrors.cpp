@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/parallel.h"
+
 namespace greatx::rf {
 namespace {
 
@@ -61,53 +63,58 @@ void MirrorFinder::add_facets(const TargetBox& target, uint32_t mirror, const Fa
 
 std::vector<MirroredFacet> MirrorFinder::find(std::span<const TargetBox> targets, const FacetWorld& world,
                                               const FacetTrees& trees, const EchoTracer& tracer,
-                                              const dvec3& radar, uint32_t own_body) const {
+                                              const dvec3& radar, uint32_t own_body, uint32_t threads) const {
   std::vector<MirroredFacet> images;
   if (targets.empty()) return images;
-  const EchoTracer::View view = tracer.view(world, own_body);
-  for (const TargetBox& box : targets) {
-    if (box.bounds.empty()) continue;
-    const Sought target = sought(box);
-    const uint32_t owner = scene_.owner_of(box.body);
-    const auto is_target = [&](uint32_t facet) {
-      return box.body == 0 ? scene_.facets[facet].instance == box.instance
-                           : world.facet(facet).owner == owner;
-    };
-    for (const Mirror& mirror : mirrors_) {
-      if (mirror.extent_m < target.radius) break;
-      const PosedFacet& posed = world.facet(mirror.facet);
-      const double side = posed.distance(radar), there = posed.distance(target.points[0]);
-      if (!(side * there > 0.0)) continue;
-      // The point where the ray to the image of the centre meets the plane. It may lie beside the facet by
-      // `room`, since the rays to the corners of the box meet the plane up to that far from it.
-      const double share = side / (side + there);
-      const dvec2 from = posed.plane_coordinates(radar),
-                  at = from + share * (posed.plane_coordinates(target.points[0]) - from);
-      const double room = share * target.radius;
-      if (at.x < posed.min_u - room || at.x > posed.max_u + room || at.y < posed.min_v - room ||
-          at.y > posed.max_v + room)
-        continue;
-      if (is_target(mirror.facet) || (own_body != 0 && posed.owner == own_body)) continue;
-      const auto shows = [&](const dvec3& point) {
-        const double height = posed.distance(point);
-        if (!(side * height > 0.0)) return false;
-        const dvec3 image = point - 2.0 * height * posed.normal;
-        const dvec3 over = radar + side / (side + height) * (image - radar);
-        if (!trees.contains(world, mirror.facet, over)) return false;
-        const dvec3 out = over - radar, on = point - over;
-        const EchoTracer::Met met = tracer.first(view, radar, glm::normalize(out), ~0u);
-        if (met.facet != mirror.facet && met.distance < glm::length(out) * (1.0 - same_on_mirror))
-          return false;
-        const EchoTracer::Met next = tracer.first(view, over, glm::normalize(on), mirror.facet);
-        return next.distance >= glm::length(on) || is_target(next.facet);
-      };
-      if (!std::any_of(target.points.begin(), target.points.end(), shows)) continue;
-      add_facets(box, mirror.facet, world, images);
-    }
-  }
+  const Search search{world, trees, tracer, radar, own_body, tracer.view(world, own_body)};
+  std::vector<std::vector<MirroredFacet>> found(targets.size());
+  parallel_for(targets.size(), threads, [&](size_t i) {
+    if (!targets[i].bounds.empty()) find(targets[i], search, found[i]);
+  });
+  for (const auto& some : found) images.insert(images.end(), some.begin(), some.end());
   std::sort(images.begin(), images.end());
   images.erase(std::unique(images.begin(), images.end()), images.end());
   return images;
+}
+
+void MirrorFinder::find(const TargetBox& box, const Search& search, std::vector<MirroredFacet>& found) const {
+  const FacetWorld& world = search.world;
+  const dvec3& radar = search.radar;
+  const Sought target = sought(box);
+  const uint32_t owner = scene_.owner_of(box.body);
+  const auto is_target = [&](uint32_t facet) {
+    return box.body == 0 ? scene_.facets[facet].instance == box.instance : world.facet(facet).owner == owner;
+  };
+  for (const Mirror& mirror : mirrors_) {
+    if (mirror.extent_m < target.radius) break;
+    const PosedFacet& posed = world.facet(mirror.facet);
+    const double side = posed.distance(radar), there = posed.distance(target.points[0]);
+    if (!(side * there > 0.0)) continue;
+    // The point where the ray to the image of the centre meets the plane. It may lie beside the facet by
+    // `room`, since the rays to the corners of the box meet the plane up to that far from it.
+    const double share = side / (side + there);
+    const dvec2 from = posed.plane_coordinates(radar),
+                at = from + share * (posed.plane_coordinates(target.points[0]) - from);
+    const double room = share * target.radius;
+    if (at.x < posed.min_u - room || at.x > posed.max_u + room || at.y < posed.min_v - room ||
+        at.y > posed.max_v + room)
+      continue;
+    if (is_target(mirror.facet) || (search.own_body != 0 && posed.owner == search.own_body)) continue;
+    const auto shows = [&](const dvec3& point) {
+      const double height = posed.distance(point);
+      if (!(side * height > 0.0)) return false;
+      const dvec3 image = point - 2.0 * height * posed.normal;
+      const dvec3 over = radar + side / (side + height) * (image - radar);
+      if (!search.trees.contains(world, mirror.facet, over)) return false;
+      const dvec3 out = over - radar, on = point - over;
+      const EchoTracer::Met met = search.tracer.first(search.view, radar, glm::normalize(out), ~0u);
+      if (met.facet != mirror.facet && met.distance < glm::length(out) * (1.0 - same_on_mirror)) return false;
+      const EchoTracer::Met next = search.tracer.first(search.view, over, glm::normalize(on), mirror.facet);
+      return next.distance >= glm::length(on) || is_target(next.facet);
+    };
+    if (std::any_of(target.points.begin(), target.points.end(), shows))
+      add_facets(box, mirror.facet, world, found);
+  }
 }
 
 }  // namespace greatx::rf

@@ -50,16 +50,27 @@ class MirrorFinder {
 
   /// Returns the facets of `targets` and the mirrors over which a radar at `radar` may see them, ascending.
   /// The mirror is at least half as wide as the target. At least one of nine points of the target's box is
-  /// visible over it. The facets of `own_body` are ignored; 0: none.
+  /// visible over it. The facets of `own_body` are ignored; 0: none. Uses `threads` threads.
   std::vector<MirroredFacet> find(std::span<const TargetBox> targets, const FacetWorld& world,
                                   const FacetTrees& trees, const EchoTracer& tracer, const dvec3& radar,
-                                  uint32_t own_body) const;
+                                  uint32_t own_body, uint32_t threads) const;
 
  private:
+  /// Holds what a search looks with.
+  struct Search {
+    const FacetWorld& world;
+    const FacetTrees& trees;
+    const EchoTracer& tracer;
+    dvec3 radar;
+    uint32_t own_body;
+    EchoTracer::View view;
+  };
   struct Mirror {
     uint32_t facet = 0;
     double extent_m = 0.0;
   };
+  /// Appends what is seen of one target, perhaps with repetition.
+  void find(const TargetBox& box, const Search& search, std::vector<MirroredFacet>& found) const;
   void add_facets(const TargetBox& target, uint32_t mirror, const FacetWorld& world,
                   std::vector<MirroredFacet>& found) const;
 

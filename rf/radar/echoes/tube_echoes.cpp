@@ -58,7 +58,7 @@ TubeEchoes::TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorl
       bounces_(hits.bounces()) {
   GREATX_CHECK(bounces_ < most_surfaces, "{} bounces", bounces_);
   whole_.assign(size_t{grid.size()} * bounces_, Whole::no);
-  parallel_for((grid.size() + chunk - 1) / chunk, options.threads, [&](size_t part) {
+  parallel_for(parts(), options.threads, [&](size_t part) {
     const uint32_t first = static_cast<uint32_t>(part) * chunk, last = std::min(grid.size(), first + chunk);
     for (uint32_t tube = first; tube < last; ++tube) classify(tube);
   });
@@ -100,18 +100,11 @@ void TubeEchoes::classify(uint32_t tube) {
   }
 }
 
-RawEchoes TubeEchoes::find() const {
-  const size_t chunks = (grid_.size() + chunk - 1) / chunk;
-  std::vector<RawEchoes> found(chunks);
-  parallel_for(chunks, options_.threads, [&](size_t part) {
-    const uint32_t first = static_cast<uint32_t>(part) * chunk, last = std::min(grid_.size(), first + chunk);
-    Job job;
-    job.out = &found[part];
-    for (uint32_t tube = first; tube < last; ++tube) solve(tube, job);
-  });
-  RawEchoes all;
-  all.join(found);
-  return all;
+void TubeEchoes::find(size_t part, RawEchoes& out) const {
+  const uint32_t first = static_cast<uint32_t>(part) * chunk, last = std::min(grid_.size(), first + chunk);
+  Job job;
+  job.out = &out;
+  for (uint32_t tube = first; tube < last; ++tube) solve(tube, job);
 }
 
 void TubeEchoes::solve(uint32_t tube, Job& job) const {

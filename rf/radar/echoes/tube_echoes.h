@@ -48,8 +48,9 @@ class TubeEchoes {
              const EchoField& field, const scene::Scene& scene, const dvec3& source, bool monostatic,
              const EchoOptions& options, const ClutterPatches* clutter, const BeamedFacets& beamed);
 
-  /// Returns the raw echoes of all tubes in the order of the tubes. Uses options.threads threads.
-  RawEchoes find() const;
+  /// The raw echoes of all parts, in their order, are those of all tubes. Parts do not depend on each other.
+  size_t parts() const { return (grid_.size() + chunk - 1) / chunk; }
+  void find(size_t part, RawEchoes& out) const;
 
  private:
   struct Job;

@@ -151,6 +151,58 @@ void divide(Polygon& part, const Cover& cover, uint32_t cuts, double smallest, s
   }
 }
 
+/// Holds a piece of a facet as a beam sees it, and cuts it out of the parts that it hides.
+class Hider {
+ public:
+  Hider(const FacetWorld& world, const TubeBeam& beam, const BeamStart& start, uint32_t facet,
+        const Polygon& outline, double smallest)
+      : world_(world),
+        beam_(beam),
+        start_(start),
+        posed_(world.facet(facet)),
+        cover_(outline),
+        around_(outline),
+        smallest_(smallest) {}
+  /// Returns whether the piece may lie before a part with this box.
+  bool meets(const PartBox& box) const { return around_.meets(box); }
+  /// Reduces `part`, which falls on the facet `behind`, to where the piece is nearer. `rest` receives the
+  /// remainder. Returns false if the piece is nowhere nearer; both are of no use then.
+  bool take(Polygon& part, uint32_t behind, std::vector<Polygon>& rest) const {
+    const std::optional<uint32_t> cuts = cover_.cutting(part);
+    if (!cuts) return false;
+    divide(part, cover_, *cuts, smallest_, rest);
+    if (!(part.area() > smallest_) || !in_front(part.centroid())) return false;
+    if (behind == VisibleCell::nothing) return true;
+    DistanceOrder order(beam_, posed_, world_.facet(behind));
+    order.look(part);
+    if (!order.nearer()) return false;
+    if (!order.farther()) return true;
+    // The two facets pass through each other.
+    const HalfPlane where = order.where();
+    const Polygon farther = part.clipped({-where.normal, -where.offset});
+    part = part.clipped(where);
+    if (!(part.area() > smallest_)) return false;
+    if (farther.area() > smallest_) rest.push_back(farther);
+    return true;
+  }
+
+ private:
+  bool in_front(const dvec2& at) const {
+    const dvec3 direction = beam_.along(at);
+    const double reach = beam_.reach(posed_, direction);
+    return reach > 0.0 &&
+           (start_.facet == nullptr || reach > beam_.reach(*start_.facet, direction) * (1.0 + 1e-12));
+  }
+
+  const FacetWorld& world_;
+  const TubeBeam& beam_;
+  const BeamStart& start_;
+  const PosedFacet& posed_;
+  Cover cover_;
+  PartBox around_;
+  double smallest_;
+};
+
 }  // namespace
 
 BeamSpaces::BeamSpaces(const TubeBeam& beam, const BeamStart& start, const PartBox& box) {
@@ -256,42 +308,54 @@ void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBe
     if (cells.size() == 1 && behind_plane(world, beam, corners, cells[0].facet)) continue;
     const Polygon outline = seen(corners, beam, start, within);
     if (outline.empty()) continue;
-    const PosedFacet& posed = world.facet(facet);
-    const auto in_front = [&](const dvec2& at) {
-      const dvec3 direction = beam.along(at);
-      const double reach = beam.reach(posed, direction);
-      return reach > 0.0 &&
-             (start.facet == nullptr || reach > beam.reach(*start.facet, direction) * (1.0 + 1e-12));
-    };
-    const Cover cover(outline);
-    const PartBox around(outline);
+    const Hider hider(world, beam, start, facet, outline, smallest);
     const size_t before = cells.size();
     for (size_t i = 0; i < before; ++i) {
       const uint32_t behind = cells[i].facet;
-      if (behind == facet || !around.meets(scratch.boxes[i]) ||
+      if (behind == facet || !hider.meets(scratch.boxes[i]) ||
           (before > 1 && behind_plane(world, beam, corners, behind)))
         continue;
-      const std::optional<uint32_t> cuts = cover.cutting(cells[i].part);
-      if (!cuts) continue;
-      Polygon overlap = cells[i].part;
-      divide(overlap, cover, *cuts, smallest, scratch.rest);
-      if (!(overlap.area() > smallest) || !in_front(overlap.centroid())) continue;
-      if (behind != VisibleCell::nothing) {
-        DistanceOrder order(beam, posed, world.facet(behind));
-        order.look(overlap);
-        if (!order.nearer()) continue;
-        if (order.farther()) {  // the two facets pass through each other
-          const HalfPlane where = order.where();
-          const Polygon farther = overlap.clipped({-where.normal, -where.offset});
-          overlap = overlap.clipped(where);
-          if (!(overlap.area() > smallest)) continue;
-          if (farther.area() > smallest) scratch.rest.push_back(farther);
-        }
-      }
-      cells[i].part = overlap, cells[i].facet = facet;
-      scratch.boxes[i] = PartBox(overlap);
+      Polygon nearer = cells[i].part;
+      if (!hider.take(nearer, behind, scratch.rest)) continue;
+      cells[i].part = nearer, cells[i].facet = facet;
+      scratch.boxes[i] = PartBox(nearer);
       for (const Polygon& rest : scratch.rest) add_cell(rest, behind);
     }
+  }
+}
+
+void find_unhidden(const FacetWorld& world, const FacetTrees& trees, const TubeBeam& beam,
+                   const BeamStart& start, const Polygon& whole, uint32_t own,
+                   std::span<const FacetPiece> pieces, double smallest, VisibleScratch& scratch,
+                   std::vector<Polygon>& parts) {
+  parts.assign(1, whole);
+  std::vector<PartBox>& boxes = scratch.boxes;
+  boxes.assign(1, PartBox(whole));
+  const PartBox within = boxes[0];
+  const BeamSpaces spaces(beam, start, within);
+  const SeenSpace space(beam, spaces.used());
+  std::array<dvec3, FacetTrees::most_corners> room;
+  for (const auto& [facet, piece] : pieces) {
+    if (facet == start.index || facet == own || space.without(trees.ball(world, facet, piece))) continue;
+    const std::span<const dvec3> corners = trees.corners(world, facet, piece, room);
+    if (behind_plane(world, beam, corners, own)) continue;
+    const Polygon outline = seen(corners, beam, start, within);
+    if (outline.empty()) continue;
+    const Hider hider(world, beam, start, facet, outline, smallest);
+    const size_t before = parts.size();
+    size_t kept = 0;  // of those before
+    for (size_t i = 0; i < before; ++i) {
+      Polygon nearer = parts[i];
+      if (hider.meets(boxes[i]) && hider.take(nearer, own, scratch.rest)) {
+        for (const Polygon& rest : scratch.rest) parts.push_back(rest), boxes.emplace_back(rest);
+        continue;
+      }
+      if (kept != i) parts[kept] = parts[i], boxes[kept] = boxes[i];
+      ++kept;
+    }
+    parts.erase(parts.begin() + kept, parts.begin() + before);
+    boxes.erase(boxes.begin() + kept, boxes.begin() + before);
+    if (parts.empty()) return;
   }
 }
 

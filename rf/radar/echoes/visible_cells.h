@@ -88,5 +88,11 @@ void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBe
                   const BeamStart& start, const Polygon& whole, uint32_t at_first,
                   std::span<const FacetPiece> pieces, double smallest, VisibleScratch& scratch,
                   std::vector<VisibleCell>& cells);
+/// Returns the parts that find_visible leaves on `own` (not `nothing`), in the same order and with the same
+/// bits. It drops what is hidden, and ends once nothing is left.
+void find_unhidden(const FacetWorld& world, const FacetTrees& trees, const TubeBeam& beam,
+                   const BeamStart& start, const Polygon& whole, uint32_t own,
+                   std::span<const FacetPiece> pieces, double smallest, VisibleScratch& scratch,
+                   std::vector<Polygon>& parts);
 
 }  // namespace greatx::rf
