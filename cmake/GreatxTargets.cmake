@@ -114,11 +114,23 @@ function(greatx_compile_fast TARGET)
   target_compile_options(${TARGET} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# greatx_test(NAME SOURCES ... ALONE ... LINK ...): declares a GoogleTest program and adds each of its tests
-# to ctest with the label NAME. Tests whose name contains "HardCase" also have the label "hard". A unity build
-# compiles the files of ALONE one by one, because their anonymous namespaces share names with other files.
+# Test programs are many and link much, so they are linked by the quickest linker that is there.
+find_program(GREATX_LLD ld.lld)
+find_program(GREATX_GOLD ld.gold)
+set(greatx_test_linker "")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND GREATX_LLD)
+  set(greatx_test_linker -fuse-ld=lld)
+elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND GREATX_GOLD)
+  set(greatx_test_linker -fuse-ld=gold)
+endif()
+
+# greatx_test(NAME [SUITES] [COST NUMBER] SOURCES ... ALONE ... LINK ...): declares a GoogleTest program and
+# adds its tests to ctest with the label NAME: one by one, or with SUITES each suite in one process. Tests
+# whose name has "HardCase" in it also have the label "hard" (cmake/GreatxListTests.cmake). ctest starts tests
+# of a greater COST first. A unity build compiles the files of ALONE one by one, because their anonymous
+# namespaces share names with other files.
 function(greatx_test NAME)
-  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "SUITES" "COST" "SOURCES;ALONE;LINK" ${ARGN})
   add_executable(test_${NAME} ${ARG_SOURCES} ${ARG_ALONE})
   set_target_properties(test_${NAME} PROPERTIES UNITY_BUILD "${GREATX_UNITY}" UNITY_BUILD_BATCH_SIZE 7
                                                 GREATX_MIXES_FILES "${GREATX_UNITY}")
@@ -131,18 +143,24 @@ function(greatx_test NAME)
   if(GREATX_PRECOMPILED_HEADERS)
     target_precompile_headers(test_${NAME} REUSE_FROM greatx_test_headers)
   endif()
+  target_link_options(test_${NAME} PRIVATE ${greatx_test_linker})
   set_property(GLOBAL APPEND PROPERTY GREATX_TEST_PROGRAMS test_${NAME})
-  gtest_discover_tests(test_${NAME} TEST_LIST tests_${NAME} DISCOVERY_TIMEOUT 60)
-  # ctest reads this file after the list of tests. gtest_discover_tests() itself cannot pass on a list of two
-  # labels, and would have to run the program twice to tell the hard cases from the others.
-  set(labels ${CMAKE_CURRENT_BINARY_DIR}/labels_${NAME}.cmake)
-  file(WRITE ${labels}
-       "foreach(test IN LISTS tests_${NAME})\n"
-       "  if(test MATCHES HardCase)\n"
-       "    set_tests_properties(\"\${test}\" PROPERTIES LABELS \"hard;${NAME}\")\n"
-       "  else()\n"
-       "    set_tests_properties(\"\${test}\" PROPERTIES LABELS ${NAME})\n"
-       "  endif()\n"
-       "endforeach()\n")
-  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${labels})
+  if(NOT ARG_COST)
+    set(ARG_COST 0)
+  endif()
+  set(list ${CMAKE_CURRENT_BINARY_DIR}/tests_${NAME}.cmake)
+  set(lister ${PROJECT_SOURCE_DIR}/cmake/GreatxListTests.cmake)
+  set_property(TARGET test_${NAME} APPEND PROPERTY LINK_DEPENDS ${lister})
+  add_custom_command(TARGET test_${NAME} POST_BUILD
+    COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:test_${NAME}> -DLABEL=${NAME} -DSUITES=${ARG_SUITES}
+            -DCOST=${ARG_COST} -DFILE=${list} -P ${lister}
+    VERBATIM)
+  # ctest reads the second file, which reads the first one if the program has been built.
+  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/include_${NAME}.cmake
+       "if(EXISTS \"${list}\")\n"
+       "  include(\"${list}\")\n"
+       "else()\n"
+       "  add_test(test_${NAME}_was_not_built test_${NAME})\n"
+       "endif()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/include_${NAME}.cmake)
 endfunction()

@@ -3,6 +3,8 @@
 #include "renderer/light/clouds.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "core/random.h"
 #include "core/units.h"
@@ -32,6 +34,23 @@ float way_to(float height, float sine) {
   // (the difference of two large numbers, multiplied out)
   return height * (2.0f * earth_m + height) /
          (std::sqrt(down * down + height * (2.0f * earth_m + height)) + down);
+}
+
+/// The way along a ray to the borders of the steps through cumulus.
+using Ways = std::array<float, steps + 1>;
+constexpr Ways rises = [] {  // the part of way_to() that knows the height alone
+  Ways values{};
+  for (int k = 0; k <= steps; ++k) {
+    const float height = base_m + thickness_m * float(k) / steps;
+    values[size_t(k)] = height * (2.0f * earth_m + height);
+  }
+  return values;
+}();
+Ways ways_through(float sine) {
+  const float down = earth_m * sine;
+  Ways ways;
+  for (size_t k = 0; k < ways.size(); ++k) ways[k] = rises[k] / (std::sqrt(down * down + rises[k]) + down);
+  return ways;
 }
 
 /// Henyey and Greenstein's phase function times 4 pi.
@@ -149,10 +168,10 @@ CloudView Clouds::see(const vec3& direction, float shift) const {
   if (clear_of_key <= 0.0f || (!cumulus_ && veil_ <= 0.0f)) return view;
   const float towards_eye = phase(cosine);
   float weight = 0.0f, way = 0.0f;
-  float before = way_to(base_m, sine);
-  const bool empty = !cumulus_ || passes_clear(along, before / base_m);
+  const bool empty = !cumulus_ || passes_clear(along, way_to(base_m, sine) / base_m);
+  const Ways ways = empty ? Ways{} : ways_through(sine);
   for (int k = 0; !empty && k < steps && view.passed > 0.01f; ++k) {
-    const float end = way_to(base_m + thickness_m * float(k + 1) / steps, sine);
+    const float before = ways[size_t(k)], end = ways[size_t(k) + 1];
     const float at = before + (end - before) * shift, height = (float(k) + shift) / steps;
     const vec2 place = along * at + middle;
     const float dense = density(place, height) * clear_of_key;
@@ -170,7 +189,6 @@ CloudView Clouds::see(const vec3& direction, float shift) const {
       weight += share;
       view.passed *= 1.0f - taken;
     }
-    before = end;
   }
   const float high = way_to(veil_m, sine);
   const vec2 stretched(along.x * high * 0.18f + along.y * high * 0.06f, along.y * high * 0.5f);

@@ -6,7 +6,6 @@
 // simulation of air (docs/light.md).
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -25,11 +24,10 @@ class PlaneField {
   /// Returns the value at a place, interpolated bilinearly. Places are within 2^20 periods of 0.
   float at(const vec2& place) const {
     const float u = place.x * scale_, v = place.y * scale_;
-    const float fu = std::floor(u), fv = std::floor(v);
-    const auto i = static_cast<uint32_t>(static_cast<int32_t>(fu)) & mask_;
-    const auto j = static_cast<uint32_t>(static_cast<int32_t>(fv)) & mask_;
+    const int32_t column = floor_of(u), line = floor_of(v);
+    const uint32_t i = static_cast<uint32_t>(column) & mask_, j = static_cast<uint32_t>(line) & mask_;
     const uint32_t right = (i + 1) & mask_, row = j * (mask_ + 1), below = ((j + 1) & mask_) * (mask_ + 1);
-    const float x = u - fu, y = v - fv;
+    const float x = u - static_cast<float>(column), y = v - static_cast<float>(line);
     return (values_[row + i] * (1.0f - x) + values_[row + right] * x) * (1.0f - y) +
            (values_[below + i] * (1.0f - x) + values_[below + right] * x) * y;
   }
@@ -40,6 +38,11 @@ class PlaneField {
   const std::vector<float>& values() const { return values_; }
 
  private:
+  /// Returns std::floor of a number below 2^31, which calls a function of the library on plain x86-64.
+  static int32_t floor_of(float x) {
+    const auto whole = static_cast<int32_t>(x);
+    return whole - static_cast<int32_t>(static_cast<float>(whole) > x);
+  }
   void normalize();
   std::vector<float> values_;
   uint32_t mask_ = 0;

@@ -14,7 +14,7 @@
 #include "renderer/light/panorama.h"
 #include "renderer/light/sky.h"
 #include "renderer/light/sky_view.h"
-#include "renderer/light/surroundings.h"
+#include "renderer/light/surroundings_words.h"
 #include "shaders/shared/contact.h"
 #include "shaders/shared/surroundings.h"
 #include "shaders/shared/weather.h"
@@ -256,9 +256,9 @@ void SceneLighting::bake_sky_view(shared::GpuLighting& block, const Sky& sky, co
     light.sky_lux = pi * sky_irradiance(sky)[0];
     light.beyond = sky.radiance({0.0, 0.0, -1.0});
     const std::vector<scene::PunctualLight>& lamps = scene_->scene().lights;
-    words = Surroundings(scene_->scene(), field, light,
-                         effects_.punctual_lights ? std::span(lamps) : std::span(lamps).first(0))
-                .words();
+    const Surroundings surroundings(scene_->scene(), field, light,
+                                    effects_.punctual_lights ? std::span(lamps) : std::span(lamps).first(0));
+    words = surroundings_words(surroundings, effects_.bounced_light);
   }
   if (effects_.ambient_occlusion) {
     texels = sky_view_texels(field);

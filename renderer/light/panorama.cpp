@@ -27,16 +27,29 @@ float shift_of(uint32_t column, uint32_t row) {
 
 /// Blurs rows and columns by [1 2 1] / 4, which hides the shifts of the samples.
 void blur(std::vector<vec4>& texels, uint32_t size) {
-  std::vector<vec4> line(size);
-  for (const bool columns : {false, true})
-    for (uint32_t k = 0; k < size; ++k) {
-      const auto at = [&](uint32_t i) -> vec4& {
-        return columns ? texels[size_t{i} * size + k] : texels[size_t{k} * size + i];
-      };
-      for (uint32_t i = 0; i < size; ++i)
-        line[i] = 0.25f * at(i == 0 ? 0 : i - 1) + 0.5f * at(i) + 0.25f * at(std::min(i + 1, size - 1));
-      for (uint32_t i = 0; i < size; ++i) at(i) = line[i];
+  const auto mean = [](const vec4& before, const vec4& at, const vec4& after) {
+    return 0.25f * before + 0.5f * at + 0.25f * after;
+  };
+  parallel_for(size, 0, [&](size_t row) {
+    vec4* const line = &texels[row * size];
+    vec4 before = line[0];
+    for (uint32_t i = 0; i < size; ++i) {
+      const vec4 at = line[i];
+      line[i] = mean(before, at, line[std::min(i + 1, size - 1)]);
+      before = at;
     }
+  });
+  // Columns go side by side, since a column alone would read a line of the cache for each texel.
+  std::vector<vec4> above(texels.begin(), texels.begin() + size);
+  for (uint32_t row = 0; row < size; ++row) {
+    vec4* const line = &texels[size_t{row} * size];
+    const vec4* const below = &texels[size_t{std::min(row + 1, size - 1)} * size];
+    for (uint32_t i = 0; i < size; ++i) {
+      const vec4 at = line[i];
+      line[i] = mean(above[i], at, below[i]);
+      above[i] = at;
+    }
+  }
 }
 
 }  // namespace
@@ -81,10 +94,10 @@ std::vector<uint16_t> bake_panorama(const Sky& sky, uint32_t size, double scale)
     }
   });
   blur(texels, size);
-  std::vector<uint16_t> halves;
-  halves.reserve(4 * texels.size());
-  for (const vec4& texel : texels)
-    for (int c = 0; c < 4; ++c) halves.push_back(glm::packHalf1x16(std::min(texel[c], largest_half)));
+  std::vector<uint16_t> halves(4 * texels.size());
+  for (size_t i = 0; i < texels.size(); ++i)
+    for (int c = 0; c < 4; ++c)
+      halves[4 * i + size_t(c)] = glm::packHalf1x16(std::min(texels[i][c], largest_half));
   return halves;
 }
 

@@ -13,20 +13,24 @@ namespace greatx::render {
 
 namespace {
 
-/// Calls visit(direction, solid angle) over a product rule of the sphere that has the horizon on a cell
-/// border.
+/// The rule of Sky::over_sphere(). Its steps of z are equal, so every cell has the same solid angle.
+constexpr int rings = 96, sectors = 128;
+constexpr double cell_solid_angle = 4.0 * pi / (rings * sectors);
+
+/// Calls visit(direction) for the rings from `first` to `last`, from the zenith downwards.
 template <typename F>
-void over_sphere(F&& visit) {
-  constexpr int rings = 96, sectors = 128;
-  for (int i = 0; i < rings; ++i) {
-    // The steps of z are equal, so every cell has the same solid angle.
+void over_rings(int first, int last, F&& visit) {
+  for (int i = first; i < last; ++i) {
     const double z = 1.0 - (2.0 * i + 1.0) / rings, r = std::sqrt(1.0 - z * z);
     for (int k = 0; k < sectors; ++k) {
       const double phi = 2.0 * pi * (k + 0.5) / sectors;
-      visit(dvec3(r * std::cos(phi), r * std::sin(phi), z), 4.0 * pi / (rings * sectors));
+      visit(dvec3(r * std::cos(phi), r * std::sin(phi), z));
     }
   }
 }
+
+/// From this sine of depression on, nothing is left of the sky in the ground's colour.
+constexpr double all_ground = 0.2;
 
 dvec2 heading_of(const dvec3& direction) {
   const dvec2 level(direction);
@@ -110,6 +114,10 @@ Sky::Sky(const Lighting& lighting, bool haze, bool clouds)
     scale_ = illuminance_ / overcast_shape_lux;
   }
   if (key.lux > 0.0) key_illuminance_ = of_luminance(key_color, key.lux);
+  over_rings(0, rings / 2, [&](const dvec3& d) {
+    dome_.directions.push_back(d);
+    dome_.unscaled.push_back(unscaled(d));
+  });
   add_ground(lighting, key);
   if (clouds && model_ != SkyModel::uniform) {
     add_clouds(lighting);
@@ -124,9 +132,8 @@ void Sky::add_ground(const Lighting& lighting, const KeyLight& key) {
     return;
   }
   dvec3 on_ground = key_illuminance_ * std::max(key.direction.z, 0.0);
-  over_sphere([&](const dvec3& d, double solid_angle) {
-    if (d.z > 0.0) on_ground += clear(d) * (d.z * solid_angle);
-  });
+  for (size_t i = 0; i < dome_.directions.size(); ++i)
+    on_ground += clear(i) * (dome_.directions[i].z * cell_solid_angle);
   ground_ = lighting.ground_albedo / pi * on_ground;
 }
 
@@ -138,9 +145,8 @@ void Sky::add_clouds(const Lighting& lighting) {
   // black", MNRAS 425 (2012): threefold and more).
   constexpr double glow_share = 3.0;
   dvec3 level(0.0);
-  over_sphere([&](const dvec3& d, double solid_angle) {
-    if (d.z > 0.0) level += clear(d) * (d.z * solid_angle);
-  });
+  for (size_t i = 0; i < dome_.directions.size(); ++i)
+    level += clear(i) * (dome_.directions[i].z * cell_solid_angle);
   cloud_key_ = direct_share / pi * key_illuminance_;
   cloud_ambient_ = ambient_share * (level / pi + ground_) +
                    (model_ == SkyModel::clear
@@ -155,11 +161,11 @@ void Sky::add_clouds(const Lighting& lighting) {
   }
   clouds_ = std::make_shared<Clouds>(model_ == SkyModel::clear ? lighting.clouds : 0.0, lighting.cloud_seed,
                                      sun_ && elevation < 0.0 ? lighting.sun_direction : key_direction_);
+  for (const dvec3& direction : dome_.directions) dome_.clouds.push_back(this->clouds(direction));
   // The sky's illuminance stays what it is, whatever the clouds add to it.
   double sum = 0.0;
-  over_sphere([&](const dvec3& d, double solid_angle) {
-    if (d.z > 0.0) sum += luminance(clear(d)) * d.z * solid_angle;
-  });
+  for (size_t i = 0; i < dome_.directions.size(); ++i)
+    sum += luminance(clear(i)) * dome_.directions[i].z * cell_solid_angle;
   if (sum <= 0.0) return;
   scale_ *= illuminance_ / sum;
   cloud_key_ *= illuminance_ / sum;
@@ -186,18 +192,30 @@ dvec3 Sky::with_clouds(const dvec3& cloudless, const CloudView& view) const {
 
 dvec3 Sky::over_clouds(const dvec3& direction, const dvec3& cloudless, const CloudView& view) const {
   const double share = haze_share(direction.z);
-  return with_clouds(cloudless, view) * (1.0 - share) + airlight(direction) * share;
+  const dvec3 clear = with_clouds(cloudless, view);
+  return share > 0.0 ? clear * (1.0 - share) + airlight(direction) * share : clear;
 }
 
 dvec3 Sky::clear(const dvec3& d) const { return with_clouds(cloudless(d), clouds(d)); }
 
-dvec3 Sky::cloudless(const dvec3& d) const {
-  if (model_ == SkyModel::uniform) return dvec3(illuminance_ / pi);
-  if (model_ == SkyModel::overcast) return dvec3(scale_ * overcast_shape(d.z));
+dvec3 Sky::clear(size_t i) const {
+  const dvec3 cloudless = scaled(dome_.unscaled[i]);
+  return dome_.clouds.empty() ? cloudless : with_clouds(cloudless, dome_.clouds[i]);
+}
+
+dvec3 Sky::cloudless(const dvec3& d) const { return scaled(unscaled(d)); }
+
+dvec3 Sky::scaled(const dvec3& unscaled) const {
+  return model_ == SkyModel::uniform ? dvec3(illuminance_ / pi) : scale_ * unscaled;
+}
+
+dvec3 Sky::unscaled(const dvec3& d) const {
+  if (model_ == SkyModel::uniform) return dvec3(1.0);
+  if (model_ == SkyModel::overcast) return dvec3(overcast_shape(d.z));
   dvec3 sum = night_ * night_shape(d.z);
   if (sun_) sum += sun_->radiance(d);
   if (moon_) sum += moon_->radiance(d);
-  return scale_ * sum;
+  return sum;
 }
 
 double Sky::haze_share(double z) const {
@@ -221,10 +239,12 @@ void Sky::add_haze(const Lighting& lighting, const KeyLight& key) {
   key_illuminance_ = key_color * below.direct_lux;
   depth_ = lighting.haze_depth;
   dvec3 mean(0.0), on_ground(0.0);
-  over_sphere([&](const dvec3& d, double solid_angle) {
-    mean += (d.z > 0.0 ? clear(d) : ground_) * (solid_angle / (4.0 * pi));
-    if (d.z > 0.0) on_ground += clear(d) * (d.z * solid_angle);
-  });
+  for (size_t i = 0; i < dome_.directions.size(); ++i) {
+    const dvec3 above = clear(i);
+    mean += above * (cell_solid_angle / (4.0 * pi));
+    on_ground += above * (dome_.directions[i].z * cell_solid_angle);
+  }
+  for (size_t i = 0; i < dome_.directions.size(); ++i) mean += ground_ * (cell_solid_angle / (4.0 * pi));
   // Light scattered many times has the colour of all light that came in, less the part that goes straight
   // through.
   if (key.lux > 0.0) on_ground += key_color * (std::max(key.direction.z, 0.0) * (key.lux - below.direct_lux));
@@ -232,12 +252,12 @@ void Sky::add_haze(const Lighting& lighting, const KeyLight& key) {
   haze_directed_ = key_illuminance_ * ((1.0 - haze_asymmetry * haze_asymmetry) / (4.0 * pi));
   if (depth_ <= 0.0) return;
   double kept = 0.0, added = 0.0;
-  over_sphere([&](const dvec3& d, double solid_angle) {
-    if (d.z <= 0.0) return;
+  for (size_t i = 0; i < dome_.directions.size(); ++i) {
+    const dvec3& d = dome_.directions[i];
     const double share = haze_share(d.z);
-    kept += luminance(clear(d)) * (1.0 - share) * d.z * solid_angle;
-    added += luminance(airlight(d)) * share * d.z * solid_angle;
-  });
+    kept += luminance(clear(i)) * (1.0 - share) * d.z * cell_solid_angle;
+    added += luminance(airlight(d)) * share * d.z * cell_solid_angle;
+  }
   const double scale = (below.sky_lux - kept) / added;
   haze_ambient_ *= scale;
   haze_directed_ *= scale;
@@ -247,17 +267,27 @@ void Sky::add_haze(const Lighting& lighting, const KeyLight& key) {
                (key.lux * std::max(key.direction.z, 0.0) + clear_lux);
 }
 
-dvec3 Sky::radiance(const dvec3& direction) const {
-  const bool up = direction.z > 0.0;
-  // Haze lies over the horizon: the sky's lowest ring fades into the ground over twelve degrees.
-  const double level = std::hypot(direction.x, direction.y);
-  const dvec3 horizon = level > 1e-6 ? dvec3(direction.x / level, direction.y / level, 0.0) : dvec3(1, 0, 0);
-  const dvec3 d = up ? direction : horizon;
+dvec3 Sky::through_haze(const dvec3& d, const dvec3& clear) const {
   dvec3 sky(0.0);
   const double share = haze_share(d.z);
-  if (share < 1.0) sky += clear(d) * (1.0 - share);
+  if (share < 1.0) sky += clear * (1.0 - share);
   if (share > 0.0) sky += airlight(d) * share;
-  return up ? sky : glm::mix(sky, ground_, glm::smoothstep(0.0, 0.2, -direction.z));
+  return sky;
+}
+
+dvec3 Sky::radiance(const dvec3& direction) const {
+  if (direction.z > 0.0) return through_haze(direction, clear(direction));
+  if (-direction.z >= all_ground) return ground_;
+  // Haze lies over the horizon: the sky's lowest ring fades into the ground over twelve degrees.
+  const double level = std::hypot(direction.x, direction.y);
+  const dvec3 d = level > 1e-6 ? dvec3(direction.x / level, direction.y / level, 0.0) : dvec3(1, 0, 0);
+  return glm::mix(through_haze(d, clear(d)), ground_, glm::smoothstep(0.0, all_ground, -direction.z));
+}
+
+void Sky::over_sphere(const std::function<void(const dvec3&, const dvec3&, double)>& visit) const {
+  for (size_t i = 0; i < dome_.directions.size(); ++i)
+    visit(dome_.directions[i], through_haze(dome_.directions[i], clear(i)), cell_solid_angle);
+  over_rings(rings / 2, rings, [&](const dvec3& d) { visit(d, radiance(d), cell_solid_angle); });
 }
 
 std::array<dvec3, 9> sky_irradiance(const Sky& sky, bool ground) {
@@ -289,9 +319,9 @@ std::array<dvec3, 9> sky_irradiance(const Sky& sky, bool ground) {
     }
   };
   std::array<dvec3, 9> result{};
-  over_sphere([&](const dvec3& d, double solid_angle) {
+  sky.over_sphere([&](const dvec3& d, const dvec3& radiance, double solid_angle) {
     if (!ground && d.z <= 0.0) return;
-    const dvec3 weighted = sky.radiance(d) * solid_angle;
+    const dvec3 weighted = radiance * solid_angle;
     for (int i = 0; i < 9; ++i) result[i] += weighted * polynomial(i, d);
   });
   double upwards = 0.0;

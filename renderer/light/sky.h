@@ -6,7 +6,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "core/vec.h"
 #include "renderer/light/clouds.h"
@@ -31,6 +33,10 @@ class Sky {
   Sky(const Lighting& lighting, bool haze, bool clouds = false);
   /// Returns cd/m^2 per channel from a unit direction, z up, without discs and stars.
   dvec3 radiance(const dvec3& direction) const;
+  /// Calls visit(direction, its radiance, solid angle) over a product rule of the sphere that has the horizon
+  /// on a cell border.
+  void over_sphere(const std::function<void(const dvec3& direction, const dvec3& radiance,
+                                            double solid_angle)>& visit) const;
   /// These three compute the radiance above the horizon in parts, for finer maps: without clouds and haze,
   /// what an observer sees of the clouds (`shift`: Clouds::see), and the whole.
   dvec3 cloudless(const dvec3& direction) const;
@@ -49,8 +55,18 @@ class Sky {
  private:
   /// Describes a clear sky lit by one body.
   struct Lit;
-  dvec3 clear(const dvec3& direction) const;  ///< above the horizon, without haze
+  /// Holds what the rule of over_sphere() sees above the horizon: all sums are over it.
+  struct Dome {
+    std::vector<dvec3> directions, unscaled;
+    std::vector<CloudView> clouds;  ///< empty without clouds
+  };
+  /// These two are above the horizon and without haze, in any direction and in one of the dome's.
+  dvec3 clear(const dvec3& direction) const;
+  dvec3 clear(size_t dome_index) const;
+  dvec3 unscaled(const dvec3& direction) const;  ///< cloudless() / scale_
+  dvec3 scaled(const dvec3& unscaled) const;
   dvec3 with_clouds(const dvec3& cloudless, const CloudView& view) const;
+  dvec3 through_haze(const dvec3& direction, const dvec3& clear) const;
   void add_clouds(const Lighting& lighting);
   void add_ground(const Lighting& lighting, const KeyLight& key);
   void add_haze(const Lighting& lighting, const KeyLight& key);
@@ -58,6 +74,7 @@ class Sky {
   double haze_share(double z) const;  ///< share of haze in a view above the horizon
 
   std::shared_ptr<const Lit> sun_, moon_;
+  Dome dome_;
   SkyModel model_;
   dvec3 night_{0.0};  ///< zenith radiance of airglow and the glow of cities
   double scale_ = 1.0, illuminance_ = 0.0, depth_ = 0.0;

@@ -3,16 +3,11 @@
 #include "renderer/light/surroundings.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
-
-#include <glm/gtc/packing.hpp>
 
 #include "core/parallel.h"
 #include "core/srgb.h"
 #include "core/units.h"
-#include "renderer/light/sky.h"
 #include "renderer/surface/pane_color.h"
 #include "shaders/shared/surroundings.h"
 
@@ -22,8 +17,6 @@ namespace {
 
 /// A surface whose normal's z is below this is a wall.
 constexpr double wall_slope = 0.3;
-/// The share of the sky that a wall in a street sees beside its own half.
-constexpr double wall_sky_share = 0.7;
 /// The part of the sky's light that reaches the ground between houses.
 constexpr double ground_sky_share = 0.8;
 
@@ -34,13 +27,17 @@ dvec3 mean_color(const scene::Scene& scene, const scene::PbrMaterial& pbr) {
   const scene::Texture& texture = scene.textures[static_cast<size_t>(pbr.base_color_texture)];
   constexpr uint32_t most = 32;
   const uint32_t across = std::min(texture.width, most), down = std::min(texture.height, most);
+  static const std::array<double, 256> linear = [] {
+    std::array<double, 256> values;
+    for (size_t byte = 0; byte < values.size(); ++byte) values[byte] = linear_from_srgb(double(byte) / 255.0);
+    return values;
+  }();
   dvec3 sum(0.0);
   for (uint32_t j = 0; j < down; ++j)
     for (uint32_t i = 0; i < across; ++i) {
       const size_t column = size_t{i} * texture.width / across, row = size_t{j} * texture.height / down;
       const uint8_t* bytes = &texture.rgba[4 * (row * texture.width + column)];
-      for (int c = 0; c < 3; ++c)
-        sum[c] += texture.srgb ? linear_from_srgb(bytes[c] / 255.0) : bytes[c] / 255.0;
+      for (int c = 0; c < 3; ++c) sum[c] += texture.srgb ? linear[bytes[c]] : bytes[c] / 255.0;
     }
   return factor * sum / double(across * down);
 }
@@ -122,25 +119,6 @@ void over_static(const scene::Scene& scene, const Visit& visit) {
   }
 }
 
-/// A radiance as three bytes and a common exponent.
-uint32_t stored_radiance(const dvec3& radiance) {
-  const double most = std::max({radiance.x, radiance.y, radiance.z});
-  if (!(most > 1e-30)) return 0;
-  const int exponent = static_cast<int>(std::ceil(std::log2(most / 255.0)));
-  uint32_t word = static_cast<uint32_t>(std::clamp(exponent + 136, 0, 255)) << 24;
-  for (int c = 0; c < 3; ++c)
-    word |= static_cast<uint32_t>(std::clamp(std::lround(radiance[c] * std::exp2(-exponent)), 0l, 255l))
-            << 8 * c;
-  return word;
-}
-
-/// The free cells of an octant in four bits, rounded down: half steps between powers of two.
-uint32_t stored_leap(uint16_t cells) {
-  if (cells < 2) return 0;
-  const auto power = static_cast<uint32_t>(std::bit_width(cells) - 1);
-  return std::min(15u, 2 * power + (cells >> (power - 1) & 1u));
-}
-
 /// A lamp's illuminance on level ground, without shadows (KHR_lights_punctual).
 double lamp_lux(const scene::PunctualLight& lamp, const dvec3& apart) {
   const double distance2 = glm::dot(apart, apart), distance = std::sqrt(distance2);
@@ -162,10 +140,7 @@ Surroundings::Surroundings(const scene::Scene& scene, const HeightField& field, 
                            std::span<const scene::PunctualLight> lamps)
     : field_(&field), light_(light), cells_(field.heights.size()) {
   paint(scene);
-  for (const SurroundingCell& cell : cells_) {
-    columns_.push_back({cell.top, cell.bottom, cell.ground});
-    most_top_ = std::max(most_top_, cell.top);
-  }
+  for (const SurroundingCell& cell : cells_) most_top_ = std::max(most_top_, cell.top);
   cast_shadows();
   for (int round = 0; round < 4; ++round) thicken_walls();
   shine(lamps);
@@ -326,55 +301,6 @@ std::vector<uint16_t> Surroundings::free_cells(uint32_t octant) const {
       result[static_cast<size_t>(row * width + column)] = std::min(
           of(cone, column, row), along_y ? of(cone, column + right, row) : of(cone, column, row + up));
   return result;
-}
-
-std::vector<uint32_t> Surroundings::words() const {
-  const auto halves = [](double low, double high) {
-    return glm::packHalf2x16(vec2(float(low), float(high)));
-  };
-  shared::SurroundingsHeader header{};
-  header.corner = vec2(field_->corner);
-  header.cell_m = float(field_->cell_m);
-  header.inverse_cell = float(1.0 / field_->cell_m);
-  header.floor = float(field_->floor);
-  header.step_m = float(1.5 * field_->cell_m);
-  header.columns = field_->width;
-  header.rows = field_->height;
-  header.place_columns = std::max(2u, field_->width / shared::surroundings_place_cells);
-  header.place_rows = std::max(2u, field_->height / shared::surroundings_place_cells);
-  const auto cells = static_cast<uint32_t>(cells_.size());
-  header.first_color = shared::surroundings_header_pairs + cells;
-  header.first_place = header.first_color + shared::surroundings_color_pairs * cells;
-  header.most_top = most_top_;
-  header.key_direction = vec3(light_.key_direction);
-  header.key_over_pi = vec3(light_.key_lux / pi);
-  header.wall_sky = vec3(light_.sky_lux * (0.5 * wall_sky_share / pi));
-  header.beyond = vec3(light_.beyond);
-  std::vector<uint32_t> words(2 * shared::surroundings_header_pairs);
-  std::memcpy(words.data(), &header, sizeof header);
-
-  std::vector<uint32_t> leaps(cells_.size());
-  for (uint32_t octant = 0; octant < 8; ++octant) {
-    const std::vector<uint16_t> free = free_cells(octant);
-    for (size_t i = 0; i < cells_.size(); ++i) leaps[i] |= stored_leap(free[i]) << 4 * octant;
-  }
-  for (size_t i = 0; i < cells_.size(); ++i) {
-    words.push_back(halves(cells_[i].top, cells_[i].bottom));
-    words.push_back(leaps[i]);
-  }
-  for (size_t i = 0; i < cells_.size(); ++i) {
-    const SurroundingCell& cell = cells_[i];
-    words.push_back(stored_radiance(top_radiance_[i]));
-    uint32_t wall = 0;
-    for (int c = 0; c < 3; ++c)
-      wall |= static_cast<uint32_t>(std::lround(255.0 * std::clamp(cell.wall_albedo[c], 0.0, 1.0))) << 8 * c;
-    words.push_back(wall);
-    const vec4 normal(0.0f, 0.0f, vec2(cell.wall_normal));
-    words.push_back((glm::packHalf1x16(cell.shadow) & 0xffffu) | glm::packSnorm4x8(normal));
-    words.push_back(0);
-  }
-  put_places(words, header.place_columns, header.place_rows);
-  return words;
 }
 
 }  // namespace greatx::render

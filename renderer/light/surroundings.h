@@ -4,8 +4,8 @@
 // A coarse model of the static world for light that surfaces reflect: level cells, each a column with a top,
 // mean colours, and the height up to which it lies in the shadow of the key light. Two effects read it.
 // `bounced_light` takes from it the light that reaches a place after one reflection; it is gathered once,
-// over the cells, at two heights. `glass` looks into it along mirrored rays. docs/global_light.md has the
-// errors.
+// over the cells, at two heights (surroundings_light.h). `glass` looks into it along mirrored rays.
+// surroundings_words.h writes what shaders read of both. docs/global_light.md has the errors.
 #pragma once
 
 #include <array>
@@ -19,11 +19,10 @@
 
 namespace greatx::render {
 
-class GatherBands;
-struct GatherLooks;
-
 /// What stands lower than this over the ground is part of it, m.
 inline constexpr float low_thing_m = 1.0f;
+/// The share of the sky that a wall in a street sees beside its own half.
+inline constexpr double wall_sky_share = 0.7;
 
 /// One column of the static world. Heights are above HeightField::floor.
 struct SurroundingCell {
@@ -45,16 +44,6 @@ struct SurroundingLight {
   dvec3 beyond{0.0};   ///< radiance of the ground beyond the cells
 };
 
-/// Light that surfaces send to a place: real spherical harmonics of order 1 of the irradiance over pi, as a
-/// constant and a vector: c + v . n.
-struct BouncedLight {
-  dvec3 constant{0.0};
-  std::array<dvec3, 3> along{};  ///< for x, y, z
-  dvec3 over_pi(const dvec3& n) const {
-    return glm::max(constant + along[0] * n.x + along[1] * n.y + along[2] * n.z, dvec3(0.0));
-  }
-};
-
 class Surroundings {
  public:
   /// Colours are means over materials and their textures. `lamps` light the ground without shadows.
@@ -65,41 +54,29 @@ class Surroundings {
   const SurroundingCell& cell(uint32_t column, uint32_t row) const {
     return cells_[size_t{row} * field_->width + column];
   }
+  const std::vector<SurroundingCell>& cells() const { return cells_; }
+  const SurroundingLight& light() const { return light_; }
+  float most_top() const { return most_top_; }  ///< the highest top
   /// Returns the radiance of the highest surface of a cell.
-  dvec3 top_radiance(size_t index) const { return top_radiance_[index]; }
+  const dvec3& top_radiance(size_t index) const { return top_radiance_[index]; }
+  const dvec3& ground_radiance(size_t index) const { return ground_radiance_[index]; }
   /// Returns the radiance of the wall in a cell at a height.
   dvec3 wall_radiance(const SurroundingCell& cell, double height) const;
-  /// Gathers the light that surfaces send to a point at a height over the floor. It looks along 16 azimuths.
-  BouncedLight gather(const dvec2& place, double height) const;
   /// Returns for each cell how many columns of cells (or rows, along y) a level ray passes, the own one
   /// included, before something may stand in its way, wherever in the cell and in the octant of directions
   /// (shaders/shared/surroundings.h) it goes. 0: something stands in the cell or beside it.
   std::vector<uint16_t> free_cells(uint32_t octant) const;
-  /// Returns the words that shaders/camera/surroundings.glsl reads; the layout is in
-  /// shaders/shared/surroundings.h.
-  std::vector<uint32_t> words() const;
 
  private:
   void paint(const scene::Scene& scene);
   void thicken_walls();
   void cast_shadows();
   void shine(std::span<const scene::PunctualLight> lamps);
-  void put_places(std::vector<uint32_t>& words, uint32_t columns, uint32_t rows) const;
-  // In surroundings_light.cpp.
-  void look_along(const dvec2& middle, double height, const GatherLooks& looks, int azimuth,
-                  GatherBands& bands) const;
-  BouncedLight gather_with(const GatherLooks& looks, const dvec2& place, double height) const;
-
-  /// What a gathering reads of each cell at which it looks, apart from the rest so that it stays in caches.
-  struct CellColumn {
-    float top, bottom, ground;
-  };
 
   const HeightField* field_;
   SurroundingLight light_;
   std::vector<SurroundingCell> cells_;
-  std::vector<CellColumn> columns_;
-  float most_top_ = 0.0f;  ///< the highest top
+  float most_top_ = 0.0f;
   std::vector<dvec3> top_radiance_, ground_radiance_;
 };
 

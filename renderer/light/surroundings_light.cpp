@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Gathers the light that the surroundings send to places, for the effect `bounced_light`.
+#include "renderer/light/surroundings_light.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,10 +9,8 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/parallel.h"
-#include "core/srgb.h"
 #include "core/units.h"
-#include "renderer/light/azimuth_looks.h"
-#include "renderer/light/surroundings.h"
+#include "renderer/light/sky.h"
 #include "shaders/shared/surroundings.h"
 
 namespace greatx::render {
@@ -110,7 +108,7 @@ void put_place(std::vector<uint32_t>& words, const BouncedPlace& place) {
 }  // namespace
 
 /// Light from the bands of one azimuth, weighted. What comes first along the azimuth hides what comes later.
-class GatherBands {
+class LightGathering::Bands {
  public:
   /// Fills the free bands between two slopes with the radiance that `radiance` returns. It is not called if
   /// no such band is free.
@@ -151,63 +149,64 @@ class GatherBands {
   std::array<dvec3, gather_bands> light_;
 };
 
-/// The places at which a gathering looks.
-struct GatherLooks : AzimuthLooks<gather_azimuths> {
-  explicit GatherLooks(double cell_m) : AzimuthLooks(cell_m, 0.6 * cell_m, 150.0, 1.2) {}
-};
+LightGathering::LightGathering(const Surroundings& surroundings)
+    : surroundings_(&surroundings),
+      looks_(surroundings.field().cell_m, 0.6 * surroundings.field().cell_m, 150.0, 1.2) {
+  for (const SurroundingCell& cell : surroundings.cells())
+    columns_.push_back({cell.top, cell.bottom, cell.ground});
+}
 
-/// Fills the bands of one azimuth with what a point sees.
-void Surroundings::look_along(const dvec2& middle, double height, const GatherLooks& looks, int azimuth,
-                              GatherBands& bands) const {
-  const dvec2& along = looks.along[azimuth];
+/// Fills the bands of one azimuth with what a point sees. `middle` is in cells.
+void LightGathering::look_along(const dvec2& middle, double height, int azimuth, Bands& bands) const {
+  const HeightField& field = surroundings_->field();
+  const dvec2& along = looks_.along[azimuth];
   double nearer = 1e-3;  // m
-  for (size_t step = 0; step < looks.distances.size(); ++step) {
-    const double distance = looks.distances[step];
-    const dvec2 at = middle + looks.steps[azimuth][step];
-    if (at.x < 0.0 || at.y < 0.0 || at.x >= field_->width || at.y >= field_->height) break;
-    const size_t i = static_cast<size_t>(at.y) * field_->width + static_cast<size_t>(at.x);
-    const CellColumn& column = columns_[i];
+  for (size_t step = 0; step < looks_.distances.size(); ++step) {
+    const double distance = looks_.distances[step];
+    const dvec2 at = middle + looks_.steps[azimuth][step];
+    if (at.x < 0.0 || at.y < 0.0 || at.x >= field.width || at.y >= field.height) break;
+    const size_t i = static_cast<size_t>(at.y) * field.width + static_cast<size_t>(at.x);
+    const Column& column = columns_[i];
     // From above, the ground fills the slopes between its nearer and its farther rim.
     const double ground = column.ground - height;
-    if (ground < 0.0) bands.fill(ground / nearer, ground / distance, [&] { return ground_radiance_[i]; });
+    if (ground < 0.0)
+      bands.fill(ground / nearer, ground / distance, [&] { return surroundings_->ground_radiance(i); });
     if (column.top > column.ground + low_thing_m) {
       const double middle_height = 0.5 * (std::max<double>(column.bottom, column.ground) + column.top);
       const double low = (column.bottom - height) / distance, high = (column.top - height) / distance;
-      const SurroundingCell& cell = cells_[i];
+      const SurroundingCell& cell = surroundings_->cells()[i];
       // The lower and the upper half of a wall may lie in shadow and in light.
       const auto half = [&](double at_height) {
         const bool faces = glm::dot(cell.wall_normal, along) < 0.0 || cell.wall_normal == dvec2(0.0);
-        return faces ? wall_radiance(cell, at_height) : dvec3(0.0);
+        return faces ? surroundings_->wall_radiance(cell, at_height) : dvec3(0.0);
       };
       bands.fill(low, (middle_height - height) / distance,
                  [&] { return half(0.5 * (cell.bottom + middle_height)); });
       bands.fill((middle_height - height) / distance, high,
                  [&] { return half(0.5 * (middle_height + cell.top)); });
       if (high < 0.0)
-        bands.fill(high, (cell.top - height) / looks.after(distance), [&] { return top_radiance_[i]; });
+        bands.fill(high, (cell.top - height) / looks_.after(distance),
+                   [&] { return surroundings_->top_radiance(i); });
     }
     // What comes farther on is below the horizon, or below the slope of the highest top at this distance.
-    if (bands.full_below(std::max(most_top_ - height, 0.0) / distance)) break;
+    if (bands.full_below(std::max(surroundings_->most_top() - height, 0.0) / distance)) break;
     nearer = distance;
   }
 }
 
-BouncedLight Surroundings::gather(const dvec2& place, double height) const {
-  return gather_with(GatherLooks(field_->cell_m), place, height);
-}
-
-BouncedLight Surroundings::gather_with(const GatherLooks& looks, const dvec2& place, double height) const {
+BouncedLight LightGathering::at(const dvec2& place, double height) const {
+  const HeightField& field = surroundings_->field();
   static const BandDirections directions;
-  const dvec3 beyond = weighted(light_.beyond);
+  const dvec3 beyond = weighted(surroundings_->light().beyond);
   BouncedLight result;
-  const dvec2 middle = (place - field_->corner) / field_->cell_m;
+  const dvec2 middle = (place - field.corner) / field.cell_m;
   for (int k = 0; k < gather_azimuths; ++k) {
-    GatherBands bands;
-    look_along(middle, height, looks, k, bands);
+    Bands bands;
+    look_along(middle, height, k, bands);
     for (int i = 0; i < gather_bands; ++i) {
       if (!bands.filled(i) && directions.sine[i] > 0.0) continue;
       const dvec3& light = bands.filled(i) ? bands.light(i) : beyond;
-      const dvec3 direction(looks.along[k] * directions.level[i], directions.sine[i]);
+      const dvec3 direction(looks_.along[k] * directions.level[i], directions.sine[i]);
       result.constant += light;
       for (int axis = 0; axis < 3; ++axis) result.along[axis] += light * (2.0 * direction[axis]);
     }
@@ -215,21 +214,24 @@ BouncedLight Surroundings::gather_with(const GatherLooks& looks, const dvec2& pl
   return result;
 }
 
-void Surroundings::put_places(std::vector<uint32_t>& words, uint32_t columns, uint32_t rows) const {
+void put_bounced_light(std::vector<uint32_t>& words, const Surroundings& surroundings, uint32_t columns,
+                       uint32_t rows) {
+  const HeightField& field = surroundings.field();
   std::vector<BouncedPlace> places(size_t{columns} * rows);
-  const GatherLooks looks(field_->cell_m);
+  const LightGathering gathering(surroundings);
   parallel_for(rows, 0, [&](size_t row) {
     for (uint32_t column = 0; column < columns; ++column) {
       const dvec2 at = (dvec2(column, double(row)) + 0.5) * double(shared::surroundings_place_cells);
-      const size_t i = std::min(static_cast<uint32_t>(at.y), field_->height - 1) * size_t{field_->width} +
-                       std::min(static_cast<uint32_t>(at.x), field_->width - 1);
+      const size_t i = std::min(static_cast<uint32_t>(at.y), field.height - 1) * size_t{field.width} +
+                       std::min(static_cast<uint32_t>(at.x), field.width - 1);
       BouncedPlace& place = places[row * columns + column];
-      place.ground = cells_[i].ground;
-      place.free = !cells_[i].stands() || cells_[i].bottom > cells_[i].ground;
+      const SurroundingCell& cell = surroundings.cells()[i];
+      place.ground = cell.ground;
+      place.free = !cell.stands() || cell.bottom > cell.ground;
       if (!place.free) continue;
-      const dvec2 middle = field_->corner + at * field_->cell_m;
-      place.low = gather_with(looks, middle, place.ground + double(shared::surroundings_low));
-      place.high = gather_with(looks, middle, place.ground + double(shared::surroundings_high));
+      const dvec2 middle = field.corner + at * field.cell_m;
+      place.low = gathering.at(middle, place.ground + double(shared::surroundings_low));
+      place.high = gathering.at(middle, place.ground + double(shared::surroundings_high));
     }
   });
   // Surfaces at the rim of a house look up places behind it, too.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Holds bounced light and mirror images against closed forms and the path-traced reference.
-#include "renderer/light/surroundings.h"
+#include "shaders/shared/surroundings.h"
 
 #include <cmath>
 #include <cstring>
@@ -14,8 +14,9 @@
 #include <gtest/gtest.h>
 
 #include "renderer/light/sky_view.h"
+#include "renderer/light/surroundings_light.h"
+#include "renderer/light/surroundings_words.h"
 #include "renderer/reference/reference_picture.h"
-#include "shaders/shared/surroundings.h"
 #include "tests/renderer/camera_rig.h"
 
 namespace greatx::test {
@@ -84,7 +85,7 @@ TEST(Surroundings, BouncedLightOfALitWallIsThatOfItsFormFactor) {
   // The wall's lit part sends albedo E cos(45) / pi. Its lower part lies in the shadow of the west wall,
   // which is 20 m away: nothing below -8 m, so all of it is lit.
   const double radiance = 0.5 * 100000.0 * std::cos(radians(45.0)) / pi;
-  const render::BouncedLight light = surroundings.gather({0.0, 0.0}, 0.0);
+  const render::BouncedLight light = render::LightGathering(surroundings).at({0.0, 0.0}, 0.0);
   // An infinite wall seen from level ground: (1 - cos a) / 2; from a facing wall: sin(a) / 2.
   const double angle = std::atan(height / 10.0);
   EXPECT_NEAR(light.over_pi({0, 0, 1}).x / radiance, 0.5 * (1.0 - std::cos(angle)), 0.06);
@@ -102,7 +103,7 @@ TEST(Surroundings, OpenGroundSendsItsLightDownwardsOnly) {
   light.key_lux = dvec3(50000.0);
   light.beyond = dvec3(0.4 * 50000.0 / pi);
   const render::Surroundings surroundings(scene, field, light, {});
-  const render::BouncedLight bounced = surroundings.gather({0, 0}, 1.5);
+  const render::BouncedLight bounced = render::LightGathering(surroundings).at({0, 0}, 1.5);
   const double radiance = 0.4 * 50000.0 / pi;
   EXPECT_NEAR(bounced.over_pi({0, 0, -1}).x / radiance, 1.0, 0.02);
   EXPECT_NEAR(bounced.over_pi({1, 0, 0}).x / radiance, 0.5, 0.02);
@@ -155,7 +156,7 @@ TEST(Surroundings, StoredBouncedLightIsThatGathered) {
   light.key_lux = {100000.0, 80000.0, 50000.0};
   light.beyond = {3000.0, 4000.0, 5000.0};
   const render::Surroundings surroundings(scene, field, light, {});
-  const std::vector<uint32_t> words = surroundings.words();
+  const std::vector<uint32_t> words = render::surroundings_words(surroundings, true);
   shared::SurroundingsHeader header;
   std::memcpy(&header, words.data(), sizeof header);
   const uint32_t column = header.place_columns / 2, row = header.place_rows / 2;
@@ -163,8 +164,9 @@ TEST(Surroundings, StoredBouncedLightIsThatGathered) {
                                                                (row * header.place_columns + column))];
   const dvec2 middle =
       field.corner + (dvec2(column, row) + 0.5) * field.cell_m * double(shared::surroundings_place_cells);
-  const render::BouncedLight low = surroundings.gather(middle, shared::surroundings_low),
-                             high = surroundings.gather(middle, shared::surroundings_high);
+  const render::BouncedLight low = render::LightGathering(surroundings).at(middle, shared::surroundings_low),
+                             high =
+                                 render::LightGathering(surroundings).at(middle, shared::surroundings_high);
   const auto luminance = [](const dvec3& rgb) { return glm::dot(rgb, dvec3(0.2126, 0.7152, 0.0722)); };
   const auto expect_light = [&](const render::BouncedLight& gathered, const uint32_t* stored) {
     const double c = glm::unpackHalf2x16(stored[0]).x;

@@ -69,7 +69,7 @@ TEST(Textures, ShadersPickAmongManyImagesByNumber) {
   expect_greys(many);
 }
 
-TEST(Textures, ADeviceWithoutTheTableHoldsAFewAndSaysSo) {
+TEST(FewTextures, ADeviceWithoutTheTableHoldsAFewAndSaysSo) {
   if (test::device().info().has_texture_table()) GTEST_SKIP() << "the device has the table of textures";
   expect_greys(shared::most_tried_arrays);
   const scene::Scene scene = strips(shared::most_tried_arrays + 4);

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-greatx_test(view_parts SOURCES script_test.cpp viewpoint_test.cpp
+greatx_test(view_parts SUITES SOURCES script_test.cpp viewpoint_test.cpp
             LINK greatx_view_camera greatx_view_script greatx_scene_description)
 
 # The window, drawn in memory; and a real one, where a display can be had.

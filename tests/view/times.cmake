@@ -1,3 +1,3 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-greatx_test(view_times SOURCES time_history_test.cpp LINK greatx_view_times)
+greatx_test(view_times SUITES SOURCES time_history_test.cpp LINK greatx_view_times)
