@@ -283,16 +283,19 @@ void Cmd::clear_depth(std::span<const VkRect2D> parts, float value) {
   vkCmdClearAttachments(handle_, 1, &attachment, static_cast<uint32_t>(rects.size()), rects.data());
 }
 
-void Cmd::viewport(uint32_t x, uint32_t y, uint32_t size) {
-  const VkViewport viewport{static_cast<float>(x),
-                            static_cast<float>(y),
-                            static_cast<float>(size),
-                            static_cast<float>(size),
+void Cmd::viewport(const VkRect2D& part) {
+  const VkViewport viewport{static_cast<float>(part.offset.x),
+                            static_cast<float>(part.offset.y),
+                            static_cast<float>(part.extent.width),
+                            static_cast<float>(part.extent.height),
                             0.0f,
                             1.0f};
-  const VkRect2D scissor{{static_cast<int32_t>(x), static_cast<int32_t>(y)}, {size, size}};
   vkCmdSetViewport(handle_, 0, 1, &viewport);
-  vkCmdSetScissor(handle_, 0, 1, &scissor);
+  vkCmdSetScissor(handle_, 0, 1, &part);
+}
+
+void Cmd::viewport(uint32_t x, uint32_t y, uint32_t size) {
+  viewport({{static_cast<int32_t>(x), static_cast<int32_t>(y)}, {size, size}});
 }
 
 void Cmd::end_rendering() { vkCmdEndRendering(handle_); }

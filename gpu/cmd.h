@@ -168,8 +168,9 @@ class Cmd {
   void begin_rendering(const RenderTargets& targets);
   /// Clears parts of the depth image that is being rendered to.
   void clear_depth(std::span<const VkRect2D> parts, float value);
-  /// Restricts the following draws to a square of the targets, which clip space then fills.
-  void viewport(uint32_t x, uint32_t y, uint32_t size);
+  /// Restricts the following draws to a part of the targets, which clip space then fills.
+  void viewport(const VkRect2D& part);
+  void viewport(uint32_t x, uint32_t y, uint32_t size);  ///< a square
   void end_rendering();
 
   /// Returns whether the GPU may leave out the draws that are being recorded (gpu/condition.h).

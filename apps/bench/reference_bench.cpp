@@ -118,6 +118,7 @@ class ReferenceBench {
         device_, experiment_.scene(),
         scene::GpuSceneOptions{.acceleration_structure = false,
                                .textures = sim::gpu_scene_options(experiment_.plan).textures});
+    if (!lamp_factors_.empty()) gpu_->set_lamps(lamp_factors_);
     add_rows();
   }
 
@@ -127,6 +128,7 @@ class ReferenceBench {
     options.samples = options_.samples;
     options.paths.bounces = options_.bounces;
     options.paths.later_roughness = options_.later_roughness;
+    options.paths.lamp_factors = lamp_factors_;
     options.seed = experiment_.scenario.seed;
     reference_ = render::trace_reference(experiment_.scene(), still_.bodies, light_, effects_, desc_,
                                          still_.local_from_sensor, options);
@@ -156,6 +158,7 @@ class ReferenceBench {
     const sim::Moment moment =
         sim::moment_at(*experiment_.world, courses, sim::Clock(scenario.tick_rate_hz), options_.tick);
     still_.bodies.assign(moment.context.body_poses.begin(), moment.context.body_poses.end());
+    if (moment.context.lamps_at) lamp_factors_ = moment.context.lamps_at(moment.context.time_s);
     const sim::SensorConfig& sensor = scenario.nodes[place_.node].sensors[place_.sensor];
     still_.local_from_sensor =
         experiment_.scene().to_local(moment.context.nodes[place_.node].pose) * sim::mount_pose(sensor.mount);
@@ -179,6 +182,8 @@ class ReferenceBench {
     without("panes", &render::CameraEffects::panes);
     without("specular", &render::CameraEffects::specular);
     without("static shadows", &render::CameraEffects::static_shadows);
+    without("lamp shadows", &render::CameraEffects::lamp_shadows);
+    without("beam shadows", &render::CameraEffects::beam_shadows);
   }
 
   /// Chooses the pixels of each kind.
@@ -235,6 +240,7 @@ class ReferenceBench {
   render::CameraEffects effects_;
   render::CameraDesc desc_;
   Still still_;
+  std::vector<float> lamp_factors_;  ///< of the switched lamps at that instant
   std::unique_ptr<scene::GpuScene> gpu_;
   std::vector<std::unique_ptr<ComparedRow>> rows_;
   render::ReferencePicture reference_;

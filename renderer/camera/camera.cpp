@@ -240,7 +240,7 @@ gpu::Slice CameraPass::upload_lamps(gpu::TickSlot& slot, const CameraView& view)
   lamps_ = {};
   if (effects_.punctual_lights)
     words = cluster_lamps(view, scene_->scene().lights, lighting_->body_poses(), lamps_,
-                          lighting_->lamp_shadows().tiles(), effects_.lamp_halos);
+                          lighting_->lamp_shadows().tiles(), effects_.lamp_halos, beam_tiles_);
   return slot.upload.put(std::span<const uint32_t>(words));
 }
 
@@ -394,6 +394,11 @@ void CameraPass::draw_shadows(gpu::TickSlot& slot, const CameraView& view) {
   lighting_->draw_shadows(slot, [&](const dvec3& from, const dvec3& to, double radius) {
     return view.outside(from - view.eye, to - view.eye, radius);
   });
+  if (!effects_.beam_shadows) return;
+  // All views of one picture choose alike, so that no shadow ends where they meet.
+  BeamView beams{view.eye, [](const dvec3&, double) { return 1.0; }};
+  if (!faces_) beams.share = [&](const dvec3& center, double radius) { return view.share(center, radius); };
+  beam_tiles_ = lighting_->draw_beams(slot, beams);
 }
 
 void CameraPass::draw_moving(gpu::Cmd& cmd, const CameraView& view) {

@@ -199,6 +199,8 @@ class CameraPass {
   const NearShadows* near_shadows() const { return near_shadows_.get(); }
   /// The lamps of the last record().
   const LampCounts& lamps() const { return lamps_; }
+  /// The tiles of spots that move, of the last record().
+  const std::vector<BeamTile>& beam_tiles() const { return beam_tiles_; }
 
  private:
   bool multisampled() const { return desc_.msaa > 1; }
@@ -259,6 +261,7 @@ class CameraPass {
   std::string visibility_scope_, shade_scope_;
   uint32_t drawn_ = 0, culled_ = 0;
   LampCounts lamps_;
+  std::vector<BeamTile> beam_tiles_;  ///< of the view that is recorded
 };
 
 }  // namespace greatx::render

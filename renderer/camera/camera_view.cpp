@@ -76,4 +76,11 @@ bool CameraView::outside(const dvec3& from, const dvec3& to, double radius) cons
   });
 }
 
+double CameraView::share(const dvec3& center, double radius) const {
+  double share = 1.0;
+  for (const Plane& plane : planes_)
+    share = std::min(share, 0.5 + 0.5 * (glm::dot(plane.normal, center - eye) - plane.offset) / radius);
+  return std::max(share, 0.0);
+}
+
 }  // namespace greatx::render

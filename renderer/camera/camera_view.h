@@ -40,6 +40,9 @@ struct CameraView {
   bool outside(const dvec3& center, double radius) const;
   /// The same of a sphere that moves straight from one point to another.
   bool outside(const dvec3& from, const dvec3& to, double radius) const;
+  /// Returns how much of a ball in local coordinates lies in the view, about: from 0 outside to 1 inside, and
+  /// continuous.
+  double share(const dvec3& center, double radius) const;
 
  private:
   /// Describes a unit normal that points into the view, and the offset along it where the view begins.

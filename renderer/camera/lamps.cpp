@@ -136,7 +136,7 @@ class Clusters {
 };
 
 void put_lamp(std::vector<uint32_t>& words, const scene::PunctualLight& light, const vec3& position,
-              const vec3& direction, const dvec3& up, const LampTile& tile) {
+              const vec3& direction, const Pose& body, const LampTile& tile, const BeamTile* beam) {
   const bool directional = light.type == scene::PunctualLight::Type::directional;
   float scale = 0.0f, offset = 1.0f;
   if (light.type == scene::PunctualLight::Type::spot) {
@@ -150,12 +150,16 @@ void put_lamp(std::vector<uint32_t>& words, const scene::PunctualLight& light, c
   const double reach = lamp_reach(light);
   const float window = directional ? -1.0f : float(1.0 / std::max(reach * reach, 1e-12));
   vec4 last(vec3(tile.across), std::bit_cast<float>(glm::packUnorm2x16(vec2(tile.center))));
-  if (light.beam == scene::PunctualLight::Beam::passing) {
-    const dvec3 right = glm::normalize(glm::cross(dvec3(direction), up));
-    last = vec4(vec3(glm::cross(right, dvec3(direction))), std::bit_cast<float>(shared::lamp_of_beam));
-  }
+  const bool passing = light.beam == scene::PunctualLight::Beam::passing;
+  if (passing || beam != nullptr)
+    last = vec4(vec3(beam_axes(light, body).up),
+                std::bit_cast<float>(passing ? shared::lamp_of_beam : shared::lamp_of_cone));
+  vec4 moving(0.0f);
+  if (beam != nullptr)
+    moving = vec4(std::bit_cast<float>(glm::packUnorm2x16(vec2(beam->center))), vec2(beam->scale),
+                  float(beam->strength));
   for (const vec4& quad : {vec4(directional ? -direction : position, window), vec4(direction, scale),
-                           vec4(light.color * light.intensity, offset), last})
+                           vec4(light.color * light.intensity, offset), last, moving})
     for (int i = 0; i < 4; ++i) words.push_back(std::bit_cast<uint32_t>(quad[i]));
 }
 
@@ -163,7 +167,8 @@ void put_lamp(std::vector<uint32_t>& words, const scene::PunctualLight& light, c
 
 std::vector<uint32_t> cluster_lamps(const CameraView& view, std::span<const scene::PunctualLight> lights,
                                     std::span<const Pose> body_poses, LampCounts& counts,
-                                    std::span<const LampTile> tiles, bool halos) {
+                                    std::span<const LampTile> tiles, bool halos,
+                                    std::span<const BeamTile> beams) {
   Clusters clusters(view);
   std::vector<uint32_t> lamps;     // records of the seen lamps; clusters name them by number
   std::vector<double> brightness;  // of their halos, about
@@ -183,8 +188,9 @@ std::vector<uint32_t> cluster_lamps(const CameraView& view, std::span<const scen
                      glm::dot(view.forward, ball.center)};
       if (!clusters.add(record, ball)) continue;
     }
-    put_lamp(lamps, light, vec3(position), vec3(direction), pose.rotate({0.0, 0.0, 1.0}),
-             tiles.empty() ? LampTile{} : tiles[i]);
+    const auto beam = std::ranges::find(beams, i, &BeamTile::light);
+    put_lamp(lamps, light, vec3(position), vec3(direction), pose, tiles.empty() ? LampTile{} : tiles[i],
+             beam == beams.end() ? nullptr : &*beam);
     // Directional light scatters everywhere: it makes no halo.
     brightness.push_back(light.type == scene::PunctualLight::Type::directional
                              ? 0.0

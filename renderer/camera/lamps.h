@@ -23,9 +23,10 @@ namespace greatx::render {
 /// is in every cluster that its light reaches and in few others: the bounds are those of a sphere around its
 /// cone. `body_poses` are in local coordinates; the index is the body. `tiles` are those of the lamps'
 /// shadows, by light; empty: none. With `halos` every column of tiles lists the most_halos lamps that give
-/// its air the most light.
+/// its air the most light. `beams` are the tiles of spots that move in this picture.
 std::vector<uint32_t> cluster_lamps(const CameraView& view, std::span<const scene::PunctualLight> lights,
                                     std::span<const Pose> body_poses, LampCounts& counts,
-                                    std::span<const LampTile> tiles = {}, bool halos = false);
+                                    std::span<const LampTile> tiles = {}, bool halos = false,
+                                    std::span<const BeamTile> beams = {});
 
 }  // namespace greatx::render

@@ -63,6 +63,7 @@ gpu::ComputeDesc CameraPass::shading() const {
   shade.specialization[shared::spec_snow_cover] = effects_.snow_cover;
   shade.specialization[shared::spec_mirrors] = wants_mirrors(effects_, desc_);
   shade.specialization[shared::spec_lamp_shadows] = effects_.lamp_shadows;
+  shade.specialization[shared::spec_beam_shadows] = effects_.beam_shadows;
   shade.specialization[shared::spec_lamp_halos] = effects_.lamp_halos;
   shade.specialization[shared::spec_contact_occlusion] = effects_.contact_occlusion;
   shade.specialization[shared::spec_bounced_light] = effects_.bounced_light;

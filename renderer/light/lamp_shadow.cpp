@@ -74,7 +74,19 @@ LampShadows::LampShadows(const scene::GpuScene& scene, const LampShadowOptions& 
     place_lamps();
     if (!lamps_.empty()) find_casters(options.alpha_mask);
   }
+  beams_ = BeamShadows(scene, {.wanted = options.beams, .alpha_mask = options.alpha_mask});
+  if (beams_.any()) place_beams();
+  const double half_uv = 0.5 * tile_texels_ / map_texels_;
+  for (const Lamp& lamp : lamps_)
+    tiles_[lamp.light] = {lamp.across * (half_uv / lamp.tangent),
+                          (dvec2(lamp.x, lamp.y) + 0.5 * tile_texels_) / double(map_texels_)};
   draw_static(options.alpha_mask);
+}
+
+void LampShadows::place_beams() {
+  beam_top_ = lamps_.empty() ? 0 : map_texels_;
+  const uvec2 area = beams_.area(beam_top_);
+  map_texels_ = std::max(beam_top_ + area.y, area.x);
 }
 
 void LampShadows::place_lamps() {
@@ -107,9 +119,6 @@ void LampShadows::place_lamps() {
         std::tan(spot ? std::min(double(light.outer_cone), lamp_tile_half_angle) : lamp_tile_half_angle);
     lamp.x = i % along * tile_texels_;
     lamp.y = i / along * tile_texels_;
-    const double half_uv = 0.5 * tile_texels_ / map_texels_;
-    tiles_[lamp.light] = {lamp.across * (half_uv / lamp.tangent),
-                          (dvec2(lamp.x, lamp.y) + 0.5 * tile_texels_) / double(map_texels_)};
     lamps_.push_back(lamp);
   }
 }
@@ -121,30 +130,17 @@ shared::CasterConstants LampShadows::view_of(const Lamp& lamp) const {
 }
 
 void LampShadows::find_casters(bool alpha_mask) {
-  const scene::Scene& scene = scene_->scene();
-  bool opaque = false, masked = false;
-  for (uint32_t b = 1; b < scene.bodies.size(); ++b) {
-    if (scene.owner_of(b) != b || scene.reach_of(b).empty()) continue;
-    Caster caster;
-    caster.body = b;
-    caster.center = scene.reach_of(b).center();
-    caster.radius = 0.5 * glm::length(scene.reach_of(b).size());
-    for (uint32_t part = b; part < scene.bodies.size() && scene.owner_of(part) == b; ++part) {
-      const scene::Body& body = scene.bodies[part];
-      for (uint32_t i = body.first_primitive; i < body.first_primitive + body.primitive_count; ++i)
-        (alpha_mask && scene.has_holes(i) ? caster.masked : caster.opaque).push_back(i);
-    }
-    opaque |= !caster.opaque.empty();
-    masked |= !caster.masked.empty();
-    casters_.push_back(std::move(caster));
-  }
-  if (opaque) moving_opaque_ = caster_pipeline(*scene_, true, false, "moving caster");
-  if (masked) moving_masked_ = caster_pipeline(*scene_, true, true, "moving caster");
+  casters_ = body_casters(scene_->scene(), alpha_mask);
+  const auto any = [&](std::vector<CasterRange> BodyCaster::*ranges) {
+    return std::ranges::any_of(casters_, [&](const BodyCaster& caster) { return !(caster.*ranges).empty(); });
+  };
+  if (any(&BodyCaster::opaque)) moving_opaque_ = caster_pipeline(*scene_, true, false, "moving caster");
+  if (any(&BodyCaster::masked)) moving_masked_ = caster_pipeline(*scene_, true, true, "moving caster");
 }
 
 void LampShadows::draw_static(bool alpha_mask) {
   const scene::Scene& scene = scene_->scene();
-  const bool moves = !casters_.empty();
+  const bool moves = changes();
   static_map_ = shadow_map(scene_->device(), map_texels_, "static lamp shadows",
                            moves ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : 0);
   if (moves)
@@ -247,23 +243,32 @@ void LampShadows::record(gpu::TickSlot& slot, std::span<const Pose> body_poses) 
     cmd.begin_rendering(
         {.color = {}, .depth = &map_, .keep_depth = true, .width = map_texels_, .height = map_texels_});
     const std::vector<gpu::Descriptor> descriptors = scene_->raster_descriptors();
-    const auto draw_all = [&](const gpu::GraphicsPipeline& with, std::vector<uint32_t> Caster::*primitives) {
+    const auto draw_all = [&](const gpu::GraphicsPipeline& with,
+                              std::vector<CasterRange> BodyCaster::*ranges) {
       if (!with) return;
       cmd.bind(with);
       cmd.push(descriptors);
       cmd.bind_indices(scene_->indices());
       for (const Draw& draw : draws) {
-        if ((casters_[draw.caster].*primitives).empty()) continue;
+        if ((casters_[draw.caster].*ranges).empty()) continue;
         cmd.viewport(lamps_[draw.lamp].x, lamps_[draw.lamp].y, tile_texels_);
         cmd.constants(view_of(lamps_[draw.lamp]));
-        draw_casters(cmd, scene_->scene(), casters_[draw.caster].*primitives);
+        for (const CasterRange& range : casters_[draw.caster].*ranges)
+          cmd.draw_indexed(range.first_index, range.index_count, range.primitive);
       }
     };
-    draw_all(moving_opaque_, &Caster::opaque);
-    draw_all(moving_masked_, &Caster::masked);
+    draw_all(moving_opaque_, &BodyCaster::opaque);
+    draw_all(moving_masked_, &BodyCaster::masked);
     cmd.end_rendering();
   }
   cmd.transition(map_, gpu::ImageUse::sampled);
+}
+
+std::vector<BeamTile> LampShadows::record_beams(gpu::TickSlot& slot, std::span<const Pose> body_poses,
+                                                const BeamView& view) {
+  std::vector<BeamTile> tiles = beams_.choose(body_poses, view);
+  beams_.record(slot, map_, beam_top_, body_poses, tiles);
+  return tiles;
 }
 
 void LampShadows::describe(shared::GpuWeather& block) const {
@@ -272,8 +277,7 @@ void LampShadows::describe(shared::GpuWeather& block) const {
 }
 
 gpu::Descriptor LampShadows::descriptor() const {
-  return gpu::Descriptor::sampled(shared::lamp_shadow_binding, casters_.empty() ? static_map_ : map_,
-                                  sampler_);
+  return gpu::Descriptor::sampled(shared::lamp_shadow_binding, changes() ? map_ : static_map_, sampler_);
 }
 
 }  // namespace greatx::render

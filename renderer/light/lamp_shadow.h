@@ -3,9 +3,10 @@
 //
 // Defines the shadows of lamps that stand still. Each has a square tile of one map: a perspective view along
 // its axis (of a point light: downwards) with a half-angle of 75 degrees at most. Static casters are drawn
-// once. Casters that move are drawn every tick into a copy.
+// once. Casters that move are drawn every tick into a copy. Below these tiles the map has room for those of
+// lamps that move (renderer/light/beam_shadow.h), which pictures draw.
 //
-// No shadows come from lamps that move, from passing beams, from directional lights, from lamps beyond the
+// No shadows come from passing beams that stand still, from directional lights, from lamps beyond the
 // most_lamp_tiles that light the largest areas, and from casters beside a tile (more than 75 degrees from its
 // axis) or nearer to the lamp than lamp_shadow_near. What lies beside a tile is lit.
 #pragma once
@@ -15,6 +16,8 @@
 
 #include "core/vec.h"
 #include "gpu/tick_ring.h"
+#include "renderer/light/beam_shadow.h"
+#include "renderer/light/casters.h"
 #include "scene/device/gpu_scene.h"
 #include "shaders/shared/camera.h"
 #include "shaders/shared/weather.h"
@@ -46,6 +49,7 @@ struct LampTile {
 
 struct LampShadowOptions {
   bool wanted = false, alpha_mask = false;
+  bool beams = false;  ///< shadows of spots that move are wanted
 };
 
 class LampShadows {
@@ -56,6 +60,11 @@ class LampShadows {
 
   /// Records the casters that move, at this tick's poses.
   void record(gpu::TickSlot& slot, std::span<const Pose> body_poses);
+  /// Chooses the spots that move for a picture, and records their tiles. Pictures that are recorded before
+  /// keep theirs.
+  std::vector<BeamTile> record_beams(gpu::TickSlot& slot, std::span<const Pose> body_poses,
+                                     const BeamView& view);
+  bool any_beams() const { return beams_.any(); }
   /// Fills in the map's part of the block.
   void describe(shared::GpuWeather& block) const;
   gpu::Descriptor descriptor() const;
@@ -71,17 +80,14 @@ class LampShadows {
     double reach = 0.0, tangent = 1.0;
     uint32_t x = 0, y = 0;  ///< texel where the tile begins
   };
-  struct Caster {
-    uint32_t body = 0;
-    dvec3 center{0.0};  ///< of the bounding sphere, body frame
-    double radius = 0.0;
-    std::vector<uint32_t> opaque, masked;  ///< primitives
-  };
   struct Square {
     uint32_t x = 0, y = 0, size = 0;
   };
   void place_lamps();
   void find_casters(bool alpha_mask);
+  /// Makes room for the tiles of spots that move.
+  void place_beams();
+  bool changes() const { return !casters_.empty() || beams_.any(); }
   void draw_static(bool alpha_mask);
   shared::CasterConstants view_of(const Lamp& lamp) const;
   /// Returns the square of texels that a sphere may cover; size 0: none.
@@ -90,9 +96,11 @@ class LampShadows {
   const scene::GpuScene* scene_ = nullptr;
   std::vector<Lamp> lamps_;
   std::vector<LampTile> tiles_;
-  std::vector<Caster> casters_;
+  std::vector<BodyCaster> casters_;
+  BeamShadows beams_;
   uint32_t tile_texels_ = 0, map_texels_ = 1;
-  gpu::Image static_map_, map_;  ///< the second only where casters move
+  uint32_t beam_top_ = 0;        ///< row where the tiles of spots that move begin
+  gpu::Image static_map_, map_;  ///< the second only where casters or lamps move
   gpu::Sampler sampler_;
   gpu::GraphicsPipeline moving_opaque_, moving_masked_;
   std::vector<Square> changed_;  ///< squares of map_ that differ from static_map_

@@ -135,9 +135,12 @@ SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& light
   effects_.snow_cover = effects.snow_cover && lighting.snow > 0.0;
   effects_.rain_streaks = effects.rain_streaks && lighting.rain_mm_h > 0.0;
   effects_.lamp_halos = effects.lamp_halos && effects_.punctual_lights && effects_.haze;
-  lamp_shadows_ = LampShadows(
-      scene, {.wanted = effects.lamp_shadows && effects_.punctual_lights, .alpha_mask = effects_.alpha_mask});
+  lamp_shadows_ =
+      LampShadows(scene, {.wanted = effects.lamp_shadows && effects_.punctual_lights,
+                          .alpha_mask = effects_.alpha_mask,
+                          .beams = effects.beam_shadows && effects.lamp_shadows && effects_.punctual_lights});
   effects_.lamp_shadows = lamp_shadows_.tile_count() > 0;
+  effects_.beam_shadows = lamp_shadows_.any_beams();
   rain_cover_ = RainCover(scene, effects_.wet_surfaces || effects_.snow_cover);
   bake_weather(lighting, sky);
 }
@@ -320,6 +323,10 @@ void SceneLighting::record(gpu::TickSlot& slot, std::span<const Pose> body_poses
 
 void SceneLighting::draw_shadows(gpu::TickSlot& slot, const MovingShadows::Outside& outside) const {
   if (effects_.moving_shadows) shadows_.moving().draw(slot, outside);
+}
+
+std::vector<BeamTile> SceneLighting::draw_beams(gpu::TickSlot& slot, const BeamView& view) const {
+  return lamp_shadows_.record_beams(slot, body_poses_, view);
 }
 
 std::vector<gpu::Binding> SceneLighting::surface_bindings() {

@@ -98,6 +98,7 @@ struct CameraEffects {
   bool snow_cover = false;
   bool rain_streaks = false;       ///< renderer/camera/streaks.h; darkens haze by what the streaks take
   bool lamp_shadows = false;       ///< renderer/light/lamp_shadow.h
+  bool beam_shadows = true;        ///< renderer/light/beam_shadow.h; only with lamp_shadows
   bool lamp_halos = false;         ///< only with haze and lamps
   bool ambient_occlusion = false;  ///< occlusion of sky light by static bodies
   bool contact_occlusion = false;  ///< occlusion of sky light by moving bodies
@@ -132,6 +133,8 @@ class SceneLighting {
   void record(gpu::TickSlot& slot, std::span<const Pose> body_poses);
   /// Records the moving bodies' shadows that may fall into a picture, as far as they have changed.
   void draw_shadows(gpu::TickSlot& slot, const MovingShadows::Outside& outside) const;
+  /// Records the shadows of spots that move, for one picture: before its shading, after that of others.
+  std::vector<BeamTile> draw_beams(gpu::TickSlot& slot, const BeamView& view) const;
 
   const CameraEffects& effects() const { return effects_; }
   /// The land that pictures show beyond the scene; none without the effect.
@@ -164,9 +167,9 @@ class SceneLighting {
   void bake_weather(const Lighting& lighting, const Sky& sky);
 
   const scene::GpuScene* scene_;
-  CameraEffects effects_;       ///< the effects asked for, less those that this light cannot cast
-  mutable ShadowMaps shadows_;  ///< its atlas is a cache: cameras fill in the tiles that they need
-  LampShadows lamp_shadows_;
+  CameraEffects effects_;             ///< the effects asked for, less those that this light cannot cast
+  mutable ShadowMaps shadows_;        ///< its atlas is a cache: cameras fill in the tiles that they need
+  mutable LampShadows lamp_shadows_;  ///< cameras draw the tiles of lamps that move
   RainCover rain_cover_;
   FallingDrops drops_;
   gpu::Buffer weather_;  ///< GpuWeather

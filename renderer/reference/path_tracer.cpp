@@ -22,7 +22,7 @@ PathTracer::PathTracer(const scene::Scene& scene, std::span<const Pose> body_pos
     : effects_(effects),
       options_(options),
       sky_(lighting, effects.haze && lighting.haze_extinction_per_m > 0.0),
-      rays_(scene, body_poses, effects),
+      rays_(scene, body_poses, effects, options.lamp_factors),
       sky_light_(sky_),
       disc_(sky_, effects.sun ? key_light(lighting) : KeyLight{}),
       lamps_(effects.punctual_lights ? std::span<const scene::PunctualLight>(scene.lights)

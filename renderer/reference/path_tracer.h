@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/vec.h"
 #include "renderer/light/lighting.h"
@@ -31,6 +32,9 @@ struct PathOptions {
   /// Holistic and Robust Light Transport", Computer Graphics Forum 32(2), 2013). Mirror images that the eye
   /// sees stay sharp.
   double later_roughness = 0.0;
+  /// The factors of the switched lamps' emission (scene/description/lamps.h), in their order; empty: all
+  /// shine in full.
+  std::vector<float> lamp_factors;
 };
 
 /// The light of one path.

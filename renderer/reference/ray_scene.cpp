@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/error.h"
 #include "core/srgb.h"
 #include "renderer/surface/pane_color.h"
 #include "scene/description/lamps.h"
@@ -81,8 +82,12 @@ std::vector<scene::TreeTriangle> placed_triangles(const scene::Scene& scene, con
 
 }  // namespace
 
-RayScene::RayScene(const scene::Scene& scene, std::span<const Pose> body_poses, const CameraEffects& effects)
-    : scene_(&scene), poses_(body_poses.begin(), body_poses.end()), effects_(effects) {
+RayScene::RayScene(const scene::Scene& scene, std::span<const Pose> body_poses, const CameraEffects& effects,
+                   std::span<const float> lamp_factors)
+    : scene_(&scene),
+      poses_(body_poses.begin(), body_poses.end()),
+      effects_(effects),
+      factor_(scene.primitives.size(), 1.0f) {
   GREATX_CHECK(poses_.size() == scene.bodies.size(), "{} poses for {} bodies", poses_.size(),
                scene.bodies.size());
   poses_[0] = Pose{};
@@ -92,6 +97,13 @@ RayScene::RayScene(const scene::Scene& scene, std::span<const Pose> body_poses, 
     if (const auto color = effects.panes ? pane_color(material.pbr) : std::nullopt)
       panes_.back() = dvec3(*color);
     switched_.push_back(scene::lamp_role(material).has_value());
+  }
+  if (!lamp_factors.empty()) {
+    const scene::SwitchedLamps lamps = scene::switched_lamps(scene);
+    GREATX_CHECK(lamp_factors.size() == lamps.lamps.size(), "{} factors for {} switched lamps",
+                 lamp_factors.size(), lamps.lamps.size());
+    for (size_t i = 0; i < factor_.size(); ++i)
+      if (lamps.of_primitive[i] != 0) factor_[i] = lamp_factors[lamps.of_primitive[i] - 1];
   }
   for (const scene::Primitive& primitive : scene.primitives)
     owner_.push_back(scene.owner_of(scene.instances[primitive.instance].body));
@@ -211,7 +223,7 @@ RaySurface RayScene::surface(const Ray& ray, const RayHit& hit) const {
   s.roughness = pbr.roughness;
   const bool lamp = switched_[primitive.material];
   const bool glows = lamp ? effects_.switched_lamps : effects_.emissive;
-  if (glows) s.glow = dvec3(pbr.emissive) * double(shared::emissive_nits);
+  if (glows) s.glow = dvec3(pbr.emissive) * double(shared::emissive_nits) * double(factor_[hit.primitive]);
   const dvec2 uv = texture_place(hit.triangle, hit.u, hit.v);
   const auto texture = [&](int32_t index) {
     return bilinear(scene_->textures[static_cast<size_t>(index)], uv);

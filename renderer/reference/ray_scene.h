@@ -47,8 +47,10 @@ struct RaySurface {
 class RayScene {
  public:
   /// `body_poses` has the pose of every body in local coordinates. `effects` says whether textures, normal
-  /// maps, alpha masks, emission and panes count. `scene` outlives this.
-  RayScene(const scene::Scene& scene, std::span<const Pose> body_poses, const CameraEffects& effects);
+  /// maps, alpha masks, emission and panes count. `lamp_factors` are those of the switched lamps
+  /// (scene/description/lamps.h); empty: all shine in full. `scene` outlives this.
+  RayScene(const scene::Scene& scene, std::span<const Pose> body_poses, const CameraEffects& effects,
+           std::span<const float> lamp_factors = {});
 
   /// Returns the nearest hit farther than `least` metres. A body whose owner is `excluded` is passed through.
   RayHit nearest(const Ray& ray, double least, std::optional<uint32_t> excluded = {}) const;
@@ -74,8 +76,9 @@ class RayScene {
   const scene::Scene* scene_;
   std::vector<Pose> poses_;
   CameraEffects effects_;
-  std::vector<bool> masked_;    ///< by material: it has holes
-  std::vector<bool> switched_;  ///< by material: of a lamp that switches, which shines in full here
+  std::vector<bool> masked_;                 ///< by material: it has holes
+  std::vector<bool> switched_;               ///< by material: of a lamp that switches
+  std::vector<float> factor_;                ///< by primitive: of its emission
   std::vector<std::optional<dvec3>> panes_;  ///< by material: its pane_color, if panes count
   std::vector<uint32_t> owner_;              ///< by primitive: the owner of its body
   scene::SahTree tree_;

@@ -31,6 +31,7 @@ layout(constant_id = spec_wet_surfaces) const bool wet_on = false;
 layout(constant_id = spec_snow_cover) const bool snow_on = false;
 layout(constant_id = spec_mirrors) const bool mirrors_on = false;
 layout(constant_id = spec_lamp_shadows) const bool lamp_shadows_on = false;
+layout(constant_id = spec_beam_shadows) const bool beam_shadows_on = false;
 layout(constant_id = spec_lamp_halos) const bool lamp_halos_on = false;
 layout(constant_id = spec_beams) const bool beams_on = false;
 layout(constant_id = spec_contact_occlusion) const bool contact_occlusion_on = false;

@@ -42,7 +42,7 @@ float lamp_visibility(uint lamp, vec3 from_lamp, vec3 axis, vec3 n) {
   vec4 tile = lamp_quads[lamp + 3u];
   float scale2 = dot(tile.xyz, tile.xyz);
   float depth = dot(axis, from_lamp);
-  bool free = scale2 == 0.0 || (beams_on && lamp_words[4u * lamp + 15u] == lamp_of_beam);
+  bool free = scale2 == 0.0 || ((beams_on || beam_shadows_on) && lamp_words[4u * lamp + 15u] >= lamp_of_cone);
   if (free || depth <= lamp_shadow_near) return 1.0;
   float texel_m = depth * weather.lamp_texel_uv * inversesqrt(scale2);
   vec3 q = from_lamp + n * (1.5 * texel_m);
@@ -51,6 +51,26 @@ float lamp_visibility(uint lamp, vec3 from_lamp, vec3 axis, vec3 n) {
   if (max(abs(offset.x), abs(offset.y)) > weather.lamp_half_uv) return 1.0;
   vec2 uv = unpackUnorm2x16(floatBitsToUint(tile.w)) + offset;
   return texture(lamp_shadow, vec3(uv, lamp_shadow_near / (depth - 0.25 * texel_m - 0.01)));
+}
+
+/// Returns the share of the light of a spot that moves which reaches a point, as above
+/// (renderer/light/beam_shadow.h).
+float beam_visibility(uint lamp, vec3 from_lamp, vec3 axis, vec3 n) {
+  vec3 tile = lamp_quads[lamp + 4u].yzw;
+  float depth = dot(axis, from_lamp);
+  if (tile.z == 0.0 || depth <= lamp_shadow_near) return 1.0;
+  vec3 up = lamp_quads[lamp + 3u].xyz;
+  float texel_m = depth * weather.lamp_texel_uv / min(tile.x, tile.y);
+  vec3 q = from_lamp + n * (1.5 * texel_m);
+  depth = dot(axis, q);
+  vec2 tangents = vec2(dot(cross(axis, up), q), dot(up, q)) / depth;
+  if (lamp_words[4u * lamp + 15u] == lamp_of_beam) tangents.y -= beam_tile_middle;
+  vec2 offset = tangents * tile.xy;
+  vec2 reach = (0.5 * vec2(beam_tile_width, beam_tile_height) - 1.0) * weather.lamp_texel_uv;
+  if (any(greaterThan(abs(offset), reach))) return 1.0;
+  vec2 uv = unpackUnorm2x16(lamp_words[4u * lamp + 16u]) + offset;
+  float lit = texture(lamp_shadow, vec3(uv, lamp_shadow_near / (depth - 0.25 * texel_m - 0.01)));
+  return mix(1.0, lit, tile.z);
 }
 
 /// Returns the radiance towards the eye by the lamps (KHR_lights_punctual's attenuation). Rough dielectrics
@@ -76,6 +96,8 @@ vec3 reflect_lamps(Reflectance r, vec3 n, vec3 geometric, vec3 v, vec3 p_eye, bo
     if (beams_on && attenuation > 0.0 && n_dot_l > 0.0) attenuation *= beam_share(lamp, axis.xyz, -l);
     if (lamp_shadows_on && attenuation > 0.0 && n_dot_l > 0.0)
       attenuation *= lamp_visibility(lamp, -to_lamp, axis.xyz, geometric);
+    if (beam_shadows_on && attenuation > 0.0 && n_dot_l > 0.0)
+      attenuation *= beam_visibility(lamp, -to_lamp, axis.xyz, geometric);
     vec3 illuminance = light.rgb * (attenuation * max(n_dot_l, 0.0));
     diffuse += illuminance;
     bool highlight = specular_on && shiny && attenuation > 0.0 && n_dot_l > 0.0;

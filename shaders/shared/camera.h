@@ -101,7 +101,8 @@ const uint spec_shadow_cascades = 40u;  // their number
 const uint spec_beams = 41u;            // some lamp has a passing beam
 const uint spec_panes = 42u;            // panes let light through (renderer/camera/panes.h)
 const uint spec_switched_lamps = 43u;   // lamps switch (scene/description/lamps.h)
-const uint shade_spec_count = 44u;
+const uint spec_beam_shadows = 44u;     // spots that move cast shadows (renderer/light/beam_shadow.h)
+const uint shade_spec_count = 45u;
 // These constants belong to the shadow maps.
 const uint shadow_spec_base_color_arrays = 0u;
 const uint shadow_spec_masked = 1u;
@@ -130,15 +131,26 @@ const uint lamps_header_words = 7u;
 /// The word of the first of (first entry, count) of the lamps that may light the air before a tile's pixels,
 /// row by row.
 const uint lamps_halos_word = 6u;
-/// A lamp is four quadruples of floats, and an entry counts the quadruples from the words' beginning. The
+/// A lamp is five quadruples of floats, and an entry counts the quadruples from the words' beginning. The
 /// first holds the position from the eye (of a directional light: unit, towards it) and 1 / range^2
 /// (directional: -1). The second holds the unit direction and the scale of the cone. The third holds the
 /// intensity, cd (directional: lux), and the offset of the cone. The fourth belongs to its shadow: an axis
 /// across its direction times the scale of its tile, and the middle of the tile in unsigned 16-bit fractions;
-/// the axis is 0 if the lamp casts no shadow. A spot with a passing beam (shaders/shared/beam.h) casts none;
-/// its fourth quadruple holds the unit direction up across its axis, and lamp_of_beam.
-const uint lamp_record_quads = 4u;
+/// the axis is 0 if it casts none. Of a spot with a passing beam (shaders/shared/beam.h) it holds the
+/// unit direction up across its axis, and lamp_of_beam; of another spot that moves and has a tile in this
+/// picture, the same and lamp_of_cone. The fifth is that tile of a spot that moves: its middle, packed like
+/// the other, its scale (uv over the tangents to the right and up), and the strength of the shadow, 0 without
+/// a tile.
+const uint lamp_record_quads = 5u;
 const uint lamp_of_beam = 0xffffffffu;
+const uint lamp_of_cone = 0xfffffffeu;
+/// The tiles of spots that move, texels. Those of passing beams reach to these tangents right and left of the
+/// axis, and up and down from their middle, which lies below the axis.
+const uint beam_tile_width = 448u;
+const uint beam_tile_height = 192u;
+const float beam_tile_right = 0.7f;
+const float beam_tile_up = 0.3f;
+const float beam_tile_middle = -0.05f;
 /// What is nearer to a lamp than this along its axis casts no shadow: its own housing.
 const float lamp_shadow_near = 0.5f;
 /// The most lamps whose light in the air a pixel adds up.

@@ -275,7 +275,7 @@ void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shad
   shading.decide(plan.lamp_shadows, plan.punctual_lights.on && offers.static_triangles,
                  "lamps shine on static meshes",
                  plan.punctual_lights.on ? "nothing static to cast them" : "lamps are off",
-                 "drawn once, at the first tick; those of moving meshes every tick");
+                 "drawn once, at the first tick; those of moving meshes and lamps every tick");
   shading.decide(plan.lamp_halos, plan.punctual_lights.on && plan.haze.on, "lamps shine into fog or rain",
                  plan.punctual_lights.on ? "neither fog nor rain" : "lamps are off");
 }

@@ -54,7 +54,7 @@
   X(wet_surfaces, true, camera, "water on surfaces: dark, smooth ground, puddles, mirror images") \
   X(snow_cover, true, camera, "snow on what faces upwards") \
   X(rain_streaks, true, camera, "falling drops as streaks") \
-  X(lamp_shadows, true, camera, "shadows in the light of lamps that do not move") \
+  X(lamp_shadows, true, camera, "shadows in the light of lamps") \
   X(lamp_halos, true, camera, "light of lamps that fog and rain scatter towards the camera") \
   X(smooth_edges, false, none, "antialiasing along the edges of meshes") \
   X(lens_distortion, false, none, "distortion by the lens") \

@@ -12,6 +12,7 @@
 #include "renderer/reference/path_tracer.h"
 #include "renderer/reference/reference_picture.h"
 #include "renderer/reference/scatter.h"
+#include "scene/description/lamps.h"
 #include "tests/support/tiny_scene.h"
 
 namespace greatx::test {
@@ -311,6 +312,29 @@ TEST(Reference, HolesAndBodiesAreWhereTheyAre) {
                             .trace({dvec3(0.0), dvec3(1, 0, 0)}, 0.1, draws)
                             .radiance),
               10.0, 1e-5);
+}
+
+TEST(Reference, SwitchedLampsFollowTheirFactors) {
+  TinyScene tiny;
+  scene::Material lens = matt(0.0, 80.0);
+  lens.name = "switched_stop";
+  const uint32_t material = tiny.material_as(lens);
+  tiny.object("left", 0, material).quad({5, 0, -9}, {5, 9, -9}, {5, 9, 9}, {5, 0, 9});
+  tiny.object("right", 0, material).quad({5, -9, -9}, {5, 0, -9}, {5, 0, 9}, {5, -9, 9});
+  const scene::Scene scene = tiny.build();
+  ASSERT_EQ(scene::switched_lamps(scene).lamps.size(), 2u);
+  render::CameraEffects effects = matt_effects();
+  effects.sky = effects.sun = false;
+  const auto seen = [&](double y, std::vector<float> factors) {
+    const render::PathTracer tracer(scene, std::vector<Pose>(1), {}, effects,
+                                    {.lamp_factors = std::move(factors)});
+    render::PathDraws draws(0, 0, 0);
+    const dvec3 direction = glm::normalize(dvec3(5.0, y, 0.0));
+    return luminance(tracer.trace({dvec3(0.0), direction}, 0.1, draws).radiance);
+  };
+  EXPECT_NEAR(seen(1.0, {0.25f, 0.0f}), 20.0, 1e-4);
+  EXPECT_EQ(seen(-1.0, {0.25f, 0.0f}), 0.0);
+  EXPECT_NEAR(seen(-1.0, {}), 80.0, 1e-4) << "without factors all shine";
 }
 
 TEST(Reference, HazeLiesBeforeSurfaces) {
