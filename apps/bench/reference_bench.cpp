@@ -22,12 +22,15 @@
 
 namespace greatx::apps {
 
+using namespace std::string_literals;
+
 namespace {
 
 /// Glossy surfaces are those whose mirror images keep their shapes.
 constexpr float glossy_roughness = 0.3f;
 /// A pixel lies in the shade if the key light gives it less than this part of its luminance.
 constexpr float shade_share = 0.02f;
+constexpr const char* lines_name = "thin lines";
 
 /// The part of a tick that a picture needs.
 struct Still {
@@ -136,6 +139,7 @@ class ReferenceBench {
     for (int64_t i = -options_.warm_up; i < int64_t{options_.pictures}; ++i)
       for (const auto& row : rows_) row->time(still_, i >= 0);
     select();
+    select_lines();
     nlohmann::json result{{"scenario", experiment_.scenario.name},
                           {"device", device_.info().name},
                           {"driver", device_.info().driver},
@@ -184,18 +188,30 @@ class ReferenceBench {
     without("static shadows", &render::CameraEffects::static_shadows);
     without("lamp shadows", &render::CameraEffects::lamp_shadows);
     without("beam shadows", &render::CameraEffects::beam_shadows);
+    without(lines_name, &render::CameraEffects::thin_lines);
   }
 
   /// Chooses the pixels of each kind.
   void select() {
     const size_t pixels = reference_.coverage.size();
     scene_.assign(pixels, 0);
-    shade_ = glossy_ = scene_;
+    shade_ = glossy_ = lines_ = scene_;
     for (size_t i = 0; i < pixels; ++i) {
       scene_[i] = reference_.coverage[i] >= 1.0f;
       shade_[i] = scene_[i] && reference_.key_share[i] < shade_share;
       glossy_[i] = scene_[i] && reference_.roughness[i] <= glossy_roughness;
     }
+  }
+
+  /// Chooses the pixels that thin lines change.
+  void select_lines() {
+    const auto bare =
+        std::ranges::find(rows_, "without "s + lines_name, [](const auto& row) { return row->name(); });
+    if (bare == rows_.end()) return;
+    const std::vector<float> with = rows_.front()->radiance(still_).hdr,
+                             without = (*bare)->radiance(still_).hdr;
+    for (size_t i = 0; i < lines_.size(); ++i)
+      lines_[i] = !std::equal(&with[3 * i], &with[3 * i] + 3, &without[3 * i]);
   }
 
   nlohmann::json compare(ComparedRow& row) {
@@ -210,6 +226,7 @@ class ReferenceBench {
     json["scene"] = error_json(render::compare_with(reference_, images.hdr, scene_, saturation));
     json["shade"] = error_json(render::compare_with(reference_, images.hdr, shade_, saturation));
     json["glossy"] = error_json(render::compare_with(reference_, images.hdr, glossy_, saturation));
+    json["lines"] = error_json(render::compare_with(reference_, images.hdr, lines_, saturation));
     if (!options_.folder.empty()) write(row.name(), picture, reference);
     return json;
   }
@@ -244,7 +261,7 @@ class ReferenceBench {
   std::unique_ptr<scene::GpuScene> gpu_;
   std::vector<std::unique_ptr<ComparedRow>> rows_;
   render::ReferencePicture reference_;
-  std::vector<uint8_t> scene_, shade_, glossy_;  ///< by pixel: whether it counts
+  std::vector<uint8_t> scene_, shade_, glossy_, lines_;  ///< by pixel: whether it counts
 };
 
 }  // namespace
@@ -258,19 +275,19 @@ std::string reference_bench_text(const nlohmann::json& result) {
   std::string text = fmt::format(
       "{}, {} of {} x {}, on {}\nreference: {} paths a pixel, up to {} bounces, later roughness {}, {:.1f} "
       "s\n"
-      "{:<28} {:>8} {:>6} {:>21} {:>21} {:>21}\n{:<28} {:>8} {:>6}",
+      "{:<28} {:>8} {:>6} {:>21} {:>21} {:>21} {:>21}\n{:<28} {:>8} {:>6}",
       result["scenario"].get<std::string>(), result["camera"].get<std::string>(), result["width"].get<int>(),
       result["height"].get<int>(), result["device"].get<std::string>(), result["samples"].get<int>(),
       result["bounces"].get<int>(), result["later_roughness"].get<double>(), result["seconds"].get<double>(),
-      "", "", "", "scene", "shade", "glossy", "", "cpu ms", "FLIP");
-  for (int i = 0; i < 3; ++i) text += fmt::format(" {:>7}{:>7}{:>7}", "rmse %", "bias", "noise");
+      "", "", "", "scene", "shade", "glossy", "lines", "", "cpu ms", "FLIP");
+  for (int i = 0; i < 4; ++i) text += fmt::format(" {:>7}{:>7}{:>7}", "rmse %", "bias", "noise");
   text += "\n";
   for (const nlohmann::json& row : result["rows"]) {
     const nlohmann::json& cpu = row["cpu_ms"];
     text += fmt::format("{:<28} {:8.2f} {:6.3f}", row["name"].get<std::string>(),
                         cpu["count"].get<size_t>() > 0 ? cpu["min"].get<double>() : 0.0,
                         row["flip"].get<double>());
-    for (const char* part : {"scene", "shade", "glossy"})
+    for (const char* part : {"scene", "shade", "glossy", "lines"})
       text += fmt::format(" {:7.1f}{:+7.1f}{:7.1f}", 100.0 * row[part]["rmse"].get<double>(),
                           100.0 * row[part]["bias"].get<double>(), 100.0 * row[part]["noise"].get<double>());
     text += "\n";

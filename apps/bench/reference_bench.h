@@ -29,9 +29,9 @@ struct ReferenceBenchOptions {
 /// - name;
 /// - cpu_ms: processor time of a picture with rgb, depth and ids, all threads;
 /// - flip: mean FLIP of the developed picture against the developed reference;
-/// - scene, shade, glossy: errors of luminance (render::ReferenceError) over pixels that show nothing but the
-///   scene; over those of them that the key light does not reach; and over smooth surfaces (roughness up to
-///   0.3), each with pixels, rmse, bias and noise.
+/// - scene, shade, glossy, lines: errors of luminance (render::ReferenceError) over pixels that show nothing
+///   but the scene; over those of them that the key light does not reach; over smooth surfaces (roughness up
+///   to 0.3); and over pixels that thin lines change, each with pixels, rmse, bias and noise.
 /// Pictures are developed on the host without noise and vignetting. The rows' timed pictures take turns. With
 /// `folder`, writes reference.exr and reference.png, and for each row NAME.png and NAME-difference.png, where
 /// grey is no difference. Throws UserError if the scenario has no camera or no such tick.

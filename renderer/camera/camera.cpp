@@ -49,7 +49,8 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
       desc_(desc),
       effects_(lighting.effects()),
       visibility_scope_(desc.name + " visibility"),
-      shade_scope_(desc.name + " shade") {
+      shade_scope_(desc.name + " shade"),
+      lines_scope_(desc.name + " lines") {
   check();
   const bool shaded = desc_.outputs.color() || desc_.outputs.luminance;
   desc_.smooth_edges = desc_.smooth_edges && shaded;
@@ -69,11 +70,12 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
       effects_.panes && shaded ? pane_materials(scene_->scene()) : std::vector<bool>());
   if (effects_.shadow_cascades && shaded) near_shadows_ = std::make_unique<NearShadows>(lighting_->shadows());
   if (wants_lines(effects_, desc_)) lines_ = std::make_unique<ThinLines>(scene_->scene());
+  if (lines_ && lines_->size() == 0) lines_.reset();
   build_pipelines();
   create_images();
   create_pictures();
   upload_lens();
-  if (desc_.smooth_edges) edges_ = std::make_unique<EdgePass>(*lighting_, desc_);
+  if (desc_.smooth_edges) edges_ = std::make_unique<EdgePass>(*lighting_, desc_, lines_ != nullptr);
   if (mirrors) mirror_ = std::make_unique<MirrorPass>(*lighting_, desc_);
   if (streaks) streaks_ = std::make_unique<StreakPass>(*lighting_, desc_);
   if (desc_.drops.any() && desc_.outputs.color())
@@ -162,6 +164,11 @@ void CameraPass::build_pipelines() {
 
   const gpu::ComputeDesc shade = shading();
   shade_ = gpu::ComputePipeline(device, shade, desc_.name + " shade");
+  if (lines_) {
+    gpu::ComputeDesc blend = shade;
+    blend.shader = "camera/shade_lines.comp";
+    shade_lines_ = gpu::ComputePipeline(device, blend, lines_scope_);
+  }
   if (!draws_->panes().empty())
     panes_ = std::make_unique<PanePass>(*lighting_, desc_, shade, pinhole_->width, pinhole_->height);
 }
@@ -263,9 +270,14 @@ void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, cons
   view.constants.size = desc_.width | desc_.height << 16;
   draw_shadows(slot, view);
   record_visibility(*slot.cmd, view);
+  LinesInView seen_lines;
+  if (lines_) seen_lines = lines_->in_view(view);
   std::optional<gpu::Slice> lines;
-  if (lines_) lines = slot.upload.put(std::span<const uint32_t>(lines_->words(view)));
-  record_shading(slot, view, lines.value_or(seen_.slice()));
+  if (seen_lines.pixels > 0) {
+    lines = slot.upload.put(std::span<const uint32_t>(seen_lines.words));
+    view.constants.first |= shared::camera_sees_lines;
+  }
+  record_shading(slot, view, lines.value_or(seen_.slice()), seen_lines.pixels);
   if (!part.last) return;
   if (mirror_) mirror_->record(slot, view, {seen_, dry_, beside_, edges_ ? shaded_.color : picture_.color});
   if (cells_) cells_->see(view.constants);

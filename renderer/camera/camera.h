@@ -226,19 +226,21 @@ class CameraPass {
   void draw_glazed(gpu::Cmd& cmd, const CameraView& view, std::span<const DrawPiece> pieces,
                    std::span<const uint32_t> glazed);
   /// `pixels` lists those that look through this view. Without a FaceTable all do; then these are the words
-  /// of its thin lines, if there are any.
-  void record_shading(gpu::TickSlot& slot, const CameraView& view, const gpu::Slice& pixels);
+  /// of its thin lines, which lie over `line_pixels` pixels.
+  void record_shading(gpu::TickSlot& slot, const CameraView& view, const gpu::Slice& pixels,
+                      uint32_t line_pixels = 0);
 
   const SceneLighting* lighting_;
   const scene::GpuScene* scene_;
   CameraDesc desc_;
   CameraEffects effects_;
   std::unique_ptr<DrawList> draws_;
-  std::unique_ptr<ThinLines> lines_;  ///< null without the effect
+  std::unique_ptr<ThinLines> lines_;  ///< null without the effect, and if the scene has none
   gpu::GraphicsPipeline visibility_still_, visibility_still_closed_, visibility_moving_, visibility_closed_,
       visibility_masked_;
   gpu::ComputePipeline shade_;
-  gpu::Image visibility_, depth_;  ///< multisampled if msaa is
+  gpu::ComputePipeline shade_lines_;  ///< empty without lines_
+  gpu::Image visibility_, depth_;     ///< multisampled if msaa is
   gpu::Sampler texel_sampler_;
   std::unique_ptr<PinholeView> pinhole_;  ///< with faces_: as large as the largest of them
   std::unique_ptr<FaceTable> faces_;      ///< null unless the lens or the shutter needs several views
@@ -258,7 +260,7 @@ class CameraPass {
   std::unique_ptr<GlarePass> glare_;           ///< null if not wanted
   std::unique_ptr<CellPass> cells_;            ///< null if not wanted
   std::unique_ptr<DevelopPass> develop_;       ///< null if no array is wanted
-  std::string visibility_scope_, shade_scope_;
+  std::string visibility_scope_, shade_scope_, lines_scope_;
   uint32_t drawn_ = 0, culled_ = 0;
   LampCounts lamps_;
   std::vector<BeamTile> beam_tiles_;  ///< of the view that is recorded

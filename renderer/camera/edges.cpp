@@ -4,12 +4,11 @@
 
 #include "renderer/camera/camera_view.h"
 #include "renderer/camera/faces.h"
-#include "renderer/camera/thin_lines.h"
 #include "shaders/shared/camera.h"
 
 namespace greatx::render {
 
-EdgePass::EdgePass(const SceneLighting& lighting, const CameraDesc& desc)
+EdgePass::EdgePass(const SceneLighting& lighting, const CameraDesc& desc, bool lines)
     : lighting_(&lighting), width_(desc.width), height_(desc.height), scope_(desc.name + " edges") {
   gpu::ComputeDesc edges;
   edges.shader = "camera/edges.comp";
@@ -27,7 +26,7 @@ EdgePass::EdgePass(const SceneLighting& lighting, const CameraDesc& desc)
   edges.specialization[shared::spec_luminance] = desc.outputs.luminance;
   edges.specialization[shared::spec_distortion] = desc.distortion.any();
   edges.specialization[shared::spec_faces] = has_faces(desc);
-  edges.specialization[shared::spec_thin_lines] = wants_lines(lighting.effects(), desc);
+  edges.specialization[shared::spec_thin_lines] = lines;
   edges.specialization[shared::spec_band_rows] = desc.bands > 0 ? rows_of_band(desc) : 0;
   pipeline_ = gpu::ComputePipeline(lighting.scene().device(), edges, scope_);
 }

@@ -17,8 +17,9 @@ struct CameraView;
 
 class EdgePass {
  public:
-  /// Smooths colour, luminance or both, as `desc` delivers them. `lighting` outlives this.
-  EdgePass(const SceneLighting& lighting, const CameraDesc& desc);
+  /// Smooths colour, luminance or both, as `desc` delivers them. `lighting` outlives this. `lines`:
+  /// pictures may have thin lines, which have their shares already.
+  EdgePass(const SceneLighting& lighting, const CameraDesc& desc, bool lines);
   /// Names a picture, the view of its pixels (CameraPass::seen), the buffers of its smooth version, and the
   /// words of its thin lines (null: it has none).
   struct Pictures {

@@ -43,7 +43,6 @@ PanePass::PanePass(const SceneLighting& lighting, const CameraDesc& desc, const 
 
   gpu::ComputeDesc shade = shading;
   shade.shader = multisampled_ ? "camera/shade_panes_multisampled.comp" : "camera/shade_panes.comp";
-  shade.specialization[shared::spec_thin_lines] = false;  // those are drawn with what stands behind the panes
   std::erase_if(shade.bindings, [](const gpu::Binding& binding) {
     return binding.slot == shared::shade_color_binding || binding.slot == shared::shade_luminance_binding ||
            binding.slot == shared::shade_seen_binding;

@@ -10,6 +10,7 @@
 #include "renderer/camera/faces.h"
 #include "renderer/camera/mirror.h"
 #include "renderer/camera/panes.h"
+#include "shaders/shared/lines.h"
 
 namespace greatx::render {
 
@@ -52,7 +53,6 @@ gpu::ComputeDesc CameraPass::shading() const {
   shade.specialization[shared::spec_haze] = effects_.haze;
   shade.specialization[shared::spec_night_sky] = effects_.night_sky;
   shade.specialization[shared::spec_markings] = effects_.markings;
-  shade.specialization[shared::spec_thin_lines] = lines_ != nullptr;
   shade.specialization[shared::spec_clouds] = effects_.clouds;
   shade.specialization[shared::spec_horizon] = static_cast<uint32_t>(lighting_->horizon_kind());
   shade.specialization[shared::spec_ambient_occlusion] = effects_.ambient_occlusion;
@@ -81,9 +81,9 @@ gpu::ComputeDesc CameraPass::shading() const {
   return shade;
 }
 
-void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view, const gpu::Slice& pixels) {
+void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view, const gpu::Slice& pixels,
+                                uint32_t line_pixels) {
   gpu::Cmd& cmd = *slot.cmd;
-  const auto scope = cmd.scope(shade_scope_);
   cmd.transition(visibility_, multisampled() ? gpu::ImageUse::sampled : gpu::ImageUse::storage);
   cmd.barrier(gpu::sync::compute, gpu::sync::compute);  // waits for readers of the picture before
   const PictureBuffers& picture = edges_ ? shaded_ : picture_;
@@ -96,27 +96,39 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view, con
   descriptors.push_back(gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_));
   descriptors.push_back(gpu::Descriptor::buffer(shared::face_pixels_binding, pixels));
   descriptors.push_back(gpu::Descriptor::buffer(shared::shade_mirror_binding, beside_));
-  const auto shade = [&](const gpu::ComputePipeline& with, std::vector<gpu::Descriptor> own) {
+  const auto bind = [&](const gpu::ComputePipeline& with, std::vector<gpu::Descriptor> own) {
     own.insert(own.end(), descriptors.begin(), descriptors.end());
     cmd.bind(with);
     cmd.push(own);
     cmd.constants(view.constants);
+  };
+  const auto shade = [&](const gpu::ComputePipeline& with, std::vector<gpu::Descriptor> own) {
+    bind(with, std::move(own));
     if (faces_)
       return cmd.dispatch_linear(pixels.size / sizeof(shared::FacePixel),
                                  shared::shade_group_width * shared::shade_group_height);
     cmd.dispatch((desc_.width + shared::shade_group_width - 1) / shared::shade_group_width,
                  (desc_.height + shared::shade_group_height - 1) / shared::shade_group_height);
   };
-  if ((view.constants.first & shared::camera_sees_panes) != 0) {
-    shade(panes_->shade(), panes_->descriptors(texel_sampler_));
-    cmd.barrier(gpu::sync::compute, gpu::sync::compute);
+  const std::vector<gpu::Descriptor> own{
+      multisampled() ? gpu::Descriptor::sampled(shared::visibility_binding, visibility_, texel_sampler_)
+                     : gpu::Descriptor::storage(shared::visibility_binding, visibility_),
+      gpu::Descriptor::buffer(shared::shade_color_binding, mirror_ ? dry_ : picture.color),
+      gpu::Descriptor::buffer(shared::shade_luminance_binding, picture.luminance),
+      gpu::Descriptor::buffer(shared::shade_seen_binding, seen_)};
+  {
+    const auto scope = cmd.scope(shade_scope_);
+    if ((view.constants.first & shared::camera_sees_panes) != 0) {
+      shade(panes_->shade(), panes_->descriptors(texel_sampler_));
+      cmd.barrier(gpu::sync::compute, gpu::sync::compute);
+    }
+    shade(shade_, own);
   }
-  shade(shade_,
-        {multisampled() ? gpu::Descriptor::sampled(shared::visibility_binding, visibility_, texel_sampler_)
-                        : gpu::Descriptor::storage(shared::visibility_binding, visibility_),
-         gpu::Descriptor::buffer(shared::shade_color_binding, mirror_ ? dry_ : picture.color),
-         gpu::Descriptor::buffer(shared::shade_luminance_binding, picture.luminance),
-         gpu::Descriptor::buffer(shared::shade_seen_binding, seen_)});
+  if (line_pixels == 0) return;
+  const auto scope = cmd.scope(lines_scope_);
+  cmd.barrier(gpu::sync::compute, gpu::sync::compute);
+  bind(shade_lines_, own);
+  cmd.dispatch_linear(line_pixels, shared::line_group_pixels);
 }
 
 }  // namespace greatx::render

@@ -253,50 +253,115 @@ void ThinLines::find_sides(const Prism& prism, const CameraView& view, const Axi
   }
 }
 
-std::vector<uint32_t> ThinLines::words(const CameraView& view) const {
-  std::vector<Line> lines;
-  for (const Prism& prism : prisms_)
-    if (Line line; project(prism, view, line)) lines.push_back(line);
-  std::ranges::stable_sort(lines, {}, &Line::nearest);
+/// Lists the lines of each tile of a picture, and the pixels of each tile that lie under any of them.
+class ThinLines::Tiles {
+ public:
+  Tiles(uint32_t width, uint32_t height)
+      : width_(width),
+        height_(height),
+        columns_(in_tiles(width)),
+        lists_(size_t{columns_} * in_tiles(height)),
+        masks_(lists_.size()) {}
 
-  constexpr double tile = shared::line_tile_pixels;
-  const auto tiles = [](uint32_t pixels) {
-    return (pixels + shared::line_tile_pixels - 1) / shared::line_tile_pixels;
-  };
-  const uint32_t columns = tiles(view.pinhole.width), rows = tiles(view.pinhole.height);
-  std::vector<std::vector<uint32_t>> lists(size_t{columns} * rows);
-  size_t entries = 0;
-  for (uint32_t i = 0; i < lines.size(); ++i) {
-    const Line& line = lines[i];
-    const double reach = std::max(line.half_width[0], line.half_width[1]) + shared::line_margin_pixels + 1.0;
-    const dvec2 low = (glm::min(line.from, line.to) - reach) / tile,
-                high = (glm::max(line.from, line.to) + reach) / tile;
-    if (high.x < 0.0 || high.y < 0.0 || low.x >= columns || low.y >= rows) continue;
-    const dvec2 along = glm::normalize(line.to - line.from), normal(-along.y, along.x);
-    const double wide = 0.5 * tile * (std::abs(normal.x) + std::abs(normal.y)) + reach;
-    const auto first_column = static_cast<uint32_t>(std::max(low.x, 0.0)),
-               last_column = static_cast<uint32_t>(std::min(high.x, columns - 1.0)),
-               last_row = static_cast<uint32_t>(std::min(high.y, rows - 1.0));
-    for (auto row = static_cast<uint32_t>(std::max(low.y, 0.0)); row <= last_row; ++row)
-      for (uint32_t column = first_column; column <= last_column; ++column) {
-        const dvec2 center = tile * (dvec2(column, row) + 0.5);
-        if (std::abs(glm::dot(center - line.from, normal)) > wide) continue;
-        lists[size_t{row} * columns + column].push_back(i);
-        ++entries;
+  /// Adds a line to the tiles that it comes near. Lines come in the order of the lists.
+  void list(const Line& line, uint32_t number);
+  /// Marks the pixels whose squares the line may touch.
+  void mark(const Line& line);
+  /// Returns the words that the shaders read.
+  LinesInView words(std::span<const Line> lines) const;
+
+ private:
+  static constexpr uint32_t tile = shared::line_tile_pixels;
+  static uint32_t in_tiles(uint32_t pixels) { return (pixels + tile - 1) / tile; }
+
+  uint32_t width_, height_, columns_;
+  std::vector<std::vector<uint32_t>> lists_;
+  std::vector<std::array<uint16_t, tile>> masks_;  ///< rows of a tile; a bit is a column
+};
+
+void ThinLines::Tiles::list(const Line& line, uint32_t number) {
+  const double reach = std::max(line.half_width[0], line.half_width[1]) + shared::line_margin_pixels + 1.0;
+  const auto rows = static_cast<uint32_t>(lists_.size() / columns_);
+  const dvec2 low = (glm::min(line.from, line.to) - reach) / double(tile),
+              high = (glm::max(line.from, line.to) + reach) / double(tile);
+  if (high.x < 0.0 || high.y < 0.0 || low.x >= columns_ || low.y >= rows) return;
+  const dvec2 along = glm::normalize(line.to - line.from), normal(-along.y, along.x);
+  const double wide = 0.5 * tile * (std::abs(normal.x) + std::abs(normal.y)) + reach;
+  const auto first_column = static_cast<uint32_t>(std::max(low.x, 0.0)),
+             last_column = static_cast<uint32_t>(std::min(high.x, columns_ - 1.0)),
+             last_row = static_cast<uint32_t>(std::min(high.y, rows - 1.0));
+  for (auto row = static_cast<uint32_t>(std::max(low.y, 0.0)); row <= last_row; ++row)
+    for (uint32_t column = first_column; column <= last_column; ++column) {
+      const dvec2 center = double(tile) * (dvec2(column, row) + 0.5);
+      if (std::abs(glm::dot(center - line.from, normal)) > wide) continue;
+      lists_[size_t{row} * columns_ + column].push_back(number);
+    }
+}
+
+void ThinLines::Tiles::mark(const Line& line) {
+  const double length = glm::distance(line.from, line.to);
+  const dvec2 along = (line.to - line.from) / length, normal(-along.y, along.x);
+  // A pixel's square reaches so far across the line and along it. A little more makes up for fp32.
+  const double square = 0.5 * (std::abs(normal.x) + std::abs(normal.y)) + 1.0 / 64.0,
+               across = std::max(line.half_width[0], line.half_width[1]) + square;
+  const double low = std::min(line.from.y, line.to.y) - across - square,
+               high = std::max(line.from.y, line.to.y) + across + square;
+  if (high < 0.0 || low >= height_) return;
+  const auto last_row = static_cast<uint32_t>(std::min(high, height_ - 1.0));
+  for (auto row = static_cast<uint32_t>(std::max(low, 0.0)); row <= last_row; ++row) {
+    double first = 0.0, last = width_ - 1.0;
+    // Keeps the columns whose centre lies between two places of an axis.
+    const auto keep_between = [&](const dvec2& axis, double from, double to) {
+      const double rest = axis.y * (row + 0.5 - line.from.y);
+      if (std::abs(axis.x) < 1e-9) {
+        if (rest < from || rest > to) last = -1.0;
+        return;
       }
+      double begin = line.from.x - 0.5 + (from - rest) / axis.x,
+             end = line.from.x - 0.5 + (to - rest) / axis.x;
+      if (begin > end) std::swap(begin, end);
+      first = std::max(first, std::ceil(begin));
+      last = std::min(last, std::floor(end));
+    };
+    keep_between(normal, -across, across);
+    keep_between(along, -square, length + square);
+    if (last < first) continue;
+    const auto end = static_cast<uint32_t>(last);
+    for (auto column = static_cast<uint32_t>(first); column <= end; ++column)
+      masks_[size_t{row / tile} * columns_ + column / tile][row % tile] |=
+          static_cast<uint16_t>(1u << column % tile);
   }
+}
 
-  const size_t header = shared::line_header_words + 2 * lists.size();
-  const size_t first_quad = (header + entries + 3) / 4;
-  std::vector<uint32_t> words(4 * first_quad);
-  words[0] = columns;
-  size_t at = header;
-  for (size_t i = 0; i < lists.size(); ++i) {
-    words[shared::line_header_words + 2 * i] = static_cast<uint32_t>(at);
-    words[shared::line_header_words + 2 * i + 1] = static_cast<uint32_t>(lists[i].size());
-    for (const uint32_t line : lists[i])
-      words[at++] = static_cast<uint32_t>(first_quad) + shared::line_record_quads * line;
+LinesInView ThinLines::Tiles::words(std::span<const Line> lines) const {
+  size_t entries = 0, pixels = 0;
+  for (size_t i = 0; i < lists_.size(); ++i) {
+    entries += lists_[i].size();
+    for (const uint16_t row : masks_[i]) pixels += static_cast<size_t>(std::popcount(row));
   }
+  const size_t header = shared::line_header_words + 2 * lists_.size();
+  const size_t first_quad = (header + entries + pixels + 3) / 4;
+  LinesInView view;
+  view.pixels = static_cast<uint32_t>(pixels);
+  if (pixels == 0) return view;
+  std::vector<uint32_t>& words = view.words;
+  words.resize(4 * first_quad);
+  words[shared::line_columns_word] = columns_;
+  words[shared::line_pixels_word] = static_cast<uint32_t>(header + entries);
+  words[shared::line_pixel_count_word] = view.pixels;
+  size_t at = header, pixel = header + entries;
+  for (size_t i = 0; i < lists_.size(); ++i) {
+    words[shared::line_header_words + 2 * i] = static_cast<uint32_t>(at);
+    words[shared::line_header_words + 2 * i + 1] = static_cast<uint32_t>(lists_[i].size());
+    for (const uint32_t line : lists_[i])
+      words[at++] = static_cast<uint32_t>(first_quad) + shared::line_record_quads * line;
+    const auto column = static_cast<uint32_t>(i % columns_) * tile,
+               row = static_cast<uint32_t>(i / columns_) * tile;
+    for (uint32_t y = 0; y < tile; ++y)
+      for (uint32_t bits = masks_[i][y]; bits != 0; bits &= bits - 1)
+        words[pixel++] = (column + static_cast<uint32_t>(std::countr_zero(bits))) | (row + y) << 16;
+  }
+  words.reserve(words.size() + 4 * shared::line_record_quads * lines.size());
   for (const Line& line : lines) {
     const double length = glm::distance(line.from, line.to);
     const dvec2 along = (line.to - line.from) / length;
@@ -307,7 +372,21 @@ std::vector<uint32_t> ThinLines::words(const CameraView& view) const {
                                  std::bit_cast<uint32_t>(float(length)), 0u, 0u, 0u})
       words.push_back(value);
   }
-  return words;
+  return view;
+}
+
+LinesInView ThinLines::in_view(const CameraView& view) const {
+  std::vector<Line> lines;
+  for (const Prism& prism : prisms_)
+    if (Line line; project(prism, view, line)) lines.push_back(line);
+  if (lines.empty()) return {};
+  std::ranges::stable_sort(lines, {}, &Line::nearest);
+  Tiles tiles(view.pinhole.width, view.pinhole.height);
+  for (uint32_t i = 0; i < lines.size(); ++i) {
+    tiles.list(lines[i], i);
+    tiles.mark(lines[i]);
+  }
+  return tiles.words(lines);
 }
 
 }  // namespace greatx::render

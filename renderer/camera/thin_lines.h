@@ -3,8 +3,12 @@
 //
 // Finds poles, wires and rails, and lists those that are too thin for the samples of a picture. A pixel's
 // centre sees a wire of 0.2 pixels in one pixel of five, so that the picture shows specks that come and go.
-// Shading takes the exact share of each pixel that the outline of such a line covers instead
+// The camera therefore shows the exact share of each pixel that the outline of such a line covers
 // (shaders/camera/lines.glsl). Depth and ids stay those of the pixel's centre.
+//
+// Shading knows nothing of lines. The host lists the pixels under lines, and a second dispatch
+// (shaders/camera/shade_lines.glsl) blends the lines into these alone. A view without lines records nothing,
+// and its picture has the bytes that it has without the effect.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +30,13 @@ bool may_hold_lines(const scene::Scene& scene, uint32_t primitive);
 /// not distort, its rows are exposed at once, and no event camera looks at its pictures from other instants.
 bool wants_lines(const CameraEffects& effects, const CameraDesc& desc);
 
+/// Holds the lines that a view sees: the words that shaders/camera/lines.glsl reads (shaders/shared/lines.h
+/// has their layout), and the number of pixels under lines. Both are empty if it sees none.
+struct LinesInView {
+  std::vector<uint32_t> words;
+  uint32_t pixels = 0;
+};
+
 class ThinLines {
  public:
   /// Finds the slim prisms of the primitives that may hold lines: closed rings of at least three
@@ -34,9 +45,8 @@ class ThinLines {
   explicit ThinLines(const scene::Scene& scene);
 
   size_t size() const { return prisms_.size(); }
-  /// Returns the words that shaders/camera/lines.glsl reads (shaders/shared/lines.h has their layout): the
-  /// prisms that are no wider than `line_most_pixels` all along in this view, near ones first.
-  std::vector<uint32_t> words(const CameraView& view) const;
+  /// Returns the prisms that are no wider than `line_most_pixels` all along in this view, near ones first.
+  LinesInView in_view(const CameraView& view) const;
 
  private:
   /// Holds an edge along a prism, in local coordinates, and the first triangle of the side between it and the
@@ -53,6 +63,7 @@ class ThinLines {
   };
   struct Line;
   struct Axis;
+  class Tiles;
   void add_primitive(const scene::Scene& scene, const scene::Primitive& primitive);
   /// Returns whether a prism is a line in this view. Then it describes it.
   bool project(const Prism& prism, const CameraView& view, Line& line) const;

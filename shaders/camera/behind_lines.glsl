@@ -7,8 +7,8 @@
 #include "camera/lines.glsl"
 
 /// Returns triangle + 1 that stands behind the lines at a pixel whose centre sees `id`: that itself, or what
-/// a neighbour sees across the line.
-uint behind_lines(ivec2 at, uint id, uvec2 entries) {
+/// a neighbour sees across the line. `at` becomes the pixel that sees it.
+uint behind_lines(inout ivec2 at, uint id, uvec2 entries) {
   for (uint entry = entries.x; entry < entries.y; ++entry) {
     if (!of_line(id, entry)) continue;
     uint quad = line_words[entry];
@@ -19,10 +19,14 @@ uint behind_lines(ivec2 at, uint id, uvec2 entries) {
     float to = (upright ? -direction.y : direction.x) * away;
     ivec2 way = (upright ? ivec2(1, 0) : ivec2(0, 1)) * (to < 0.0 ? -1 : 1);
     for (int k = 1; k <= 3; ++k) {
-      uint one = visible_at(clamp(at + k * way, ivec2(0), picture_size() - 1), 0u),
-           other = visible_at(clamp(at - k * way, ivec2(0), picture_size() - 1), 0u);
-      if (!of_lines(one, entries)) return one;
-      if (!of_lines(other, entries)) return other;
+      ivec2 here = clamp(at + k * way, ivec2(0), picture_size() - 1),
+            there = clamp(at - k * way, ivec2(0), picture_size() - 1);
+      uint one = visible_at(here, 0u), other = visible_at(there, 0u);
+      bool first = !of_lines(one, entries);
+      if (first || !of_lines(other, entries)) {
+        at = first ? here : there;
+        return first ? one : other;
+      }
     }
     break;
   }

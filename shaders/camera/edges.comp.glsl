@@ -90,7 +90,8 @@ void main() {
     if (row == 0u) differing &= ~4u;
     if (row == band_rows - 1u) differing &= ~8u;
   }
-  if (lines_on && differing != 0u) {  // shading gave the pixels of thin lines their shares
+  bool lines = lines_on && (camera.first & camera_sees_lines) != 0u;
+  if (lines && differing != 0u) {  // the pixels of thin lines have their shares
     uvec2 entries = lines_near(at);
     if (of_lines(mine.y, entries)) differing = 0u;
     for (int k = 0; k < 4; ++k) {

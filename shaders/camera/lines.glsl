@@ -18,7 +18,7 @@ layout(set = 0, binding = face_pixels_binding, scalar) readonly buffer LineQuads
 /// Returns the first entry of the lines near a pixel, and the one after the last.
 uvec2 lines_near(ivec2 at) {
   uvec2 tile = uvec2(at) / line_tile_pixels;
-  uint word = line_header_words + 2u * (tile.y * line_words[0] + tile.x);
+  uint word = line_header_words + 2u * (tile.y * line_words[line_columns_word] + tile.x);
   uint first = line_words[word];
   return uvec2(first, first + line_words[word + 1u]);
 }
@@ -84,17 +84,19 @@ struct LinesLeft {
   float behind;
 };
 
-/// Holds the half of a line in a pixel: the triangle + 1, the share, and the ray to its middle.
+/// Holds the half of a line in a pixel: the triangle + 1, the share, the ray to its middle, and its planar
+/// depth.
 struct LinePart {
   uint id;
   float share;
   vec3 ray;
+  float depth;
 };
 
 /// Returns the next half of a line that covers a part of the pixel; its share is 0 if there is none. Shares
 /// of several lines add up, to the whole at most.
 LinePart next_part(inout LinesLeft left, vec2 pixel) {
-  LinePart part = LinePart(0u, 0.0, vec3(0.0));
+  LinePart part = LinePart(0u, 0.0, vec3(0.0), 0.0);
   while (left.entries.x < left.entries.y && part.share == 0.0) {
     uint entry = left.entries.x, quad = line_words[entry], number = left.half_of_line;
     LineShares line = line_shares(quad, pixel);
@@ -111,6 +113,7 @@ LinePart next_part(inout LinesLeft left, vec2 pixel) {
       vec2 place = pixel + normal * ((number == 0u ? -0.5 : 0.5) * line.half_width - line.away) +
                    direction * (clamp(along, 0.0, length_px) - along);
       part.share = share;
+      part.depth = 1.0 / line.nearness;
       part.ray = pixel_ray(place);
       part.id = line_words[4u * quad + 8u + number];
       vec2 b = barycentrics(see(part.id - 1u), part.ray);

@@ -4,7 +4,8 @@
 // Shades the triangles that the visibility pass found. Each triangle that a pixel's samples saw is shaded
 // once and weighed by the number of these samples. Depth and id are those of the triangle that the pixel's
 // centre looks at. With GREATX_MULTISAMPLED a pixel has four samples. With GREATX_PANES the triangles are the
-// nearest panes before what is solid, which is shaded after them.
+// nearest panes before what is solid, which is shaded after them. With GREATX_LINES the triangles are those
+// of thin lines, which are blended into the finished picture.
 #include "camera/contact.glsl"
 #include "camera/halos.glsl"
 #include "camera/haze.glsl"
@@ -17,7 +18,12 @@
 #include "camera/surface.glsl"
 #include "camera/weather.glsl"
 
+#ifdef GREATX_LINES
+#include "shared/lines.h"
+layout(local_size_x = line_group_pixels) in;
+#else
 layout(local_size_x = shade_group_width, local_size_y = shade_group_height) in;
+#endif
 #ifdef GREATX_MULTISAMPLED
 layout(set = 0, binding = visibility_binding) uniform usampler2DMS visibility;
 const uint sample_count = 4u;
@@ -33,7 +39,6 @@ uint visible_at(ivec2 at, uint s) {
   return imageLoad(visibility, at).r;
 #endif
 }
-#include "camera/behind_lines.glsl"
 #include "camera/through_lens.glsl"
 #ifndef GREATX_PANES
 layout(set = 0, binding = shade_color_binding, scalar) buffer ColorBlock { uvec2 picture_color[]; };
@@ -88,18 +93,9 @@ Center rim_of(Seen seen, vec3 ray) {
   return Center(dot(camera.forward, seen.p0 + seen.e1 * b.x + seen.e2 * b.y), seen.triangle + 1u);
 }
 
-/// Sees the triangle at the centre, and puts in its place what stands behind the lines.
-void look_behind(inout LinesLeft lines, inout Center center, ivec2 at, vec3 ray, inout uint id) {
-  if (id != 0u) look(center, see(id - 1u), ray);
-  id = behind_lines(at, id, lines.entries);
-  lines.behind = center.depth;
-  if (id != lines.seen) {
-    Seen behind = see(max(id, 1u) - 1u);
-    float depth = dot(behind.p0, behind.normal) / dot(ray, behind.normal);
-    lines.behind = id == 0u ? uintBitsToFloat(0x7f800000u) : depth;
-  }
-}
-
+#ifdef GREATX_LINES
+#include "camera/shade_lines.glsl"
+#else
 #ifdef GREATX_PANES
 /// Returns the light of the air before a pane, times what the pane lets through, summed over its samples
 /// (bits of `same`). The light from behind has the air's light of the whole way, and the pane takes no part
@@ -134,31 +130,14 @@ void main() {
   if (looks_through) center = through_lens(pixel, ray);
   for (uint s = 0u; s < sample_count; ++s) ids[s] = visible_at(in_pinhole, s);
   if (looks_through && sample_count == 1u) ids[0] = center.id;
-  LinesLeft lines = LinesLeft(uvec2(0u), 0u, 1.0, ids[0], infinity);
-  if (lines_on) {
-    lines.entries = lines_near(at);
-    if (lines.entries.x < lines.entries.y) look_behind(lines, center, at, ray, ids[0]);
-  }
-  bool looked = lines.entries.x < lines.entries.y;
   float sky = 0.0;  // share of the samples
   uint left = (1u << sample_count) - 1u;  // samples not yet accounted for
   while (left != 0u) {
     uint id = 0u, same = 0u;
-    float weight = 0.0;
-    vec3 toward = ray;
-    if (lines_on) {
-      LinePart part = next_part(lines, pixel);
-      id = part.id;
-      weight = part.share;
-      toward = weight > 0.0 ? part.ray : ray;
-    }
-    bool of_sample = weight == 0.0;
-    if (of_sample) {
-      for (uint s = sample_count; s-- > 0u;) id = (left >> s & 1u) != 0u ? ids[s] : id;
-      for (uint s = 0u; s < sample_count; ++s) same |= uint(ids[s] == id) << s;
-      left &= ~same;
-      weight = lines.through * (float(bitCount(same)) / float(sample_count));
-    }
+    for (uint s = sample_count; s-- > 0u;) id = (left >> s & 1u) != 0u ? ids[s] : id;
+    for (uint s = 0u; s < sample_count; ++s) same |= uint(ids[s] == id) << s;
+    left &= ~same;
+    float weight = float(bitCount(same)) / float(sample_count);
     if (id == 0u) {
       sky += weight;
 #ifndef GREATX_PANES
@@ -166,9 +145,9 @@ void main() {
 #endif
     } else {
       Seen seen = see(id - 1u);
-      if (ids_on && !distortion_on && !looked) look(center, seen, ray);
+      if (ids_on && !distortion_on) look(center, seen, ray);
       if (ids_on && !distortion_on && sample_count > 1u && id == ids[0]) first = rim_of(seen, ray);
-      if (color_on || luminance_on) radiance += weight * surface_radiance(seen, toward, weight, mirror);
+      if (color_on || luminance_on) radiance += weight * surface_radiance(seen, ray, weight, mirror);
 #ifdef GREATX_PANES
       if (haze_on) radiance -= air_before(seen, ray, in_pinhole, same) / float(sample_count);
 #endif
@@ -221,3 +200,4 @@ void main() {
   if (ids_on) picture_seen[element] = uvec2(floatBitsToUint(center.depth), center.id);
 #endif
 }
+#endif

@@ -197,6 +197,7 @@ const float emissive_nits = 1000.0f;
 /// Bits of CameraConstants::first.
 const uint camera_first_part = 1u;
 const uint camera_sees_panes = 2u;  ///< PanePixels of this view are valid
+const uint camera_sees_lines = 4u;  ///< the view has words of thin lines
 
 /// Holds what a pixel sees of panes, in five words: the triangle + 1 of the nearest pane before its centre
 /// and its planar depth (0: no pane; pane_beside: only before other samples), then six halves: the stored
@@ -220,7 +221,7 @@ struct CameraConstants {
   float near_m;
   float exposure;  ///< stored value = exposure times radiance in cd/m^2
   float weight;    ///< fraction of the exposure time of this part; 1: the whole
-  uint first;      ///< bits: camera_first_part, camera_sees_panes
+  uint first;      ///< bits: camera_first_part, camera_sees_panes, camera_sees_lines
   uint size;       ///< size of the picture: width | height << 16
 };
 

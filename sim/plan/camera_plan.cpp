@@ -237,11 +237,11 @@ void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shad
   const bool camera = asks.cameras + asks.event_cameras > 0;
   shading.decide(plan.textures, offers.textures, "materials have them", "no material has one");
   shading.decide(plan.markings, offers.markings, "roads have them", "no road has one");
-  // Every pixel passes a loop for its lines, so that a CPU driver takes a sixth longer for all of them.
+  // Both halves of a line are shaded in each of its pixels, which a CPU driver feels in views of a city.
   shading.decide(plan.thin_lines, false, "",
                  !offers.thin_lines   ? "the scene has no poles, lamps or furniture"
                  : !asks.smooth_edges ? "no camera smooths edges"
-                                      : "costs a sixth of a picture; asked for by switching it on",
+                                      : "costs up to a sixth of a picture; asked for by switching it on",
                  "not behind lenses that distort, nor with a rolling shutter");
   shading.decide(plan.panes, offers.panes, "materials let light through", "no material lets light through",
                  "panes near a camera are drawn and shaded once more");

@@ -97,6 +97,18 @@ class CameraRig {
   render::CameraImages shoot(const Pose& sensor, const std::vector<Pose>& moving = {}) {
     return collect(record(sensor, moving));
   }
+  /// Takes one picture as the sum of equal parts of the exposure (CameraDesc::parts), of bodies that stand.
+  render::CameraImages shoot_parts(const Pose& sensor, int parts) {
+    std::vector<Pose> poses(scene_->bodies.size());
+    gpu::TickSlot& slot = ring_.begin();
+    gpu_.record_update(slot, poses);
+    lighting_.record(slot, poses);
+    for (int i = 0; i < parts; ++i)
+      camera_.record(slot, sensor, {},
+                     {.weight = 1.0f / float(parts), .first = i == 0, .last = i + 1 == parts});
+    ring_.submit(slot);
+    return collect(slot);
+  }
   const render::CameraPass& camera() const { return camera_; }
   const render::SceneLighting& lighting() const { return lighting_; }
   scene::GpuScene& gpu() { return gpu_; }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -256,6 +257,91 @@ TEST(ThinLines, AStreetOfPolesAgreesWithManySamples) {
   EXPECT_LT(from[1].rms, 0.1);
   EXPECT_LT(from[1].rms, 0.45 * from[0].rms);
   EXPECT_NEAR(from[1].lines, 1.0, 0.1);
+}
+
+TEST(ThinLines, AViewWithoutThemHasTheBytesAndTheWorkOfNone) {
+  const scene::Scene scene = street();
+  const auto shoot = [&](bool lines, const Pose& eye) {
+    CameraRig rig(scene, plain_light(120.0, 40.0), smooth_camera(), open_light(lines));
+    rig.shoot(eye);  // the first picture draws what lasts
+    const uint64_t before = device().counters().dispatches;
+    const render::CameraImages images = rig.shoot(eye);
+    return std::pair(images, device().counters().dispatches - before);
+  };
+  const Pose away = look({0.0, 0.4, 2.0}, 180.0, 20.0);
+  const auto [with, dispatches_with] = shoot(true, away);
+  const auto [without, dispatches_without] = shoot(false, away);
+  EXPECT_EQ(with.hdr, without.hdr);
+  EXPECT_EQ(with.rgb, without.rgb);
+  EXPECT_EQ(with.depth, without.depth);
+  EXPECT_EQ(dispatches_with, dispatches_without);
+  EXPECT_EQ(shoot(true, look({0.0, 0.4, 2.0}, 3.0, -6.0)).second, dispatches_with + 1);
+}
+
+/// Returns the mean sum of eight rows around the horizon. There, a wire of 0.4 pixels that shines with 2000
+/// cd/m^2 hangs 2 m ahead, a screen of 500 cd/m^2 stands 5 m ahead, and a pane at `pane_m`.
+constexpr double wire_px = 0.4, wire_cd_m2 = 2000.0, screen_cd_m2 = 500.0;
+double through_pane(double pane_m, bool lines) {
+  const auto glowing = [](double cd_m2) {
+    scene::Material material = optical_material("glow", 0.0f);
+    material.pbr.emissive = vec3(float(cd_m2 / 1000.0));
+    return material;
+  };
+  scene::Material glass = optical_material("glass", 1.0f, 0.0f, 0.05f);
+  glass.pbr.transmission = 1.0f;
+  TinyScene tiny;
+  const double half = 0.5 * wire_px * 2.0 / (0.5 * size);
+  tiny.object("line", 0, tiny.material_as(glowing(wire_cd_m2)))
+      .box({2.0, -9.0, -half}, {2.0 + 0.2 * half, 9.0, half});
+  tiny.object("screen", 0, tiny.material_as(glowing(screen_cd_m2)))
+      .quad({5, 9, -9}, {5, -9, -9}, {5, -9, 9}, {5, 9, 9});
+  tiny.object("pane", 0, tiny.material_as(glass))
+      .quad({pane_m, 9, -9}, {pane_m, -9, -9}, {pane_m, -9, 9}, {pane_m, 9, 9});
+  scene::Scene scene = tiny.build();
+  make_poles(scene);
+  render::CameraEffects effects;
+  effects.sun = effects.sky = false;
+  effects.panes = true;
+  effects.thin_lines = lines;
+  CameraRig rig(scene, plain_light(), smooth_camera(), effects);
+  const render::CameraImages images = rig.shoot(look({0.0, 0.0, 0.013}));
+  double sum = 0.0;
+  for (uint32_t row = size / 2 - 4; row < size / 2 + 4; ++row)
+    for (uint32_t column = size / 2 - 4; column < size / 2 + 4; ++column)
+      sum += luminance_at(images, size_t{row} * size + column) / 8.0;
+  return sum;
+}
+
+TEST(ThinLines, PanesWeakenWhatIsBehindThemAlone) {
+  const double passes = 0.96 / 1.04;  // at right angles, of both faces
+  const double behind = passes * (wire_px * wire_cd_m2 + (8.0 - wire_px) * screen_cd_m2),
+               before = wire_px * wire_cd_m2 + passes * (8.0 - wire_px) * screen_cd_m2;
+  std::printf("wire behind a pane %.1f of %.1f, before it %.1f of %.1f\n", through_pane(1.5, true), behind,
+              through_pane(3.0, true), before);
+  EXPECT_NEAR(through_pane(1.5, true), behind, 2e-3 * behind);
+  EXPECT_NEAR(through_pane(3.0, true), before, 2e-3 * before);
+  EXPECT_GT(std::abs(through_pane(1.5, false) - behind), 2e-2 * behind);
+}
+
+TEST(ThinLines, PartsOfAnExposureSumToTheWhole) {
+  const scene::Scene scene = street();
+  const Pose eye = look({0.0, 0.4, 2.0}, 3.0, -6.0);
+  render::CameraDesc parted = smooth_camera();
+  parted.parts = true;
+  CameraRig whole(scene, plain_light(120.0, 40.0), smooth_camera(), open_light(true)),
+      parts(scene, plain_light(120.0, 40.0), parted, open_light(true)),
+      bare(scene, plain_light(120.0, 40.0), smooth_camera(), open_light(false));
+  const render::CameraImages a = whole.shoot(eye), b = parts.shoot_parts(eye, 4), c = bare.shoot(eye);
+  double largest = 0.0, of_lines = 0.0;
+  for (size_t i = 0; i < size_t{size} * size; ++i) {
+    const double level = luminance_at(a, i);
+    largest = std::max(largest, std::abs(luminance_at(b, i) - level) / level);
+    of_lines = std::max(of_lines, std::abs(luminance_at(c, i) - level) / level);
+  }
+  std::printf("four parts differ from the whole by %.5f; lines change pixels by up to %.3f\n", largest,
+              of_lines);
+  EXPECT_LT(largest, 4e-3);  // halves, rounded once a part
+  EXPECT_GT(of_lines, 0.1);
 }
 
 TEST(ThinLines, FindsSlimPrismsOfPolesAlone) {
