@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "gpu/capabilities.h"
 #include "gpu/instance.h"
+#include "gpu/pipeline_builds.h"
 
 namespace greatx::gpu {
 
