@@ -30,8 +30,16 @@ gpu::GraphicsPipeline shadow_pipeline(const scene::GpuScene& scene, gpu::Graphic
 /// are.
 gpu::GraphicsPipeline caster_pipeline(const scene::GpuScene& scene, bool moving, bool masked,
                                       std::string_view name);
-/// Returns the descriptors that a pipeline of static casters needs.
-std::vector<gpu::Descriptor> static_caster_descriptors(const scene::GpuScene& scene);
+/// Returns such a pipeline for panes, which fill a part of the texels (camera/shadow_pane.frag.glsl).
+/// Its vertex shader is camera/pane_caster.vert or camera/pane_moving_shadow.vert.
+gpu::GraphicsPipeline pane_shadow_pipeline(const scene::GpuScene& scene, gpu::GraphicsDesc desc,
+                                           std::string_view name);
+/// Returns such a pipeline for static panes, with push constants CasterConstants.
+gpu::GraphicsPipeline pane_caster_pipeline(const scene::GpuScene& scene, std::string_view name);
+/// Returns the descriptors that a pipeline of static casters needs; those for panes with the records of
+/// materials.
+std::vector<gpu::Descriptor> static_caster_descriptors(const scene::GpuScene& scene,
+                                                       const gpu::Buffer* panes = nullptr);
 /// Draws primitives with the bound pipeline. The scene's indices are bound.
 void draw_casters(gpu::Cmd& cmd, const scene::Scene& scene, std::span<const uint32_t> primitives);
 
