@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "renderer/light/lamp_shadow.h"
-#include "renderer/light/shadow_raster.h"
 #include "shaders/shared/beam.h"
 
 namespace greatx::render {
@@ -59,15 +58,9 @@ BeamShadows::BeamShadows(const scene::GpuScene& scene, const BeamShadowOptions& 
     if (at->lights.size() < most_beam_tiles) at->lights.push_back(i);
   }
   if (bodies_.empty()) return;
-  moving_ = body_casters(scene.scene(), options.alpha_mask);
   still_ = static_casters(scene.scene(), options.alpha_mask);
   if (!still_.opaque.empty()) still_opaque_ = caster_pipeline(scene, false, false, "static caster");
   if (!still_.masked.empty()) still_masked_ = caster_pipeline(scene, false, true, "static caster");
-  const auto any = [&](std::vector<CasterRange> BodyCaster::*ranges) {
-    return std::ranges::any_of(moving_, [&](const BodyCaster& caster) { return !(caster.*ranges).empty(); });
-  };
-  if (any(&BodyCaster::opaque)) moving_opaque_ = caster_pipeline(scene, true, false, "moving caster");
-  if (any(&BodyCaster::masked)) moving_masked_ = caster_pipeline(scene, true, true, "moving caster");
 }
 
 uvec2 BeamShadows::area(uint32_t width) const {
@@ -169,7 +162,7 @@ void BeamShadows::draw_static(gpu::Cmd& cmd, const Frustum& frustum, const std::
 }
 
 void BeamShadows::record(gpu::TickSlot& slot, gpu::Image& map, uint32_t top, std::span<const Pose> body_poses,
-                         std::span<BeamTile> tiles) const {
+                         const MovingCasters& moving, std::span<BeamTile> tiles) const {
   if (tiles.empty()) return;
   const double texels = map.desc().width;
   const uint32_t across = area(map.desc().width).x / shared::beam_tile_width;
@@ -204,15 +197,14 @@ void BeamShadows::record(gpu::TickSlot& slot, gpu::Image& map, uint32_t top, std
       draw(i);
     }
   };
-  const auto moving = [&](std::vector<CasterRange> BodyCaster::*ranges) {
+  const auto bodies = [&](std::vector<CasterRange> BodyCaster::*ranges) {
     return [&, ranges](uint32_t i) {
       const scene::Scene& scene = scene_->scene();
       const uint32_t own = scene.owner_of(scene.lights[tiles[i].light].body);
-      for (const BodyCaster& caster : moving_) {
+      for (const BodyCaster& caster : moving.bodies) {
         if (caster.body == own || (caster.*ranges).empty()) continue;
         if (frusta[i].outside(body_poses[caster.body].apply(caster.center), caster.radius)) continue;
-        for (const CasterRange& range : caster.*ranges)
-          cmd.draw_indexed(range.first_index, range.index_count, range.primitive);
+        draw_casters(cmd, caster.*ranges);
       }
     };
   };
@@ -220,8 +212,8 @@ void BeamShadows::record(gpu::TickSlot& slot, gpu::Image& map, uint32_t top, std
                                      all = scene_->raster_descriptors();
   draw_all(still_opaque_, still, [&](uint32_t i) { draw_static(cmd, frusta[i], still_.opaque, true); });
   draw_all(still_masked_, still, [&](uint32_t i) { draw_static(cmd, frusta[i], still_.masked, false); });
-  draw_all(moving_opaque_, all, moving(&BodyCaster::opaque));
-  draw_all(moving_masked_, all, moving(&BodyCaster::masked));
+  draw_all(moving.opaque, all, bodies(&BodyCaster::opaque));
+  draw_all(moving.masked, all, bodies(&BodyCaster::masked));
   cmd.end_rendering();
   cmd.transition(map, gpu::ImageUse::sampled);
 }

@@ -30,6 +30,7 @@
 #include "core/vec.h"
 #include "gpu/tick_ring.h"
 #include "renderer/light/casters.h"
+#include "renderer/light/shadow_raster.h"
 #include "scene/device/gpu_scene.h"
 #include "shaders/shared/camera.h"
 
@@ -79,7 +80,7 @@ class BeamShadows {
   std::vector<BeamTile> choose(std::span<const Pose> body_poses, const BeamView& view) const;
   /// Places the chosen lamps' tiles below the row `top` of the map and records what they hold.
   void record(gpu::TickSlot& slot, gpu::Image& map, uint32_t top, std::span<const Pose> body_poses,
-              std::span<BeamTile> tiles) const;
+              const MovingCasters& moving, std::span<BeamTile> tiles) const;
 
  private:
   /// A body and its spots.
@@ -106,9 +107,8 @@ class BeamShadows {
 
   const scene::GpuScene* scene_ = nullptr;
   std::vector<Bearer> bodies_;
-  std::vector<BodyCaster> moving_;
   StaticCasters still_;
-  gpu::GraphicsPipeline still_opaque_, still_masked_, moving_opaque_, moving_masked_;
+  gpu::GraphicsPipeline still_opaque_, still_masked_;
 };
 
 }  // namespace greatx::render

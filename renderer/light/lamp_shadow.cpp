@@ -70,12 +70,10 @@ dvec3 lamp_flux(const Light& light) {
 LampShadows::LampShadows(const scene::GpuScene& scene, const LampShadowOptions& options) : scene_(&scene) {
   tiles_.resize(scene.scene().lights.size());
   sampler_ = shadow_sampler(scene.device(), "lamp shadow");
-  if (options.wanted) {
-    place_lamps();
-    if (!lamps_.empty()) find_casters(options.alpha_mask);
-  }
+  if (options.wanted) place_lamps();
   beams_ = BeamShadows(scene, {.wanted = options.beams, .alpha_mask = options.alpha_mask});
   if (beams_.any()) place_beams();
+  if (!lamps_.empty() || beams_.any()) moving_ = moving_casters(scene, options.alpha_mask);
   const double half_uv = 0.5 * tile_texels_ / map_texels_;
   for (const Lamp& lamp : lamps_)
     tiles_[lamp.light] = {lamp.across * (half_uv / lamp.tangent),
@@ -127,15 +125,6 @@ shared::CasterConstants LampShadows::view_of(const Lamp& lamp) const {
   const auto row = [&](const dvec3& axis) { return vec4(dvec4(axis, -glm::dot(axis, lamp.position))); };
   return {{row(lamp.across / lamp.tangent), row(lamp.up / lamp.tangent),
            vec4(0.0f, 0.0f, 0.0f, shared::lamp_shadow_near), row(lamp.axis)}};
-}
-
-void LampShadows::find_casters(bool alpha_mask) {
-  casters_ = body_casters(scene_->scene(), alpha_mask);
-  const auto any = [&](std::vector<CasterRange> BodyCaster::*ranges) {
-    return std::ranges::any_of(casters_, [&](const BodyCaster& caster) { return !(caster.*ranges).empty(); });
-  };
-  if (any(&BodyCaster::opaque)) moving_opaque_ = caster_pipeline(*scene_, true, false, "moving caster");
-  if (any(&BodyCaster::masked)) moving_masked_ = caster_pipeline(*scene_, true, true, "moving caster");
 }
 
 void LampShadows::draw_static(bool alpha_mask) {
@@ -217,16 +206,16 @@ LampShadows::Square LampShadows::square_of(const Lamp& lamp, const dvec3& center
 }
 
 void LampShadows::record(gpu::TickSlot& slot, std::span<const Pose> body_poses) {
-  if (casters_.empty()) return;
+  if (moving_.bodies.empty()) return;
   struct Draw {
     uint32_t lamp = 0, caster = 0;
   };
   std::vector<Draw> draws;
   std::vector<Square> squares;
-  for (uint32_t c = 0; c < casters_.size(); ++c) {
-    const dvec3 center = body_poses[casters_[c].body].apply(casters_[c].center);
+  for (uint32_t c = 0; c < moving_.bodies.size(); ++c) {
+    const dvec3 center = body_poses[moving_.bodies[c].body].apply(moving_.bodies[c].center);
     for (uint32_t l = 0; l < lamps_.size(); ++l) {
-      const Square square = square_of(lamps_[l], center, casters_[c].radius);
+      const Square square = square_of(lamps_[l], center, moving_.bodies[c].radius);
       if (square.size == 0) continue;
       squares.push_back(square);
       draws.push_back({l, c});
@@ -250,15 +239,14 @@ void LampShadows::record(gpu::TickSlot& slot, std::span<const Pose> body_poses) 
       cmd.push(descriptors);
       cmd.bind_indices(scene_->indices());
       for (const Draw& draw : draws) {
-        if ((casters_[draw.caster].*ranges).empty()) continue;
+        if ((moving_.bodies[draw.caster].*ranges).empty()) continue;
         cmd.viewport(lamps_[draw.lamp].x, lamps_[draw.lamp].y, tile_texels_);
         cmd.constants(view_of(lamps_[draw.lamp]));
-        for (const CasterRange& range : casters_[draw.caster].*ranges)
-          cmd.draw_indexed(range.first_index, range.index_count, range.primitive);
+        draw_casters(cmd, moving_.bodies[draw.caster].*ranges);
       }
     };
-    draw_all(moving_opaque_, &BodyCaster::opaque);
-    draw_all(moving_masked_, &BodyCaster::masked);
+    draw_all(moving_.opaque, &BodyCaster::opaque);
+    draw_all(moving_.masked, &BodyCaster::masked);
     cmd.end_rendering();
   }
   cmd.transition(map_, gpu::ImageUse::sampled);
@@ -267,7 +255,7 @@ void LampShadows::record(gpu::TickSlot& slot, std::span<const Pose> body_poses) 
 std::vector<BeamTile> LampShadows::record_beams(gpu::TickSlot& slot, std::span<const Pose> body_poses,
                                                 const BeamView& view) {
   std::vector<BeamTile> tiles = beams_.choose(body_poses, view);
-  beams_.record(slot, map_, beam_top_, body_poses, tiles);
+  beams_.record(slot, map_, beam_top_, body_poses, moving_, tiles);
   return tiles;
 }
 

@@ -84,10 +84,9 @@ class LampShadows {
     uint32_t x = 0, y = 0, size = 0;
   };
   void place_lamps();
-  void find_casters(bool alpha_mask);
   /// Makes room for the tiles of spots that move.
   void place_beams();
-  bool changes() const { return !casters_.empty() || beams_.any(); }
+  bool changes() const { return !moving_.bodies.empty() || beams_.any(); }
   void draw_static(bool alpha_mask);
   shared::CasterConstants view_of(const Lamp& lamp) const;
   /// Returns the square of texels that a sphere may cover; size 0: none.
@@ -96,13 +95,12 @@ class LampShadows {
   const scene::GpuScene* scene_ = nullptr;
   std::vector<Lamp> lamps_;
   std::vector<LampTile> tiles_;
-  std::vector<BodyCaster> casters_;
+  MovingCasters moving_;  ///< for lamps that stand and lamps that move
   BeamShadows beams_;
   uint32_t tile_texels_ = 0, map_texels_ = 1;
   uint32_t beam_top_ = 0;        ///< row where the tiles of spots that move begin
   gpu::Image static_map_, map_;  ///< the second only where casters or lamps move
   gpu::Sampler sampler_;
-  gpu::GraphicsPipeline moving_opaque_, moving_masked_;
   std::vector<Square> changed_;  ///< squares of map_ that differ from static_map_
 };
 

@@ -135,10 +135,10 @@ SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& light
   effects_.snow_cover = effects.snow_cover && lighting.snow > 0.0;
   effects_.rain_streaks = effects.rain_streaks && lighting.rain_mm_h > 0.0;
   effects_.lamp_halos = effects.lamp_halos && effects_.punctual_lights && effects_.haze;
-  lamp_shadows_ =
-      LampShadows(scene, {.wanted = effects.lamp_shadows && effects_.punctual_lights,
-                          .alpha_mask = effects_.alpha_mask,
-                          .beams = effects.beam_shadows && effects.lamp_shadows && effects_.punctual_lights});
+  const bool lamp_shadows = effects.lamp_shadows && effects_.punctual_lights;
+  lamp_shadows_ = LampShadows(scene, {.wanted = lamp_shadows,
+                                      .alpha_mask = effects_.alpha_mask,
+                                      .beams = lamp_shadows && effects.beam_shadows});
   effects_.lamp_shadows = lamp_shadows_.tile_count() > 0;
   effects_.beam_shadows = lamp_shadows_.any_beams();
   rain_cover_ = RainCover(scene, effects_.wet_surfaces || effects_.snow_cover);

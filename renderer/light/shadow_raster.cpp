@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/light/shadow_raster.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/error.h"
@@ -50,12 +52,28 @@ gpu::GraphicsPipeline caster_pipeline(const scene::GpuScene& scene, bool moving,
   return shadow_pipeline(scene, desc, masked, name);
 }
 
+MovingCasters moving_casters(const scene::GpuScene& scene, bool alpha_mask) {
+  MovingCasters moving{body_casters(scene.scene(), alpha_mask), {}, {}};
+  const auto any = [&](std::vector<CasterRange> BodyCaster::*ranges) {
+    return std::ranges::any_of(moving.bodies,
+                               [&](const BodyCaster& body) { return !(body.*ranges).empty(); });
+  };
+  if (any(&BodyCaster::opaque)) moving.opaque = caster_pipeline(scene, true, false, "moving caster");
+  if (any(&BodyCaster::masked)) moving.masked = caster_pipeline(scene, true, true, "moving caster");
+  return moving;
+}
+
 std::vector<gpu::Descriptor> static_caster_descriptors(const scene::GpuScene& scene) {
   std::vector<gpu::Descriptor> found;
   for (const gpu::Descriptor& descriptor : scene.raster_descriptors())
     if (descriptor.slot == shared::scene_binding) found.push_back(descriptor);
   GREATX_CHECK(found.size() == 1, "the scene has no descriptor {}", shared::scene_binding);
   return found;
+}
+
+void draw_casters(gpu::Cmd& cmd, std::span<const CasterRange> ranges) {
+  for (const CasterRange& range : ranges)
+    cmd.draw_indexed(range.first_index, range.index_count, range.primitive);
 }
 
 void draw_casters(gpu::Cmd& cmd, const scene::Scene& scene, std::span<const uint32_t> primitives) {

@@ -12,6 +12,7 @@
 #include "gpu/cmd.h"
 #include "gpu/pipeline.h"
 #include "gpu/resources.h"
+#include "renderer/light/casters.h"
 #include "scene/device/gpu_scene.h"
 #include "shaders/shared/camera.h"
 
@@ -30,8 +31,17 @@ gpu::GraphicsPipeline shadow_pipeline(const scene::GpuScene& scene, gpu::Graphic
 /// are.
 gpu::GraphicsPipeline caster_pipeline(const scene::GpuScene& scene, bool moving, bool masked,
                                       std::string_view name);
+/// The bodies that move and cast shadows in the light of lamps, and the pipelines that draw them.
+struct MovingCasters {
+  std::vector<BodyCaster> bodies;
+  gpu::GraphicsPipeline opaque, masked;  ///< null if nothing is drawn with them
+};
+/// With `alpha_mask`, primitives with holes are drawn apart.
+MovingCasters moving_casters(const scene::GpuScene& scene, bool alpha_mask);
 /// Returns the descriptors that a pipeline of static casters needs.
 std::vector<gpu::Descriptor> static_caster_descriptors(const scene::GpuScene& scene);
+/// Draws a body's parts with the bound pipeline. The scene's indices are bound.
+void draw_casters(gpu::Cmd& cmd, std::span<const CasterRange> ranges);
 /// Draws primitives with the bound pipeline. The scene's indices are bound.
 void draw_casters(gpu::Cmd& cmd, const scene::Scene& scene, std::span<const uint32_t> primitives);
 

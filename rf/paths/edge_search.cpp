@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/same_pose.h"
 #include "rf/search/beam_search.h"
 #include "rf/search/target_images.h"
 
@@ -80,9 +81,8 @@ bool EdgeSearch::same_poses() {
   std::vector<Pose> now;
   for (uint32_t body = 1; body < model_->scene->bodies.size(); ++body)
     now.push_back(model_->facets.motion(body).pose);
-  const bool same = std::ranges::equal(now, poses_, [](const Pose& a, const Pose& b) {
-    return a.position == b.position && a.orientation == b.orientation;
-  });
+  const bool same =
+      std::ranges::equal(now, poses_, [](const Pose& a, const Pose& b) { return same_pose(a, b); });
   poses_ = std::move(now);
   return same;
 }

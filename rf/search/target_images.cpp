@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/largest.h"
+
 namespace greatx::rf {
 namespace {
 
@@ -13,8 +15,6 @@ namespace {
 /// unnecessary candidate costs only one exact solve.
 constexpr double room_m = 1e-5, relative_room = 1e-12;
 constexpr double side_room_m = 1e-3, most_side_room_m = 1.0;
-
-double largest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 /// Holds the point in a plane of a line that crosses the plane, whose ends have the distances `a` and `b`
 /// from it, and how far roundings can move the point.

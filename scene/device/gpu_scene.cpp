@@ -10,6 +10,7 @@
 #include <spdlog/spdlog.h>
 
 #include "core/activity.h"
+#include "core/same_pose.h"
 #include "scene/device/scene_trees.h"
 #include "scene/material/lossless.h"
 
@@ -55,8 +56,6 @@ shared::GpuBody gpu_body(const Pose& pose) {
   const glm::dmat4 rows = glm::transpose(matrix_of(pose));
   return {vec4(rows[0]), vec4(rows[1]), vec4(rows[2])};
 }
-
-bool same(const Pose& a, const Pose& b) { return a.position == b.position && a.orientation == b.orientation; }
 
 /// Adds the factors of switched lamps behind the bodies, twelve in each element.
 void append_lamps(std::vector<shared::GpuBody>& bodies, std::span<const float> factors) {
@@ -191,8 +190,8 @@ void GpuScene::record_update(gpu::TickSlot& slot, std::span<const Pose> body_pos
 
 void GpuScene::record_tlas(gpu::TickSlot& slot, std::vector<Pose> poses) {
   poses[0] = Pose{};
-  const bool moved =
-      !tlas_.built() || !std::equal(poses.begin(), poses.end(), last_poses_.begin(), last_poses_.end(), same);
+  const bool moved = !tlas_.built() || !std::equal(poses.begin(), poses.end(), last_poses_.begin(),
+                                                   last_poses_.end(), same_pose);
   if (!moved) return;
   std::vector<gpu::TlasInstance> instances;
   for (size_t i = 0; i < blas_.size(); ++i)

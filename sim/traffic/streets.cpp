@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/convex_hull.h"
 #include "core/error.h"
 
 namespace greatx::sim {
@@ -142,29 +143,6 @@ double reach_beside(const Curve& curve, const Extent& extent) {
     }
   return most;
 }
-
-namespace {
-
-/// The convex hull of points, counter-clockwise (A. M. Andrew, Information Processing Letters 9, 216, 1979).
-std::vector<dvec2> convex_hull(std::vector<dvec2> points) {
-  std::ranges::sort(points,
-                    [](const dvec2& a, const dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  std::vector<dvec2> hull;
-  for (const bool upper : {false, true}) {
-    const size_t first = hull.size();
-    for (const dvec2& point : points) {
-      while (hull.size() >= first + 2 &&
-             cross_product(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0.0)
-        hull.pop_back();
-      hull.push_back(point);
-    }
-    hull.pop_back();
-    if (!upper) std::ranges::reverse(points);
-  }
-  return hull;
-}
-
-}  // namespace
 
 bool stays_on_lanes(const Curve& turn, double width_m, double beside_m, const Extent& extent,
                     const std::vector<LaneMouth>& at_junction) {

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "core/same_pose.h"
 #include "core/units.h"
 #include "sim/plan/camera_desc.h"
 #include "view/app/overlay_dots.h"
@@ -29,10 +30,6 @@ constexpr double fly_per_s = 0.7;  ///< of the distance to the pivot
 constexpr float drag_px = 4.0f;    ///< a click moves less
 /// While the view moves, a picture has this share of the columns and rows.
 constexpr double coarse_share = 0.5;
-
-bool same_pose(const Pose& a, const Pose& b) {
-  return a.position == b.position && a.orientation == b.orientation;
-}
 
 /// Whether two requests show the same, whatever their quality.
 bool same_view(const SceneRequest& a, const SceneRequest& b) {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "core/same_pose.h"
+
 namespace greatx::rf {
 namespace {
-
-bool same(const Pose& a, const Pose& b) { return a.position == b.position && a.orientation == b.orientation; }
 
 bool any_near(const std::vector<EchoTracer::Reach>& cones, const EchoTracer& tracer,
               const EchoTracer::View& view) {
@@ -18,7 +18,7 @@ bool any_near(const std::vector<EchoTracer::Reach>& cones, const EchoTracer& tra
 }  // namespace
 
 void BeamMemory::begin(const Pose& transmitter, const Pose& receiver) {
-  still_ = began_ && same(transmitter, transmitter_) && same(receiver, receiver_);
+  still_ = began_ && same_pose(transmitter, transmitter_) && same_pose(receiver, receiver_);
   began_ = true;
   transmitter_ = transmitter, receiver_ = receiver;
   if (still_ && kept_.empty()) kept_.resize(facets_);

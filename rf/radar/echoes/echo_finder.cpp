@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/same_pose.h"
 #include "core/units.h"
 #include "rf/atmosphere/path_attenuation.h"
 #include "rf/radar/echoes/echo_merge.h"
@@ -292,7 +293,7 @@ EchoFinder::Pending EchoFinder::record(gpu::TickSlot& slot, const Pose& transmit
 void EchoFinder::pose_world(std::span<const Pose> body_poses) {
   for (uint32_t body = 1; body < body_poses.size(); ++body) {
     const Pose &now = body_poses[body], &before = world_.motion(body).pose;
-    if (now.position == before.position && now.orientation == before.orientation) continue;
+    if (same_pose(now, before)) continue;
     Motion motion;
     motion.pose = now;
     world_.move(body, motion);

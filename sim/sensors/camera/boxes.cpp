@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "core/convex_hull.h"
 #include "core/units.h"
 
 namespace greatx::sim {
@@ -49,30 +50,6 @@ Pose from_sensor(const Pose& local_from_sensor, uint32_t body, std::span<const P
 
 double area(const dvec4& rectangle) {
   return std::max(0.0, rectangle.z - rectangle.x) * std::max(0.0, rectangle.w - rectangle.y);
-}
-
-/// Returns the convex hull counter-clockwise, without collinear points (A. Andrew's monotone chain, 1979).
-std::vector<dvec2> convex_hull(std::vector<dvec2> points) {
-  std::ranges::sort(points,
-                    [](const dvec2& a, const dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return points;
-  std::vector<dvec2> hull;
-  const auto chain = [&](auto first, auto end) {
-    const size_t start = hull.size();
-    for (auto point = first; point != end; ++point) {
-      while (hull.size() >= start + 2) {
-        const dvec2 a = hull.back() - hull[hull.size() - 2], b = *point - hull.back();
-        if (a.x * b.y - a.y * b.x > 0.0) break;
-        hull.pop_back();
-      }
-      hull.push_back(*point);
-    }
-    hull.pop_back();  // the other chain begins with this point
-  };
-  chain(points.begin(), points.end());
-  chain(points.rbegin(), points.rend());
-  return hull;
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/same_pose.h"
+
 namespace greatx::sim {
 
 namespace {
@@ -11,8 +13,6 @@ namespace {
 constexpr size_t stride = 16;
 /// A body at 6 km/s moves 10 m in 16 of 1000 steps of a sweep of 0.1 s.
 constexpr double margin_m = 10.0;
-
-bool same(const Pose& a, const Pose& b) { return a.position == b.position && a.orientation == b.orientation; }
 
 /// Holds the motion of one body during a sweep. Poses of all bodies are found together, time by time, since
 /// the parts of a body share its course.
@@ -28,7 +28,7 @@ class Target {
 
   /// Examines the body at one of the times.
   void look(const Pose& pose, const Pose& sensor, double max_range_m) {
-    still_ = still_ && same(pose, at_tick_);
+    still_ = still_ && same_pose(pose, at_tick_);
     near_ =
         near_ || glm::distance(pose.apply(middle_), sensor.position) <= max_range_m + radius_m_ + margin_m;
   }
