@@ -259,8 +259,9 @@ void SceneLighting::bake_sky_view(shared::GpuLighting& block, const Sky& sky, co
     light.sky_lux = pi * sky_irradiance(sky)[0];
     light.beyond = sky.radiance({0.0, 0.0, -1.0});
     const std::vector<scene::PunctualLight>& lamps = scene_->scene().lights;
-    const Surroundings surroundings(scene_->scene(), field, light,
-                                    effects_.punctual_lights ? std::span(lamps) : std::span(lamps).first(0));
+    const Surroundings surroundings(
+        scene_->scene(), field, light,
+        {effects_.punctual_lights ? std::span(lamps) : std::span(lamps).first(0), effects_.emissive});
     words = surroundings_words(surroundings, effects_.bounced_light);
   }
   if (effects_.ambient_occlusion) {

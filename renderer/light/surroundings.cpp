@@ -42,8 +42,8 @@ dvec3 mean_color(const scene::Scene& scene, const scene::PbrMaterial& pbr) {
   return factor * sum / double(across * down);
 }
 
-/// Calls visit(cell, least height, greatest height) for what a triangle covers of the cells: a level one at
-/// their centres, a steep one along its length.
+/// Calls visit(cell, height) for the cells whose centres a level triangle covers, and visit(cell, strip) for
+/// those along a steep one.
 class CellCover {
  public:
   explicit CellCover(const HeightField& field) : field_(field) {}
@@ -66,7 +66,7 @@ class CellCover {
         if (v < 0.0 || w < 0.0 || v + w > 1.0) continue;
         const auto height =
             static_cast<float>(p[0].z + v * (p[1].z - p[0].z) + w * (p[2].z - p[0].z) - field_.floor);
-        visit(static_cast<size_t>(j * field_.width + i), height, height);
+        visit(static_cast<size_t>(j * field_.width + i), height);
       }
   }
 
@@ -79,21 +79,24 @@ class CellCover {
     const int steps = 1 + static_cast<int>((end - begin) / (0.5 * field_.cell_m));
     for (int step = 0; step <= steps; ++step) {
       const double at = begin + (end - begin) * (std::clamp(double(step) / steps, 1e-6, 1.0 - 1e-6));
-      dvec3 low(1e300), high(-1e300);
+      SteepStrip strip{1e300, -1e300, {}, {}, (end - begin) / (steps + 1)};
+      dvec2 place(0.0);
       for (int k = 0; k < 3; ++k) {
         const int next = (k + 1) % 3;
         const double apart = s[next] - s[k];
         const double share = apart != 0.0 ? (at - s[k]) / apart : -1.0;
         if (share < 0.0 || share > 1.0) continue;
         const dvec3 point = glm::mix(p[k], p[next], share);
-        if (point.z < low.z) low = point;
-        if (point.z > high.z) high = point;
+        const double height = point.z - field_.floor;
+        dvec3 weights(0.0);
+        weights[k] = 1.0 - share;
+        weights[next] = share;
+        if (height < strip.low) strip.low = height, strip.low_weights = weights, place = cells_of(point);
+        if (height > strip.high) strip.high = height, strip.high_weights = weights;
       }
-      if (low.z > high.z) continue;
-      const dvec2 cell = cells_of(low);
-      if (cell.x < 0.0 || cell.y < 0.0 || cell.x >= field_.width || cell.y >= field_.height) continue;
-      visit(static_cast<size_t>(cell.y) * field_.width + static_cast<size_t>(cell.x),
-            static_cast<float>(low.z - field_.floor), static_cast<float>(high.z - field_.floor));
+      if (strip.low > strip.high) continue;
+      if (place.x < 0.0 || place.y < 0.0 || place.x >= field_.width || place.y >= field_.height) continue;
+      visit(static_cast<size_t>(place.y) * field_.width + static_cast<size_t>(place.x), strip);
     }
   }
 
@@ -102,7 +105,7 @@ class CellCover {
   const HeightField& field_;
 };
 
-/// Calls visit(corners, normal, material) for the static triangles.
+/// Calls visit(corners, normal, material, place of the first index) for the static triangles.
 template <typename Visit>
 void over_static(const scene::Scene& scene, const Visit& visit) {
   const scene::Body& world = scene.bodies[0];
@@ -114,7 +117,7 @@ void over_static(const scene::Scene& scene, const Visit& visit) {
                                    dvec3(scene.positions[corner[2]])};
       const dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
       const double length = glm::length(normal);
-      if (length > 1e-9) visit(p, normal / length, primitive.material);
+      if (length > 1e-9) visit(p, normal / length, primitive.material, primitive.first_index + k);
     }
   }
 }
@@ -137,13 +140,14 @@ double lamp_lux(const scene::PunctualLight& lamp, const dvec3& apart) {
 }  // namespace
 
 Surroundings::Surroundings(const scene::Scene& scene, const HeightField& field, const SurroundingLight& light,
-                           std::span<const scene::PunctualLight> lamps)
+                           const SurroundingSources& sources)
     : field_(&field), light_(light), cells_(field.heights.size()) {
   paint(scene);
   for (const SurroundingCell& cell : cells_) most_top_ = std::max(most_top_, cell.top);
   cast_shadows();
+  if (sources.glow) glow(scene);
   for (int round = 0; round < 4; ++round) thicken_walls();
-  shine(lamps);
+  shine(sources.lamps);
 }
 
 void Surroundings::paint(const scene::Scene& scene) {
@@ -154,21 +158,27 @@ void Surroundings::paint(const scene::Scene& scene) {
     cells_[i].top = cells_[i].ground = field_->heights[i];
     cells_[i].bottom = 1e30f;
   }
-  // The ground of a cell is its lowest level surface.
+  // The ground of a cell is its lowest level surface that looks up, or that looks down if none looks up: the
+  // underside of the ground is none.
   std::vector<float> highest(cells_.size(), -1e30f);
-  over_static(scene, [&](const std::array<dvec3, 3>& p, const dvec3& normal, uint32_t material) {
-    if (std::abs(normal.z) < wall_slope) return;
-    cover.level(p, [&](size_t i, float height, float) {
-      if (height <= cells_[i].ground) {
-        cells_[i].ground = height;
-        cells_[i].ground_albedo = colors[material];
-      }
-      if (height >= highest[i]) {
-        highest[i] = height;
-        cells_[i].top_albedo = colors[material];
-      }
+  std::vector<bool> grounded(cells_.size(), false);
+  for (const double side : {1.0, -1.0}) {
+    const std::vector<bool> before = grounded;
+    over_static(scene, [&](const std::array<dvec3, 3>& p, const dvec3& normal, uint32_t material, uint32_t) {
+      if (normal.z * side < wall_slope) return;
+      cover.level(p, [&](size_t i, float height) {
+        if (height <= cells_[i].ground && !before[i]) {
+          cells_[i].ground = height;
+          cells_[i].ground_albedo = colors[material];
+          grounded[i] = true;
+        }
+        if (height >= highest[i]) {
+          highest[i] = height;
+          cells_[i].top_albedo = colors[material];
+        }
+      });
     });
-  });
+  }
   std::vector<dvec3> walls(cells_.size(), dvec3(0.0));
   std::vector<double> areas(cells_.size(), 0.0);
   // What stands in a cell begins at its lowest wall or its lowest face that looks down. Without
@@ -177,10 +187,12 @@ void Surroundings::paint(const scene::Scene& scene) {
     SurroundingCell& cell = cells_[i];
     if (high > cell.ground + low_thing_m) cell.bottom = std::min(cell.bottom, std::max(low, cell.ground));
   };
-  over_static(scene, [&](const std::array<dvec3, 3>& p, const dvec3& normal, uint32_t material) {
+  over_static(scene, [&](const std::array<dvec3, 3>& p, const dvec3& normal, uint32_t material, uint32_t) {
     if (normal.z >= wall_slope) return;
-    if (normal.z <= -wall_slope) return cover.level(p, stand);
-    cover.steep(p, normal, [&](size_t i, float low, float high) {
+    if (normal.z <= -wall_slope)
+      return cover.level(p, [&](size_t i, float height) { stand(i, height, height); });
+    cover.steep(p, normal, [&](size_t i, const SteepStrip& strip) {
+      const auto low = static_cast<float>(strip.low), high = static_cast<float>(strip.high);
       stand(i, low, high);
       walls[i] += colors[material] * double(high - low);
       areas[i] += high - low;
@@ -196,7 +208,22 @@ void Surroundings::paint(const scene::Scene& scene) {
   }
 }
 
-/// Gives what stands behind a wall the wall's colour, normal and shadow: a ray may step over a thin one.
+void Surroundings::glow(const scene::Scene& scene) {
+  WallGlows glows(scene, cells_.size(), field_->cell_m);
+  if (!glows.any()) return;
+  const CellCover cover(*field_);
+  over_static(scene,
+              [&](const std::array<dvec3, 3>& p, const dvec3& normal, uint32_t material, uint32_t first) {
+                if (std::abs(normal.z) >= wall_slope || !glows.glows(p, material)) return;
+                cover.steep(p, normal, [&](size_t i, const SteepStrip& strip) {
+                  glows.add(i, cells_[i].bottom, strip, dvec2(normal), first, material);
+                });
+              });
+  for (size_t i = 0; i < cells_.size(); ++i) cells_[i].glow = glows.of(i, cells_[i].bottom, cells_[i].top);
+}
+
+/// Gives what stands behind a wall the wall's colour, foot, normal, shadow and glow: a ray may step over a
+/// thin one.
 void Surroundings::thicken_walls() {
   const std::vector<SurroundingCell> before = cells_;
   const auto width = static_cast<int64_t>(field_->width), height = static_cast<int64_t>(field_->height);
@@ -213,6 +240,8 @@ void Surroundings::thicken_walls() {
         cell.wall_normal = other.wall_normal;
         cell.wall_albedo = other.wall_albedo;
         cell.shadow = other.shadow;
+        cell.glow = other.glow;
+        cell.bottom = std::min(cell.bottom, other.bottom);
       }
     }
 }

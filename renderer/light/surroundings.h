@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A coarse model of the static world for light that surfaces reflect: level cells, each a column with a top,
-// mean colours, and the height up to which it lies in the shadow of the key light. Two effects read it.
+// mean colours, what its walls emit, and the height up to which it lies in the shadow of the key light. Two
+// effects read it.
 // `bounced_light` takes from it the light that reaches a place after one reflection; it is gathered once,
 // over the cells, at two heights (surroundings_light.h). `glass` looks into it along mirrored rays.
 // surroundings_words.h writes what shaders read of both. docs/global_light.md has the errors.
@@ -15,6 +16,7 @@
 
 #include "core/vec.h"
 #include "renderer/light/sky_view.h"
+#include "renderer/light/wall_glow.h"
 #include "scene/description/scene.h"
 
 namespace greatx::render {
@@ -32,6 +34,7 @@ struct SurroundingCell {
   float shadow = 0.0f;  ///< what is lower lies in the shadow of the key light
   dvec3 top_albedo{0.0}, ground_albedo{0.0}, wall_albedo{0.0};
   dvec2 wall_normal{0.0};  ///< unit, outwards; zero if no wall stands here
+  WallGlow glow;           ///< what the wall emits
   /// Whether something stands here that is higher than a person.
   bool stands() const { return top > ground + 2.0f; }
 };
@@ -44,11 +47,17 @@ struct SurroundingLight {
   dvec3 beyond{0.0};   ///< radiance of the ground beyond the cells
 };
 
+/// What in the scene sends light of its own.
+struct SurroundingSources {
+  std::span<const scene::PunctualLight> lamps;  ///< those that stand light the ground, without shadows
+  bool glow = false;                            ///< walls send the light that their materials emit
+};
+
 class Surroundings {
  public:
-  /// Colours are means over materials and their textures. `lamps` light the ground without shadows.
+  /// Colours are means over materials and their textures.
   Surroundings(const scene::Scene& scene, const HeightField& field, const SurroundingLight& light,
-               std::span<const scene::PunctualLight> lamps);
+               const SurroundingSources& sources);
 
   const HeightField& field() const { return *field_; }
   const SurroundingCell& cell(uint32_t column, uint32_t row) const {
@@ -60,7 +69,7 @@ class Surroundings {
   /// Returns the radiance of the highest surface of a cell.
   const dvec3& top_radiance(size_t index) const { return top_radiance_[index]; }
   const dvec3& ground_radiance(size_t index) const { return ground_radiance_[index]; }
-  /// Returns the radiance of the wall in a cell at a height.
+  /// Returns the radiance that the wall in a cell reflects at a height.
   dvec3 wall_radiance(const SurroundingCell& cell, double height) const;
   /// Returns for each cell how many columns of cells (or rows, along y) a level ray passes, the own one
   /// included, before something may stand in its way, wherever in the cell and in the octant of directions
@@ -69,6 +78,7 @@ class Surroundings {
 
  private:
   void paint(const scene::Scene& scene);
+  void glow(const scene::Scene& scene);
   void thicken_walls();
   void cast_shadows();
   void shine(std::span<const scene::PunctualLight> lamps);

@@ -30,11 +30,8 @@ int band_of(double slope) {
   return whole + static_cast<int>(place - whole >= 0.5);
 }
 
-/// Returns what a band's radiance counts in the sum: Y00^2 = 1 / 4 pi, Y1m^2 = 3 / 4 pi; the cosine lobe's
-/// factors over pi are 1 and 2/3.
-dvec3 weighted(const dvec3& radiance) {
-  return radiance * (4.0 * pi / (gather_azimuths * gather_bands)) / (4.0 * pi);
-}
+/// Returns a band's radiance times its solid angle over pi.
+dvec3 weighted(const dvec3& radiance) { return radiance * (4.0 / (gather_azimuths * gather_bands)); }
 
 /// The directions of the middles of bands.
 struct BandDirections {
@@ -55,8 +52,7 @@ struct BouncedPlace {
 };
 
 void add_scaled(BouncedLight& sum, const BouncedLight& light, double factor) {
-  sum.constant += light.constant * factor;
-  for (int axis = 0; axis < 3; ++axis) sum.along[axis] += light.along[axis] * factor;
+  for (size_t i = 0; i < sum.facing.size(); ++i) sum.facing[i] += light.facing[i] * factor;
 }
 
 /// Gives the places within houses that touch others the mean of their neighbours' light.
@@ -83,26 +79,27 @@ void fill_from_neighbours(std::vector<BouncedPlace>& places, uint32_t columns, u
     }
 }
 
-/// The three signed bytes of a luminance's vector.
-uint32_t stored_vector(const BouncedLight& light) {
-  const double c = std::max(luminance(light.constant), 1e-30);
+/// The four signed bytes of a luminance's vector and of what it has more along the vertical.
+uint32_t stored_shape(const BouncedLight& light) {
+  const double scale =
+      double(shared::surroundings_vector_scale) * std::max(luminance(light.constant()), 1e-30);
   vec4 part(0.0f);
-  for (int axis = 0; axis < 3; ++axis)
-    part[axis] = float(luminance(light.along[axis]) / (double(shared::surroundings_vector_scale) * c));
-  return glm::packSnorm4x8(part);  // clamps
+  for (int axis = 0; axis < 3; ++axis) part[axis] = float(luminance(light.along(axis)) / scale);
+  part.w = float(luminance(light.upright()) / scale);
+  return glm::packSnorm4x8(part);  // clamps what little a wall gets beside a glowing roof or floor
 }
 
 void put_place(std::vector<uint32_t>& words, const BouncedPlace& place) {
-  const dvec3 sum = place.low.constant + place.high.constant;
+  const dvec3 sum = place.low.constant() + place.high.constant();
   const double y = luminance(sum);
   const double red = y > 0.0 ? sum.r / y : 1.0, blue = y > 0.0 ? sum.b / y : 1.0;
   const dvec2 root =
       glm::sqrt(glm::max(dvec2(red, blue), dvec2(0.0))) / double(shared::surroundings_color_scale);
   const uint32_t color = glm::packUnorm4x8(vec4(0.0f, 0.0f, vec2(root)));  // clamps
-  words.push_back((glm::packHalf1x16(float(luminance(place.low.constant))) & 0xffffu) | color);
-  words.push_back(stored_vector(place.low));
-  words.push_back(glm::packHalf2x16(vec2(float(luminance(place.high.constant)), place.ground)));
-  words.push_back(stored_vector(place.high));
+  words.push_back((glm::packHalf1x16(float(luminance(place.low.constant()))) & 0xffffu) | color);
+  words.push_back(stored_shape(place.low));
+  words.push_back(glm::packHalf2x16(vec2(float(luminance(place.high.constant())), place.ground)));
+  words.push_back(stored_shape(place.high));
 }
 
 }  // namespace
@@ -122,6 +119,8 @@ class LightGathering::Bands {
     for (uint32_t left = fresh; left != 0; left &= left - 1)
       light_[static_cast<size_t>(std::countr_zero(left))] = light;
   }
+  /// Takes what is below the horizon for known.
+  void leave_out_below_horizon() { filled_ |= (1u << gather_bands / 2) - 1u; }
   bool filled(int band) const { return (filled_ >> band & 1u) != 0; }
   const dvec3& light(int band) const { return light_[static_cast<size_t>(band)]; }
   /// Whether no band below a slope, which is not negative, is free.
@@ -156,10 +155,35 @@ LightGathering::LightGathering(const Surroundings& surroundings)
     columns_.push_back({cell.top, cell.bottom, cell.ground});
 }
 
-/// Fills the bands of one azimuth with what a point sees. `middle` is in cells.
-void LightGathering::look_along(const dvec2& middle, double height, int azimuth, Bands& bands) const {
+/// Fills the bands between two slopes with the wall of a column, seen from a height at a distance. Its lower
+/// and its upper half may lie in shadow and in light, and its lowest metres and the rest may glow.
+void LightGathering::fill_wall(size_t i, double low, double high, double height, double distance, int azimuth,
+                               Bands& bands) const {
+  const SurroundingCell& cell = surroundings_->cells()[i];
+  const bool faces =
+      glm::dot(cell.wall_normal, looks_.along[azimuth]) < 0.0 || cell.wall_normal == dvec2(0.0);
+  const double middle = 0.5 * (std::max<double>(cell.bottom, cell.ground) + cell.top);
+  const auto lower = [&] { return surroundings_->wall_radiance(cell, 0.5 * (cell.bottom + middle)); };
+  const auto upper = [&] { return surroundings_->wall_radiance(cell, 0.5 * (middle + cell.top)); };
+  const auto slope_of = [&](double at) { return (at - height) / distance; };
+  if (!faces) return bands.fill(low, high, [] { return dvec3(0.0); });
+  if (!cell.glow.any()) {
+    bands.fill(low, slope_of(middle), lower);
+    return bands.fill(slope_of(middle), high, upper);
+  }
+  const double split = std::min<double>(cell.bottom + shared::surroundings_glow_split, cell.top);
+  bands.fill(low, slope_of(std::min(split, middle)), [&] { return lower() + cell.glow.low; });
+  if (split < middle)
+    bands.fill(slope_of(split), slope_of(middle), [&] { return lower() + cell.glow.high; });
+  else
+    bands.fill(slope_of(middle), slope_of(split), [&] { return upper() + cell.glow.low; });
+  bands.fill(slope_of(std::max(split, middle)), high, [&] { return upper() + cell.glow.high; });
+}
+
+/// Fills the bands of one azimuth with what a point sees.
+void LightGathering::look_along(const dvec2& place, double height, int azimuth, Bands& bands) const {
   const HeightField& field = surroundings_->field();
-  const dvec2& along = looks_.along[azimuth];
+  const dvec2 middle = (place - field.corner) / field.cell_m;
   double nearer = 1e-3;  // m
   for (size_t step = 0; step < looks_.distances.size(); ++step) {
     const double distance = looks_.distances[step];
@@ -172,20 +196,10 @@ void LightGathering::look_along(const dvec2& middle, double height, int azimuth,
     if (ground < 0.0)
       bands.fill(ground / nearer, ground / distance, [&] { return surroundings_->ground_radiance(i); });
     if (column.top > column.ground + low_thing_m) {
-      const double middle_height = 0.5 * (std::max<double>(column.bottom, column.ground) + column.top);
       const double low = (column.bottom - height) / distance, high = (column.top - height) / distance;
-      const SurroundingCell& cell = surroundings_->cells()[i];
-      // The lower and the upper half of a wall may lie in shadow and in light.
-      const auto half = [&](double at_height) {
-        const bool faces = glm::dot(cell.wall_normal, along) < 0.0 || cell.wall_normal == dvec2(0.0);
-        return faces ? surroundings_->wall_radiance(cell, at_height) : dvec3(0.0);
-      };
-      bands.fill(low, (middle_height - height) / distance,
-                 [&] { return half(0.5 * (cell.bottom + middle_height)); });
-      bands.fill((middle_height - height) / distance, high,
-                 [&] { return half(0.5 * (middle_height + cell.top)); });
+      fill_wall(i, low, high, height, distance, azimuth, bands);
       if (high < 0.0)
-        bands.fill(high, (cell.top - height) / looks_.after(distance),
+        bands.fill(high, (column.top - height) / looks_.after(distance),
                    [&] { return surroundings_->top_radiance(i); });
     }
     // What comes farther on is below the horizon, or below the slope of the highest top at this distance.
@@ -195,21 +209,32 @@ void LightGathering::look_along(const dvec2& middle, double height, int azimuth,
 }
 
 BouncedLight LightGathering::at(const dvec2& place, double height) const {
-  const HeightField& field = surroundings_->field();
   static const BandDirections directions;
   const dvec3 beyond = weighted(surroundings_->light().beyond);
   BouncedLight result;
-  const dvec2 middle = (place - field.corner) / field.cell_m;
   for (int k = 0; k < gather_azimuths; ++k) {
     Bands bands;
-    look_along(middle, height, k, bands);
+    look_along(place, height, k, bands);
     for (int i = 0; i < gather_bands; ++i) {
       if (!bands.filled(i) && directions.sine[i] > 0.0) continue;
       const dvec3& light = bands.filled(i) ? bands.light(i) : beyond;
       const dvec3 direction(looks_.along[k] * directions.level[i], directions.sine[i]);
-      result.constant += light;
-      for (int axis = 0; axis < 3; ++axis) result.along[axis] += light * (2.0 * direction[axis]);
+      for (int axis = 0; axis < 3; ++axis)
+        result.facing[2 * axis + (direction[axis] < 0.0 ? 1 : 0)] += light * std::abs(direction[axis]);
     }
+  }
+  return result;
+}
+
+dvec3 LightGathering::on_ground(const dvec2& place, double height) const {
+  static const BandDirections directions;
+  dvec3 result(0.0);
+  for (int k = 0; k < gather_azimuths; ++k) {
+    Bands bands;
+    bands.leave_out_below_horizon();
+    look_along(place, height, k, bands);
+    for (int i = gather_bands / 2; i < gather_bands; ++i)
+      if (bands.filled(i)) result += bands.light(i) * directions.sine[i];
   }
   return result;
 }
@@ -231,9 +256,11 @@ void put_bounced_light(std::vector<uint32_t>& words, const Surroundings& surroun
       if (!place.free) continue;
       const dvec2 middle = field.corner + at * field.cell_m;
       place.low = gathering.at(middle, place.ground + double(shared::surroundings_low));
+      place.low.facing[4] = gathering.on_ground(middle, place.ground);
       place.high = gathering.at(middle, place.ground + double(shared::surroundings_high));
     }
   });
+
   // Surfaces at the rim of a house look up places behind it, too.
   for (int round = 0; round < 3; ++round) fill_from_neighbours(places, columns, rows);
   for (const BouncedPlace& place : places) put_place(words, place);

@@ -14,13 +14,17 @@
 
 namespace greatx::render {
 
-/// Light that surfaces send to a place: real spherical harmonics of order 1 of the irradiance over pi, as a
-/// constant and a vector: c + v . n.
+/// Light that surfaces send to a place: the irradiance over pi of a surface that faces along +x, -x, +y, -y,
+/// +z or -z. For another normal n it is c + v . n + w n_z^2, where c is the mean of the four level
+/// directions. The values up and down are kept so, and the others if both level axes get the same light.
 struct BouncedLight {
-  dvec3 constant{0.0};
-  std::array<dvec3, 3> along{};  ///< for x, y, z
+  std::array<dvec3, 6> facing{};
+  dvec3 constant() const { return 0.25 * (facing[0] + facing[1] + facing[2] + facing[3]); }
+  dvec3 along(int axis) const { return 0.5 * (facing[2 * axis] - facing[2 * axis + 1]); }
+  dvec3 upright() const { return 0.5 * (facing[4] + facing[5]) - constant(); }
   dvec3 over_pi(const dvec3& n) const {
-    return glm::max(constant + along[0] * n.x + along[1] * n.y + along[2] * n.z, dvec3(0.0));
+    return glm::max(constant() + along(0) * n.x + along(1) * n.y + along(2) * n.z + upright() * (n.z * n.z),
+                    dvec3(0.0));
   }
 };
 
@@ -30,6 +34,8 @@ class LightGathering {
   explicit LightGathering(const Surroundings& surroundings);
   /// Gathers the light that surfaces send to a point at a height over the floor. It looks along 16 azimuths.
   BouncedLight at(const dvec2& place, double height) const;
+  /// Gathers the light from above the horizon alone, which is that of level ground: its irradiance over pi.
+  dvec3 on_ground(const dvec2& place, double height) const;
 
  private:
   class Bands;
@@ -37,7 +43,9 @@ class LightGathering {
   struct Column {
     float top, bottom, ground;
   };
-  void look_along(const dvec2& middle, double height, int azimuth, Bands& bands) const;
+  void fill_wall(size_t i, double low, double high, double height, double distance, int azimuth,
+                 Bands& bands) const;
+  void look_along(const dvec2& place, double height, int azimuth, Bands& bands) const;
 
   const Surroundings* surroundings_;
   AzimuthLooks<16> looks_;

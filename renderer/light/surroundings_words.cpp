@@ -29,6 +29,19 @@ uint32_t stored_radiance(const dvec3& radiance) {
   return word;
 }
 
+/// An emitted radiance in 16 bits: three times four, and an exponent. Light above 2^15 cd/m^2 is no wall's.
+uint32_t stored_glow(const dvec3& radiance) {
+  const double most = std::max({radiance.x, radiance.y, radiance.z});
+  if (!(most > 0.0)) return 0;
+  const int exponent = std::clamp(static_cast<int>(std::ceil(std::log2(most))), 0, 15);
+  uint32_t word = static_cast<uint32_t>(exponent) << 12;
+  for (int c = 0; c < 3; ++c)
+    word |= static_cast<uint32_t>(
+                std::clamp(std::lround(15.0 * std::ldexp(std::max(radiance[c], 0.0), -exponent)), 0l, 15l))
+            << 4 * c;
+  return word;
+}
+
 /// The free cells of an octant in four bits, rounded down: half steps between powers of two.
 uint32_t stored_leap(uint16_t cells) {
   if (cells < 2) return 0;
@@ -84,7 +97,7 @@ std::vector<uint32_t> surroundings_words(const Surroundings& surroundings, bool 
     words.push_back(wall);
     const vec4 normal(0.0f, 0.0f, vec2(cell.wall_normal));
     words.push_back((glm::packHalf1x16(cell.shadow) & 0xffffu) | glm::packSnorm4x8(normal));
-    words.push_back(0);
+    words.push_back(stored_glow(cell.glow.low) | stored_glow(cell.glow.high) << 16);
   }
   if (bounced_light)
     put_bounced_light(words, surroundings, header.place_columns, header.place_rows);

@@ -74,8 +74,10 @@ class PathTracer::Path {
         add_outside(ray.direction, density, weight, bounce == 0);
         break;
       }
-      if (tracer_.effects_.emissive || tracer_.effects_.switched_lamps)
-        light_.radiance += weight * tracer_.rays_.surface(ray, hit).glow;
+      if (tracer_.effects_.emissive || tracer_.effects_.switched_lamps) {
+        const dvec3 glow = tracer_.rays_.surface(ray, hit).glow;
+        if (glow != dvec3(0.0) && !tracer_.rays_.is_lamp_glass(hit)) light_.radiance += weight * glow;
+      }
       if (bounce >= tracer_.options_.bounces) break;
       if (bounce >= certain_bounces) {
         const double survives = std::min(0.95, std::max({weight.x, weight.y, weight.z}));

@@ -87,7 +87,8 @@ RayScene::RayScene(const scene::Scene& scene, std::span<const Pose> body_poses, 
     : scene_(&scene),
       poses_(body_poses.begin(), body_poses.end()),
       effects_(effects),
-      factor_(scene.primitives.size(), 1.0f) {
+      factor_(scene.primitives.size(), 1.0f),
+      glass_(scene) {
   GREATX_CHECK(poses_.size() == scene.bodies.size(), "{} poses for {} bodies", poses_.size(),
                scene.bodies.size());
   poses_[0] = Pose{};
@@ -192,6 +193,13 @@ dvec2 RayScene::texture_place(uint32_t triangle, double u, double v) const {
   const uint32_t* corner = &scene_->indices[size_t{3} * triangle];
   const dvec2 a(scene_->uvs[corner[0]]);
   return a + u * (dvec2(scene_->uvs[corner[1]]) - a) + v * (dvec2(scene_->uvs[corner[2]]) - a);
+}
+
+bool RayScene::is_lamp_glass(const RayHit& hit) const {
+  const uint32_t* corner = &scene_->indices[size_t{3} * hit.triangle];
+  const auto place = [&](int k) { return dvec3(scene_->positions[corner[k]]); };
+  return glass_.is_glass(scene_->instances[scene_->primitives[hit.primitive].instance].body,
+                         {place(0), place(1), place(2)});
 }
 
 bool RayScene::has_hole(uint32_t triangle, uint32_t primitive, double u, double v) const {

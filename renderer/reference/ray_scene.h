@@ -14,6 +14,7 @@
 
 #include "core/vec.h"
 #include "renderer/light/lighting.h"
+#include "renderer/surface/lamp_glass.h"
 #include "scene/description/scene.h"
 #include "scene/device/sah_tree.h"
 
@@ -60,6 +61,8 @@ class RayScene {
     return panes_[scene_->primitives[hit.primitive].material].has_value();
   }
   RaySurface surface(const Ray& ray, const RayHit& hit) const;
+  /// Whether what glows there is the glass of a lamp, whose light comes from the lamp.
+  bool is_lamp_glass(const RayHit& hit) const;
 
   /// The distance from a surface at which a ray may begin, so that it does not meet the surface itself:
   /// corners of bodies are rounded to fp32.
@@ -81,6 +84,7 @@ class RayScene {
   std::vector<float> factor_;                ///< by primitive: of its emission
   std::vector<std::optional<dvec3>> panes_;  ///< by material: its pane_color, if panes count
   std::vector<uint32_t> owner_;              ///< by primitive: the owner of its body
+  LampGlass glass_;
   scene::SahTree tree_;
 };
 

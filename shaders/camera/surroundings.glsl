@@ -16,19 +16,20 @@ layout(set = 0, binding = surroundings_binding, scalar) readonly buffer Surround
   uint64_t surrounding_pairs[];
 };
 
-/// The light that surfaces send to a place, for normals: luminance c.x + dot(c.yzw, n), and red and blue over
-/// it.
+/// The light that surfaces send to a place, for normals: luminance c + dot(shape, (n, n.z^2)), and red and
+/// blue over it.
 struct Bounced {
-  vec4 luminance;
+  vec4 shape;
+  float c;
   vec2 red_blue;
 };
 
 /// Adds `weight` times the luminance of a place at one height. It returns the place's first word.
-uint add_luminance(uint pair, float weight, inout vec4 luminance) {
+uint add_luminance(uint pair, float weight, inout float c, inout vec4 shape) {
   uvec2 words = unpackUint2x32(surrounding_pairs[pair]);
-  float c = weight * unpackHalf2x16(words.x).x;
-  luminance.x += c;
-  luminance.yzw += (surroundings_vector_scale * c) * unpackSnorm4x8(words.y).xyz;
+  float part = weight * unpackHalf2x16(words.x).x;
+  c += part;
+  shape += (surroundings_vector_scale * part) * unpackSnorm4x8(words.y);
   return words.x;
 }
 
@@ -54,24 +55,28 @@ Bounced bounced_at(vec3 p_eye, vec3 n) {
   uint b = surroundings.first_place + surroundings_place_pairs * middle;
   uint c = surroundings.first_place + surroundings_place_pairs * last;
   vec4 low = vec4(0.0), high = vec4(0.0);
-  uint low_a = add_luminance(a, weights.x, low), low_b = add_luminance(b, weights.y, low),
-       low_c = add_luminance(c, weights.z, low);
-  uint high_a = add_luminance(a + 1u, weights.x, high), high_b = add_luminance(b + 1u, weights.y, high),
-       high_c = add_luminance(c + 1u, weights.z, high);
+  float c_low = 0.0, c_high = 0.0;
+  uint low_a = add_luminance(a, weights.x, c_low, low), low_b = add_luminance(b, weights.y, c_low, low),
+       low_c = add_luminance(c, weights.z, c_low, low);
+  uint high_a = add_luminance(a + 1u, weights.x, c_high, high),
+       high_b = add_luminance(b + 1u, weights.y, c_high, high),
+       high_c = add_luminance(c + 1u, weights.z, c_high, high);
   vec2 root = root_of_red_blue(low_a) * weights.x + root_of_red_blue(low_b) * weights.y +
               root_of_red_blue(low_c) * weights.z;
   float ground = dot(vec3(ground_of(high_a), ground_of(high_b), ground_of(high_c)), weights);
   float height = p.z - surroundings.floor - ground;
   float up = clamp((height - surroundings_low) / (surroundings_high - surroundings_low), 0.0, 1.0);
   Bounced bounced;
-  bounced.luminance = mix(low, high, up) * min(1.0, surroundings_high / max(height, 1.0));
+  float above = min(1.0, surroundings_high / max(height, 1.0));
+  bounced.shape = mix(low, high, up) * above;
+  bounced.c = mix(c_low, c_high, up) * above;
   bounced.red_blue = root * root;
   return bounced;
 }
 
 /// Returns the irradiance over pi of a surface with this normal.
 vec3 bounced_over_pi(Bounced bounced, vec3 n) {
-  float y = max(bounced.luminance.x + dot(bounced.luminance.yzw, n), 0.0);
+  float y = max(bounced.c + dot(bounced.shape, vec4(n, n.z * n.z)), 0.0);
   float green = (1.0 - 0.2126 * bounced.red_blue.x - 0.0722 * bounced.red_blue.y) / 0.7152;
   return y * vec3(bounced.red_blue.x, green, bounced.red_blue.y);
 }
@@ -81,20 +86,30 @@ vec3 stored_radiance(uint word) {
   return bytes * exp2(float(word >> 24) - 136.0);
 }
 
+/// Returns the radiance that a wall emits above or below the height of shops.
+vec3 wall_glow(uint words, bool above) {
+  uint word = above ? words >> 16 : words;
+  vec3 parts = vec3(word & 15u, word >> 4 & 15u, word >> 8 & 15u);
+  return parts * (exp2(float(word >> 12 & 15u)) / 15.0);
+}
+
 /// Returns the radiance of what stands in a cell where a ray meets it.
-vec3 met_radiance(uint cell, float top, float height, vec3 direction) {
+vec3 met_radiance(uint cell, vec2 top_bottom, float height, vec3 direction) {
+  float top = top_bottom.x;
   uint at = surroundings.first_color + surroundings_color_pairs * cell;
   uvec2 words = unpackUint2x32(surrounding_pairs[at]);
   bool from_above = height > top - 0.5 * surroundings.cell_m && direction.z < 0.0;
   if (from_above) return stored_radiance(words.x);
-  uint wall = unpackUint2x32(surrounding_pairs[at + 1u]).x;
-  float shadow = unpackHalf2x16(wall).x;
-  vec3 normal = vec3(unpackSnorm4x8(wall).zw, 0.0);
+  uvec2 wall = unpackUint2x32(surrounding_pairs[at + 1u]);
+  float shadow = unpackHalf2x16(wall.x).x;
+  vec3 normal = vec3(unpackSnorm4x8(wall.x).zw, 0.0);
   normal = dot(normal, direction) > 0.0 ? -normal : normal;
   vec3 albedo = unpackUnorm4x8(words.y).xyz;
   float lit = clamp(height - shadow + 0.5, 0.0, 1.0);
   float facing = max(dot(normal, surroundings.key_direction), 0.0);
-  return albedo * (surroundings.key_over_pi * (facing * lit) + surroundings.wall_sky);
+  vec3 radiance = albedo * (surroundings.key_over_pi * (facing * lit) + surroundings.wall_sky);
+  if (emissive_on) radiance += wall_glow(wall.y, height > top_bottom.y + surroundings_glow_split);
+  return radiance;
 }
 
 /// Returns the number of a cell, or that of one in the field if the place is outside. CPU drivers convert
@@ -124,7 +139,8 @@ vec3 mirrored_surroundings(vec3 p_eye, vec3 n, vec3 direction, vec3 sky) {
   vec2 room = (mix(p.xy, size - p.xy, greaterThan(along.xy, vec2(0.0)))) / max(abs(along.xy), vec2(1e-6));
   float end = min(room.x, room.y), up = (surroundings.most_top - p.z) / max(along.z, 1e-6);
   end = along.z > 0.0 ? min(end, up) : end;
-  float gone = 0.0, top = -1.0, height = 0.0;
+  float gone = 0.0, height = 0.0;
+  vec2 top_bottom = vec2(-1.0);
   uint cell = 0u;
   bool met = false;
   for (uint i = 0u; i < surroundings_most_steps && gone < end && !met; ++i) {
@@ -132,16 +148,15 @@ vec3 mirrored_surroundings(vec3 p_eye, vec3 n, vec3 direction, vec3 sky) {
     height = here.z;
     cell = cell_of(here.xy, size);
     uvec2 words = unpackUint2x32(surrounding_pairs[surroundings_header_pairs + cell]);
-    vec2 top_bottom = unpackHalf2x16(words.x);
-    top = top_bottom.x;
-    met = height < top && (height > top_bottom.y || height < 0.0);
+    top_bottom = unpackHalf2x16(words.x);
+    met = height < top_bottom.x && (height > top_bottom.y || height < 0.0);
     float free = uintBitsToFloat(((words.y >> (4u * octant) & 15u) << 22) + 0x3f800000u) - 1.0;
     // A ray that goes down stops at the ground, where it meets the next cell from above.
-    float down = along.z < 0.0 ? max((height - min(top, 0.5)) * down_m, 0.0) + 0.05 : 1e9;
+    float down = along.z < 0.0 ? max((height - min(top_bottom.x, 0.5)) * down_m, 0.0) + 0.05 : 1e9;
     gone += min(max(free * leap_m, least_m), down);
   }
   vec3 radiance = direction.z > 0.0 ? sky : surroundings.beyond;
-  if (met) radiance = met_radiance(cell, top, height, direction);
+  if (met) radiance = met_radiance(cell, top_bottom, height, direction);
   return radiance;
 }
 #endif

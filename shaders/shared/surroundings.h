@@ -16,7 +16,9 @@ const uint surroundings_binding = 22u;  // storage: SurroundingsHeader, then cel
 /// cells, the own one included.
 /// The colours follow, two pairs for each cell. The first holds the radiance of the top, and the albedo of
 /// the wall (three bytes). The second holds the half of the shadow's height, and x and y of the wall's normal
-/// (two signed bytes). A radiance is three bytes and an exponent: byte * 2^(exponent - 136).
+/// (two signed bytes), and then the radiances that the wall emits below and above surroundings_glow_split, 16
+/// bits each. A radiance is three bytes and an exponent: byte * 2^(exponent - 136). An emitted one has four
+/// bits for each of them: q / 15 * 2^exponent cd/m^2.
 const uint surroundings_color_pairs = 2u;
 /// The bits of an octant's number.
 const uint surroundings_negative_x = 1u;
@@ -25,10 +27,15 @@ const uint surroundings_along_y = 4u;  ///< y changes more than x
 /// A place of bounced light is two pairs of words, for the low and for the high height. The first word has a
 /// half, the constant c of the luminance, and then the square roots of red and blue over luminance (bytes
 /// over surroundings_color_scale, low height) or the ground's height (a half, high height). The second word
-/// has three signed bytes: the vector of the luminance over surroundings_vector_scale c.
+/// has four signed bytes over surroundings_vector_scale c: the vector v of the luminance and its part w along
+/// the vertical. The luminance of a surface with normal n is c + v . n + w n_z^2. The low place has the light
+/// of level ground for n = +z.
 const uint surroundings_place_pairs = 2u;
 const float surroundings_color_scale = 2.0f;   ///< the largest square root
-const float surroundings_vector_scale = 2.0f;  ///< light from one direction has a vector of length 2 c
+const float surroundings_vector_scale = 2.0f;  ///< the longest vector over c
+/// The height over the bottom of a column below which its wall emits the lower one of two radiances, m: shops
+/// are no higher.
+const float surroundings_glow_split = 4.5f;
 /// The heights over the ground at which bounced light is known, m.
 const float surroundings_low = 1.5f;
 const float surroundings_high = 16.0f;

@@ -111,6 +111,19 @@ TEST(Reference, ShinyWhiteSurfacesKeepNearlyAllLight) {
   }
 }
 
+TEST(Reference, ALampWithItsGlassCountsOnce) {
+  // A lamp of 500 cd at 3 m lights matt ground with 500 / 9 lx. Its glass of 0.3 m glows, too.
+  TinyScene tiny;
+  tiny.object("ground", 0, tiny.material_as(matt(0.5)));
+  ground(tiny);
+  tiny.object("glass", 0, tiny.material_as(matt(0.5, 14000.0)))
+      .quad({-0.15, -0.15, 3.05}, {-0.15, 0.15, 3.05}, {0.15, 0.15, 3.05}, {0.15, -0.15, 3.05});
+  scene::Scene scene = tiny.build();
+  scene.lights.push_back({.name = "lamp", .position = {0, 0, 3}, .intensity = 500.0f});
+  const render::Lighting night = white_world(0.0);
+  expect_form(look_along(scene, night, matt_effects(), 0, {0, 0, 2}, {0, 0, -1}), 0.5 / pi * 500.0 / 9.0);
+}
+
 TEST(Reference, LambertPlaneHasTheLuminanceOfItsIlluminance) {
   TinyScene tiny;
   tiny.object("ground", 0, tiny.material_as(matt(0.3)));
