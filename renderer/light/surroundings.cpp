@@ -158,27 +158,27 @@ void Surroundings::paint(const scene::Scene& scene) {
     cells_[i].top = cells_[i].ground = field_->heights[i];
     cells_[i].bottom = 1e30f;
   }
-  // The ground of a cell is its lowest level surface that looks up, or that looks down if none looks up: the
-  // underside of the ground is none.
+  // The ground of a cell is its lowest level surface that looks up. A house without a floor stands on the
+  // face that looks down far below its roof; the underside of a plate of soil is too near to what looks up.
   std::vector<float> highest(cells_.size(), -1e30f);
   std::vector<bool> grounded(cells_.size(), false);
-  for (const double side : {1.0, -1.0}) {
-    const std::vector<bool> before = grounded;
+  for (const bool up : {true, false})
     over_static(scene, [&](const std::array<dvec3, 3>& p, const dvec3& normal, uint32_t material, uint32_t) {
-      if (normal.z * side < wall_slope) return;
+      if ((up ? normal.z : -normal.z) < wall_slope) return;
       cover.level(p, [&](size_t i, float height) {
-        if (height <= cells_[i].ground && !before[i]) {
-          cells_[i].ground = height;
-          cells_[i].ground_albedo = colors[material];
-          grounded[i] = true;
+        SurroundingCell& cell = cells_[i];
+        const bool lower = up || !grounded[i] ? height <= cell.ground : height < cell.ground - standing_m;
+        if (lower) {
+          cell.ground = height;
+          cell.ground_albedo = colors[material];
+          if (up) grounded[i] = true;
         }
         if (height >= highest[i]) {
           highest[i] = height;
-          cells_[i].top_albedo = colors[material];
+          cell.top_albedo = colors[material];
         }
       });
     });
-  }
   std::vector<dvec3> walls(cells_.size(), dvec3(0.0));
   std::vector<double> areas(cells_.size(), 0.0);
   // What stands in a cell begins at its lowest wall or its lowest face that looks down. Without

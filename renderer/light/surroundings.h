@@ -23,6 +23,8 @@ namespace greatx::render {
 
 /// What stands lower than this over the ground is part of it, m.
 inline constexpr float low_thing_m = 1.0f;
+/// What is higher than this over the ground is higher than a person, m.
+inline constexpr float standing_m = 2.0f;
 /// The share of the sky that a wall in a street sees beside its own half.
 inline constexpr double wall_sky_share = 0.7;
 
@@ -36,7 +38,7 @@ struct SurroundingCell {
   dvec2 wall_normal{0.0};  ///< unit, outwards; zero if no wall stands here
   WallGlow glow;           ///< what the wall emits
   /// Whether something stands here that is higher than a person.
-  bool stands() const { return top > ground + 2.0f; }
+  bool stands() const { return top > ground + standing_m; }
 };
 
 /// The light that falls on the surroundings, per channel.

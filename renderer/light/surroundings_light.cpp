@@ -18,6 +18,8 @@ namespace greatx::render {
 namespace {
 
 constexpr int gather_azimuths = 16, gather_bands = 24;
+/// The height over a roof from which it is looked around: above its parapet, m.
+constexpr double roof_clearance_m = 1.0;
 
 /// Returns the sine of elevation at a place among the bands, which have equal steps of it.
 double sine_of(double band) { return 2.0 * band / gather_bands - 1.0; }
@@ -48,14 +50,20 @@ struct BandDirections {
 struct BouncedPlace {
   BouncedLight low, high;
   float ground = 0.0f;
-  bool free = true;  ///< not within a house
+  bool free = true;   ///< not within a house
+  double roof = 0.0;  ///< height of the roof of a house
 };
+
+/// Shaders weaken the light at the high place by the height over it. Returns the inverse for a roof.
+double strength_on_roof(const BouncedPlace& place) {
+  return std::max((place.roof - place.ground) / double(shared::surroundings_high), 1.0);
+}
 
 void add_scaled(BouncedLight& sum, const BouncedLight& light, double factor) {
   for (size_t i = 0; i < sum.facing.size(); ++i) sum.facing[i] += light.facing[i] * factor;
 }
 
-/// Gives the places within houses that touch others the mean of their neighbours' light.
+/// Gives the places within houses that touch others the mean of their neighbours' light. Roofs keep theirs.
 void fill_from_neighbours(std::vector<BouncedPlace>& places, uint32_t columns, uint32_t rows) {
   const std::vector<BouncedPlace> before = places;
   for (uint32_t row = 0; row < rows; ++row)
@@ -69,13 +77,17 @@ void fill_from_neighbours(std::vector<BouncedPlace>& places, uint32_t columns, u
         if (other.free) near.push_back(&other);
       }
       if (near.empty()) continue;
+      BouncedPlace& place = places[size_t{row} * columns + column];
+      const dvec3 on_roof = place.high.facing[4];
       BouncedPlace mean;
       for (const BouncedPlace* other : near) {
         add_scaled(mean.low, other->low, 1.0 / double(near.size()));
         add_scaled(mean.high, other->high, 1.0 / double(near.size()));
         mean.ground += other->ground / float(near.size());
       }
-      places[size_t{row} * columns + column] = mean;
+      mean.roof = place.roof;
+      mean.high.facing[4] = on_roof * strength_on_roof(mean) / strength_on_roof(place);
+      place = mean;
     }
 }
 
@@ -253,8 +265,13 @@ void put_bounced_light(std::vector<uint32_t>& words, const Surroundings& surroun
       const SurroundingCell& cell = surroundings.cells()[i];
       place.ground = cell.ground;
       place.free = !cell.stands() || cell.bottom > cell.ground;
-      if (!place.free) continue;
       const dvec2 middle = field.corner + at * field.cell_m;
+      if (!place.free) {
+        place.roof = cell.top;
+        place.high.facing.fill(gathering.on_ground(middle, cell.top + roof_clearance_m) *
+                               strength_on_roof(place));
+        continue;
+      }
       place.low = gathering.at(middle, place.ground + double(shared::surroundings_low));
       place.low.facing[4] = gathering.on_ground(middle, place.ground);
       place.high = gathering.at(middle, place.ground + double(shared::surroundings_high));

@@ -91,6 +91,20 @@ TEST(Surroundings, GroundThatLooksDownAloneIsStillTheGround) {
   EXPECT_NEAR(cell.ground_albedo.x, 0.4, 1e-6);
 }
 
+TEST(Surroundings, AHouseWithoutAFloorStandsOnItsUnderside) {
+  TinyScene tiny;
+  tiny.quad({-32, -32, 0}, {0, -32, 0}, {0, 32, 0}, {-32, 32, 0});
+  tiny.object("house").box({4, -8, 0}, {20, 8, 9});
+  const scene::Scene scene = tiny.build();
+  const render::HeightField field = render::height_field(scene);
+  const render::Surroundings surroundings(scene, field, {}, {});
+  const dvec2 at = (dvec2(12, 0) - field.corner) / field.cell_m;
+  const render::SurroundingCell& cell =
+      surroundings.cell(static_cast<uint32_t>(at.x), static_cast<uint32_t>(at.y));
+  EXPECT_TRUE(cell.stands());
+  EXPECT_NEAR(cell.ground + field.floor, 0.0, 1e-4);
+}
+
 TEST(Surroundings, WhatHangsInTheAirLeavesTheGroundFree) {
   TinyScene tiny;
   tiny.quad({-32, -32, 0}, {32, -32, 0}, {32, 32, 0}, {-32, 32, 0});
