@@ -145,8 +145,9 @@ Surroundings::Surroundings(const scene::Scene& scene, const HeightField& field, 
   paint(scene);
   for (const SurroundingCell& cell : cells_) most_top_ = std::max(most_top_, cell.top);
   cast_shadows();
-  if (sources.glow) glow(scene);
+  if (sources.glow) emit(scene);
   for (int round = 0; round < 4; ++round) thicken_walls();
+  if (sources.glow) average_glow();
   shine(sources.lamps);
 }
 
@@ -208,7 +209,7 @@ void Surroundings::paint(const scene::Scene& scene) {
   }
 }
 
-void Surroundings::glow(const scene::Scene& scene) {
+void Surroundings::emit(const scene::Scene& scene) {
   WallGlows glows(scene, cells_.size(), field_->cell_m);
   if (!glows.any()) return;
   const CellCover cover(*field_);
@@ -244,6 +245,16 @@ void Surroundings::thicken_walls() {
         cell.bottom = std::min(cell.bottom, other.bottom);
       }
     }
+}
+
+void Surroundings::average_glow() {
+  std::vector<dvec2> normals;
+  std::vector<WallGlow> glows;
+  for (const SurroundingCell& cell : cells_) {
+    normals.push_back(cell.wall_normal);
+    glows.push_back(cell.glow);
+  }
+  glow_average_ = GlowAverage(field_->width, normals, glows);
 }
 
 void Surroundings::cast_shadows() {

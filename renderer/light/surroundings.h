@@ -5,7 +5,7 @@
 // mean colours, what its walls emit, and the height up to which it lies in the shadow of the key light. Two
 // effects read it.
 // `bounced_light` takes from it the light that reaches a place after one reflection; it is gathered once,
-// over the cells, at two heights (surroundings_light.h). `glass` looks into it along mirrored rays.
+// over the cells, at two heights (light_gathering.h). `glass` looks into it along mirrored rays.
 // surroundings_words.h writes what shaders read of both. docs/global_light.md has the errors.
 #pragma once
 
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "renderer/light/glow_average.h"
 #include "renderer/light/sky_view.h"
 #include "renderer/light/wall_glow.h"
 #include "scene/description/scene.h"
@@ -73,6 +74,8 @@ class Surroundings {
   const dvec3& ground_radiance(size_t index) const { return ground_radiance_[index]; }
   /// Returns the radiance that the wall in a cell reflects at a height.
   dvec3 wall_radiance(const SurroundingCell& cell, double height) const;
+  /// Returns what the wall in a cell emits, averaged over this many cells to both sides along it.
+  const WallGlow& glow(size_t cell, double cells_aside) const { return glow_average_.at(cell, cells_aside); }
   /// Returns for each cell how many columns of cells (or rows, along y) a level ray passes, the own one
   /// included, before something may stand in its way, wherever in the cell and in the octant of directions
   /// (shaders/shared/surroundings.h) it goes. 0: something stands in the cell or beside it.
@@ -80,15 +83,17 @@ class Surroundings {
 
  private:
   void paint(const scene::Scene& scene);
-  void glow(const scene::Scene& scene);
+  void emit(const scene::Scene& scene);
   void thicken_walls();
   void cast_shadows();
+  void average_glow();
   void shine(std::span<const scene::PunctualLight> lamps);
 
   const HeightField* field_;
   SurroundingLight light_;
   std::vector<SurroundingCell> cells_;
   float most_top_ = 0.0f;
+  GlowAverage glow_average_;
   std::vector<dvec3> top_radiance_, ground_radiance_;
 };
 

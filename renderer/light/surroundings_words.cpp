@@ -10,7 +10,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/units.h"
-#include "renderer/light/surroundings_light.h"
+#include "renderer/light/bounced_places.h"
 #include "shaders/shared/surroundings.h"
 
 namespace greatx::render {

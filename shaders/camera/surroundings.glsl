@@ -24,12 +24,15 @@ struct Bounced {
   vec2 red_blue;
 };
 
-/// Adds `weight` times the luminance of a place at one height. It returns the place's first word.
+/// Adds `weight` times the luminance of a place at one height: its constant, and its vector with that for
+/// n = +z. It returns the place's first word.
 uint add_luminance(uint pair, float weight, inout float c, inout vec4 shape) {
   uvec2 words = unpackUint2x32(surrounding_pairs[pair]);
   float part = weight * unpackHalf2x16(words.x).x;
   c += part;
-  shape += (surroundings_vector_scale * part) * unpackSnorm4x8(words.y);
+  float root = float(words.y >> 24);
+  shape.xyz += (surroundings_vector_scale * part) * unpackSnorm4x8(words.y).xyz;
+  shape.w += (surroundings_up_scale / (255.0 * 255.0) * part) * (root * root);
   return words.x;
 }
 
@@ -70,6 +73,7 @@ Bounced bounced_at(vec3 p_eye, vec3 n) {
   float above = min(1.0, surroundings_high / max(height, 1.0));
   bounced.shape = mix(low, high, up) * above;
   bounced.c = mix(c_low, c_high, up) * above;
+  bounced.shape.w -= bounced.c + bounced.shape.z;
   bounced.red_blue = root * root;
   return bounced;
 }

@@ -27,12 +27,13 @@ const uint surroundings_along_y = 4u;  ///< y changes more than x
 /// A place of bounced light is two pairs of words, for the low and for the high height. The first word has a
 /// half, the constant c of the luminance, and then the square roots of red and blue over luminance (bytes
 /// over surroundings_color_scale, low height) or the ground's height (a half, high height). The second word
-/// has four signed bytes over surroundings_vector_scale c: the vector v of the luminance and its part w along
-/// the vertical. The luminance of a surface with normal n is c + v . n + w n_z^2. The low place has the light
-/// of level ground for n = +z.
+/// has three signed bytes, the vector v of the luminance over surroundings_vector_scale c, and a byte, the
+/// root of the luminance u for n = +z over surroundings_up_scale c. The luminance of a surface with normal n
+/// is c + v . n + (u - c - v_z) n_z^2. The low place has the light of level ground for n = +z.
 const uint surroundings_place_pairs = 2u;
 const float surroundings_color_scale = 2.0f;   ///< the largest square root
 const float surroundings_vector_scale = 2.0f;  ///< the longest vector over c
+const float surroundings_up_scale = 4.0f;      ///< the most luminance for n = +z over c
 /// The height over the bottom of a column below which its wall emits the lower one of two radiances, m: shops
 /// are no higher.
 const float surroundings_glow_split = 4.5f;

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/light/sky_view.h"
-#include "renderer/light/surroundings_light.h"
+#include "renderer/light/light_gathering.h"
 #include "renderer/light/surroundings_words.h"
 #include "renderer/reference/reference_picture.h"
 #include "shaders/shared/surroundings.h"

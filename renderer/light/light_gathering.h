@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Gathers the light that the surroundings send to places, for the effect `bounced_light`.
+// Gathers the light that the surroundings send to a place, for the effect `bounced_light`.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/vec.h"
@@ -39,22 +40,32 @@ class LightGathering {
 
  private:
   class Bands;
+  class Hidden;
   /// What a gathering reads of each cell at which it looks, apart from the rest so that it stays in caches.
   struct Column {
     float top, bottom, ground;
   };
-  void fill_wall(size_t i, double low, double high, double height, double distance, int azimuth,
-                 Bands& bands) const;
+  /// A part of a wall between two heights, which sends one radiance.
+  struct WallPart {
+    double bottom, top;
+    dvec3 radiance;
+  };
+  struct WallParts {
+    std::array<WallPart, 3> part;
+    size_t count = 0;
+    void add(double bottom, double top, const dvec3& radiance) {
+      if (top > bottom) part[count++] = {bottom, top, radiance};
+    }
+  };
+  WallParts wall_seen(size_t i, double distance, int azimuth) const;
+  bool stands(size_t i) const { return columns_[i].top > columns_[i].ground + low_thing_m; }
+  std::optional<size_t> column_at(const dvec2& place, int azimuth, double distance) const;
+  double first_standing(const dvec2& place, int azimuth, double nearer, double farther) const;
   void look_along(const dvec2& place, double height, int azimuth, Bands& bands) const;
 
   const Surroundings* surroundings_;
   AzimuthLooks<16> looks_;
   std::vector<Column> columns_;
 };
-
-/// Appends the words of `columns` x `rows` places (shaders/shared/surroundings.h): the light at two heights
-/// over the ground.
-void put_bounced_light(std::vector<uint32_t>& words, const Surroundings& surroundings, uint32_t columns,
-                       uint32_t rows);
 
 }  // namespace greatx::render
