@@ -197,6 +197,19 @@ TEST(BeamShadow, APictureDependsOnNoTickBefore) {
   EXPECT_NE(open.shoot(from, poses).hdr, first.hdr) << "the post casts a shadow";
 }
 
+TEST(BeamShadow, CamerasDoNotDisturbEachOther) {
+  constexpr uint32_t cars = 6;
+  render::CameraDesc desc = plain_camera(96, 1);
+  desc.exposure_ev100 = 5.0;
+  const Pose here = look({0, -8, 6}, 90.0, 35.0);
+  const std::vector<Pose> poses = placed(cars, 14.0);
+  CameraRig alone(street_of(cars), plain_light(), desc, by_lamps()),
+      among(street_of(cars), plain_light(), desc, by_lamps());
+  // The others see other lamps: tiles are theirs alone.
+  const std::array<Pose, 2> others{look({40, -8, 6}, 100.0, 30.0), look({-30, 8, 5}, -80.0, 40.0)};
+  EXPECT_EQ(among.shoot_among(others, here, poses).hdr, alone.shoot(here, poses).hdr);
+}
+
 TEST(BeamShadow, NothingIsChosenWhereNoBeamLightsThePicture) {
   const scene::Scene scene = street_of(1);
   const scene::GpuScene gpu(device(), scene, {.acceleration_structure = false, .textures = true});

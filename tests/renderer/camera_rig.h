@@ -4,6 +4,7 @@
 // Provides a rig for camera tests: a scene, its lighting and one camera that takes pictures.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -76,6 +77,7 @@ class CameraRig {
         gpu_(device(), *scene_, options),
         lighting_(gpu_, lighting, effects),
         camera_(lighting_, desc),
+        desc_(desc),
         ring_(device(), 2, 1 << 16, 1 << 20) {}
 
   gpu::TickSlot& record(const Pose& sensor, std::vector<Pose> moving = {},
@@ -109,6 +111,21 @@ class CameraRig {
     ring_.submit(slot);
     return collect(slot);
   }
+  /// Takes one picture between those of two other cameras in the same tick, which look from `others`.
+  render::CameraImages shoot_among(const std::array<Pose, 2>& others, const Pose& sensor,
+                                   std::vector<Pose> moving = {}) {
+    render::CameraPass before(lighting_, desc_), after(lighting_, desc_);
+    moving.insert(moving.begin(), Pose{});
+    moving.resize(scene_->bodies.size());
+    gpu::TickSlot& slot = ring_.begin();
+    gpu_.record_update(slot, moving);
+    lighting_.record(slot, moving);
+    before.record(slot, others[0]);
+    camera_.record(slot, sensor);
+    after.record(slot, others[1]);
+    ring_.submit(slot);
+    return collect(slot);
+  }
   const render::CameraPass& camera() const { return camera_; }
   const render::SceneLighting& lighting() const { return lighting_; }
   scene::GpuScene& gpu() { return gpu_; }
@@ -119,6 +136,7 @@ class CameraRig {
   scene::GpuScene gpu_;
   render::SceneLighting lighting_;
   render::CameraPass camera_;
+  render::CameraDesc desc_;
   gpu::TickRing ring_;
 };
 
