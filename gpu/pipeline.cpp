@@ -3,12 +3,15 @@
 #include "gpu/pipeline.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.h"
 #include "gpu/capabilities.h"
+#include "gpu/kept_pipelines.h"
 #include "shaders/shared/scene.h"
 #include "shaders/spirv.h"
 
@@ -159,6 +162,56 @@ void check_samplers(const Device& device, std::span<const Binding> bindings, con
                      samplers, device.info().name, device.limits().maxPerStageDescriptorSamplers);
 }
 
+/// Describes what both kinds of pipeline have: the layout and the constants.
+template <typename Desc>
+std::string common_text(const Desc& desc) {
+  std::string text = fmt::format("push {} constants {} bindings", desc.push_constant_bytes,
+                                 fmt::join(desc.specialization, ","));
+  for (const Binding& binding : desc.bindings)
+    text += fmt::format(" {}:{}", binding.slot, static_cast<int>(binding.type));
+  if (desc.textures != nullptr)
+    text += fmt::format(" {} textures {}", desc.textures->count(), desc.textures->few() ? "few" : "many");
+  return text;
+}
+
+std::string text_of(const ComputeDesc& desc) {
+  return fmt::format("compute {} {}", desc.shader, common_text(desc));
+}
+
+std::string text_of(const GraphicsDesc& desc) {
+  std::string text =
+      fmt::format("graphics {} + {} {} colours", desc.vertex_shader, desc.fragment_shader, common_text(desc));
+  for (const VkFormat format : desc.color_formats) text += fmt::format(" {}", static_cast<int>(format));
+  return text + fmt::format(" depth {} {} {} samples {} cull {} {} multiply {} bias {} {}",
+                            static_cast<int>(desc.depth_format), static_cast<int>(desc.depth_compare),
+                            desc.depth_write, static_cast<int>(desc.samples), desc.cull,
+                            static_cast<int>(desc.front_face), desc.multiply, desc.depth_bias_constant,
+                            desc.depth_bias_slope);
+}
+
+/// Replaces a layout that was just made by a kept pipeline of the same description, with its layouts. Returns
+/// null if there is none; the pipeline that is to be built is then known to the keeper of the device, if it
+/// has one.
+template <typename Desc>
+VkPipeline take_kept(Device& device, const Desc& desc, std::string_view name, VkPipelineLayout& layout,
+                     VkDescriptorSetLayout& set_layout) {
+  KeptPipelines* const keeper = KeptPipelines::of(device);
+  if (keeper == nullptr) return VK_NULL_HANDLE;
+  std::string text = text_of(desc);
+  const std::optional<KeptPipeline> kept = keeper->take(text);
+  if (!kept) {
+    keeper->describe(layout, std::move(text));
+    return VK_NULL_HANDLE;
+  }
+  destroy(device, {VK_NULL_HANDLE, layout, set_layout});
+  layout = kept->layout;
+  set_layout = kept->set_layout;
+  ++device.counters().pipelines_built;
+  device.counters().pipelines.emplace_back(name);
+  device.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(kept->pipeline), name);
+  return kept->pipeline;
+}
+
 }  // namespace
 
 std::span<const uint32_t> spirv(std::string_view name) {
@@ -280,9 +333,11 @@ Pipeline::~Pipeline() {
   if (device_ == nullptr) return;
   if (build_ != nullptr) pipeline_ = build_->give_up();
   device_->finish();
-  vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
-  vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
-  vkDestroyDescriptorSetLayout(device_->handle(), set_layout_, nullptr);
+  const KeptPipeline own{pipeline_, layout_, set_layout_};
+  if (KeptPipelines* const keeper = KeptPipelines::of(*device_))
+    keeper->give(own);
+  else
+    destroy(*device_, own);
 }
 Pipeline::Pipeline(Pipeline&& other) noexcept { *this = std::move(other); }
 Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
@@ -303,6 +358,8 @@ ComputePipeline::ComputePipeline(Device& device, const ComputeDesc& desc, std::s
   create_layout(device, desc.bindings, desc.push_constant_bytes, desc.textures, VK_SHADER_STAGE_COMPUTE_BIT);
   const std::string shader = variant_of(desc.shader, desc.textures);
   spirv(shader);  // throws here if there is none
+  pipeline_ = take_kept(device, desc, name, layout_, set_layout_);
+  if (pipeline_ != VK_NULL_HANDLE) return;
   begin_build(name, [&device, shader, constants = desc.specialization, layout = layout_] {
     return make_compute(device, shader, constants, layout);
   });
@@ -315,7 +372,9 @@ GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsDesc& desc, std
   if (!own.fragment_shader.empty()) own.fragment_shader = variant_of(desc.fragment_shader, desc.textures);
   for (const std::string& shader : {own.vertex_shader, own.fragment_shader})
     if (!shader.empty()) spirv(shader);  // throws here if there is none
-  own.textures = nullptr;                // may be gone when a thread comes to the build
+  pipeline_ = take_kept(device, desc, name, layout_, set_layout_);
+  if (pipeline_ != VK_NULL_HANDLE) return;
+  own.textures = nullptr;  // may be gone when a thread comes to the build
   begin_build(
       name, [&device, own = std::move(own), layout = layout_] { return make_graphics(device, own, layout); });
 }

@@ -16,6 +16,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gpu/kept_pipelines.h"
 #include "io/dataset/dataset_format.h"
 #include "sim/run/simulator.h"
 #include "sim/scenario/parse/load_scenario.h"
@@ -190,6 +191,7 @@ bool chosen(size_t index) {
 
 TEST_P(Sweep, AcceptedEndsRunATick) {
   gpu::Device device(gpu::DeviceOptions{});
+  const gpu::KeptPipelines pipelines(device);  // most runs have the same ones
   std::optional<Experiment> whole;
   ASSERT_NO_THROW(whole = planned(text_));
   ASSERT_NO_THROW(run_a_tick(device, *whole));

@@ -9,16 +9,24 @@
 
 #include <gtest/gtest.h>
 
+#include "gpu/kept_pipelines.h"
+
 namespace greatx::test {
 
 namespace {
 
-std::map<gpu::Tracer, std::unique_ptr<gpu::Device>> shared_devices;
+/// A program compiles each shader once, however many simulators its tests make. What is declared last is
+/// destroyed first.
+struct SharedDevice {
+  std::unique_ptr<gpu::Device> device;
+  std::unique_ptr<gpu::KeptPipelines> pipelines;
+};
+std::map<gpu::Tracer, SharedDevice> shared_devices;
 
 class ValidationListener : public testing::EmptyTestEventListener {
   void OnTestEnd(const testing::TestInfo&) override {
-    for (const auto& [tracer, device] : shared_devices)
-      for (const std::string& message : device->validation_log()->take())
+    for (const auto& [tracer, shared] : shared_devices)
+      for (const std::string& message : shared.device->validation_log()->take())
         ADD_FAILURE() << "validation: " << message;
   }
 };
@@ -26,9 +34,12 @@ class ValidationListener : public testing::EmptyTestEventListener {
 }  // namespace
 
 gpu::Device& device(gpu::Tracer tracer) {
-  std::unique_ptr<gpu::Device>& device = shared_devices[tracer];
-  if (device == nullptr) device = std::make_unique<gpu::Device>(gpu::DeviceOptions{{}, true, tracer});
-  return *device;
+  SharedDevice& shared = shared_devices[tracer];
+  if (shared.device == nullptr) {
+    shared.device = std::make_unique<gpu::Device>(gpu::DeviceOptions{{}, true, tracer});
+    shared.pipelines = std::make_unique<gpu::KeptPipelines>(*shared.device);
+  }
+  return *shared.device;
 }
 
 int run(int argc, char** argv) {
@@ -37,9 +48,10 @@ int run(int argc, char** argv) {
   testing::UnitTest::GetInstance()->listeners().Append(new ValidationListener);
   int result = RUN_ALL_TESTS();
   // The validation layer reports leaks, and objects that outlive the device, while the device is destroyed.
-  for (auto& [tracer, device] : shared_devices) {
-    const std::shared_ptr<gpu::ValidationLog> log = device->validation_log();
-    device.reset();
+  for (auto& [tracer, shared] : shared_devices) {
+    const std::shared_ptr<gpu::ValidationLog> log = shared.device->validation_log();
+    shared.pipelines.reset();
+    shared.device.reset();
     for (const std::string& message : log->take()) {
       std::fprintf(stderr, "validation at the end: %s\n", message.c_str());
       result = 1;

@@ -4,7 +4,7 @@ greatx_test(view_parts SUITES SOURCES script_test.cpp viewpoint_test.cpp
             LINK greatx_view_camera greatx_view_script greatx_scene_description)
 
 # The window, drawn in memory; and a real one, where a display can be had.
-greatx_test(view_window SOURCES window_test.cpp LINK greatx_view_window PkgConfig::imgui)
+greatx_test(view_window SUITES SOURCES window_test.cpp LINK greatx_view_window PkgConfig::imgui)
 find_program(XVFB_RUN xvfb-run)
 if(XVFB_RUN)
   add_test(NAME view_window_x11
