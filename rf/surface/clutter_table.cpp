@@ -16,12 +16,12 @@ ClutterTable::Roots roots_of(double hh, double vv, double hv) {
 }
 
 ClutterTable::Roots effective_roughness(const RadioSurfaces& surfaces, uint32_t material, bool from_front,
-                                        double sine) {
+                                        const dvec3& in, const dvec3& out, const dvec3& normal) {
   const DiffuseScattering& surface = surfaces.surface(material).scattering;
-  const dvec3 normal(0.0, 0.0, 1.0), in(std::sqrt(1.0 - sine * sine), 0.0, -sine);
-  const ReflectionCoefficients r = surfaces.reflect(material, from_front, sine);
-  const double share = 4.0 * pi * surface.coefficient * surface.coefficient * sine *
-                       scattering_pattern(surface, in, -in, normal);
+  const double cosine = std::clamp(-glm::dot(in, normal), 0.0, 1.0);
+  const ReflectionCoefficients r = surfaces.reflect(material, from_front, cosine);
+  const double share = 4.0 * pi * surface.coefficient * surface.coefficient * cosine *
+                       scattering_pattern(surface, in, out, normal);
   const double te = share * std::norm(r.r_te), tm = share * std::norm(r.r_tm), k = surface.cross_polarization;
   return roots_of((1.0 - k) * te, (1.0 - k) * tm, 0.5 * k * (te + tm));
 }
@@ -29,7 +29,9 @@ ClutterTable::Roots effective_roughness(const RadioSurfaces& surfaces, uint32_t 
 }  // namespace
 
 ClutterTable::ClutterTable(const scene::Scene& scene, const RadioSurfaces& surfaces)
-    : first_(scene.materials.size(), -1) {
+    : first_(scene.materials.size(), -1),
+      by_coefficient_(scene.materials.size(), false),
+      surfaces_(surfaces) {
   std::vector<bool> asked(scene.materials.size(), false);
   for (const scene::Facet& facet : scene.facets) asked[facet.material] = true;
   for (uint32_t material = 0; material < asked.size(); ++material) {
@@ -39,17 +41,25 @@ ClutterTable::ClutterTable(const scene::Scene& scene, const RadioSurfaces& surfa
     const RadioSurface& surface = surfaces.surface(material);
     if (!clutter && (surface.foliage || surface.scattering.coefficient == 0.0)) continue;
     first_[material] = static_cast<int64_t>(roots_.size());
+    by_coefficient_[material] = !clutter;
     for (const bool from_front : {true, false})
       for (uint32_t i = 0; i <= steps; ++i) {
         const double sine = double(i) / steps;
         if (!clutter) {
-          roots_.push_back(effective_roughness(surfaces, material, from_front, sine));
+          const dvec3 in(std::sqrt(1.0 - sine * sine), 0.0, -sine);
+          roots_.push_back(
+              effective_roughness(surfaces, material, from_front, in, -in, dvec3(0.0, 0.0, 1.0)));
           continue;
         }
         const scene::Backscatter back = scene::backscatter(*clutter, sine, surfaces.carrier_hz());
         roots_.push_back(roots_of(back.hh, back.vv, back.hv));
       }
   }
+}
+
+ClutterTable::Roots ClutterTable::bistatic(uint32_t material, bool from_front, const dvec3& in,
+                                           const dvec3& out, const dvec3& normal) const {
+  return effective_roughness(surfaces_, material, from_front, in, out, normal);
 }
 
 ClutterTable::Roots ClutterTable::at(uint32_t material, bool from_front, double sine) const {

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/vec.h"
 #include "rf/surface/surfaces.h"
 #include "scene/description/scene.h"
 
@@ -23,18 +24,26 @@ class ClutterTable {
     float hh = 0.0f, vv = 0.0f, hv = 0.0f;
   };
 
-  /// `surfaces` are those of the scene at the carrier.
+  /// `surfaces` are those of the scene at the carrier, and outlive this.
   ClutterTable(const scene::Scene& scene, const RadioSurfaces& surfaces);
   /// Returns whether a material scatters anything.
   bool rough(uint32_t material) const { return first_[material] >= 0; }
   /// Interpolates between 513 sines of the grazing angle; 0.2 % of the amplitude at 1 degree, less above.
   /// `from_front` as in RadioSurfaces::reflect().
   Roots at(uint32_t material, bool from_front, double sine) const;
+  /// Returns whether a material has no model of its clutter, but a scattering coefficient.
+  bool by_coefficient(uint32_t material) const { return by_coefficient_[material]; }
+  /// Returns the roots of such a material for a wave along `in` that is scattered along `out`, both unit
+  /// vectors; `normal` is on the side of the wave. There is no table for these.
+  Roots bistatic(uint32_t material, bool from_front, const dvec3& in, const dvec3& out,
+                 const dvec3& normal) const;
 
  private:
   static constexpr uint32_t steps = 512;
   std::vector<int64_t> first_;  ///< [materials] into roots_: front, then back; -1: smooth
   std::vector<Roots> roots_;
+  std::vector<bool> by_coefficient_;  ///< [materials]
+  const RadioSurfaces& surfaces_;
 };
 
 }  // namespace greatx::rf

@@ -86,7 +86,8 @@ struct ClutterSight {
 
 struct FoundPatches {
   PatchList list;
-  /// Scatterers that turn too fast for a constant rate within a block (rotors).
+  /// Scatterers that turn too fast for a constant rate within a block (rotors), or all of them
+  /// (EchoOptions::scatterer_echoes).
   std::vector<Scatterer> fast;
 };
 
@@ -96,7 +97,10 @@ class ClutterPatches {
   ClutterPatches(const scene::Scene& scene, const RadioSurfaces& surfaces, const EchoOptions& options,
                  const EchoEnd& transmitter, const EchoEnd* receiver);
 
-  bool rough(uint32_t material) const { return table_.rough(material); }
+  bool rough(uint32_t facet) const {
+    const scene::Facet& one = scene_.facets[facet];
+    return table_.rough(one.material) && (asked_.empty() || asked_[one.instance]);
+  }
   /// Returns the patches of `parts`. The bytes do not depend on the number of threads.
   FoundPatches find(const ClutterParts& parts, const FacetWorld& world, const ClutterSight& sight,
                     const Pose& transmitter, const Pose& receiver, const EchoMotion& motion) const;
@@ -149,10 +153,11 @@ class ClutterPatches {
   const scene::Scene& scene_;
   EchoOptions options_;
   ClutterTable table_;
-  ElementCells cells_;
+  std::vector<bool> asked_;            ///< [instances] those that scatter; empty: all
+  std::optional<ElementCells> cells_;  ///< absent if scatterers take the field of the element itself
   const RadioSurfaces& surfaces_;
-  ElementPattern receiver_pattern_;
-  double receiver_slant_ = 0.0;
+  ElementPattern transmitter_pattern_, receiver_pattern_;
+  double transmitter_slant_ = 0.0, receiver_slant_ = 0.0;
   bool monostatic_;
   double wavelength_m_, side_m_;
 };

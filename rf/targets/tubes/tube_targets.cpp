@@ -27,7 +27,7 @@ EchoEnd end_of(const std::string& name, uint32_t polarization, uint32_t body) {
   return end;
 }
 
-EchoOptions options_of(const TubeOptions& tubes) {
+EchoOptions options_of(const TubeOptions& tubes, std::vector<uint32_t> scattering) {
   EchoOptions options;
   options.max_bounces = tubes.max_bounces;
   options.moving_targets = false;  // the view is that of a target, with all its tubes
@@ -36,6 +36,11 @@ EchoOptions options_of(const TubeOptions& tubes) {
   options.air_db_per_km = tubes.air_db_per_km;
   options.roughness = tubes.roughness;
   options.bandwidth_hz = tubes.bandwidth_hz;
+  options.diffuse = !scattering.empty();
+  options.diffuse_instances = std::move(scattering);
+  options.diffuse_patch_m = tubes.square_m;
+  options.scatterer_echoes = true;
+  options.seed = tubes.seed;
   return options;
 }
 
@@ -72,11 +77,26 @@ TubeTargets::TubeTargets(scene::GpuScene& scene, const RadioSurfaces& surfaces, 
                          uint32_t transmitter_body, uint32_t receiver_body, const TubeOptions& options)
     : scene_(scene.scene()), wavelength_m_(surfaces.wavelength_m()), options_(options) {
   // Both ends are always given, so that ends at one place with other polarizations are treated alike.
+  const EchoOptions echoes = options_of(options, scattering(surfaces));
   for (uint32_t received = 0; received < 2; ++received)
     for (uint32_t sent = 0; sent < 2; ++sent)
       finders_[2 * received + sent] =
           std::make_unique<EchoFinder>(scene, surfaces, end_of(name, sent, transmitter_body),
-                                       end_of(name, received, receiver_body), options_of(options));
+                                       end_of(name, received, receiver_body), echoes);
+}
+
+std::vector<uint32_t> TubeTargets::scattering(const RadioSurfaces& surfaces) const {
+  std::vector<uint32_t> instances;
+  for (uint32_t i = 0; i < scene_.instances.size(); ++i)
+    if (std::ranges::any_of(options_.instances, [&](uint32_t target) { return belongs(i, target); }))
+      instances.push_back(i);
+  const bool any = std::ranges::any_of(scene_.facets, [&](const scene::Facet& facet) {
+    const RadioSurface& surface = surfaces.surface(facet.material);
+    return !surface.foliage && surface.scattering.coefficient > 0.0 &&
+           std::ranges::binary_search(instances, facet.instance);
+  });
+  if (!any) instances.clear();
+  return instances;
 }
 
 bool TubeTargets::belongs(uint32_t instance, uint32_t target) const {
