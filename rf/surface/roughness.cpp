@@ -56,7 +56,8 @@ double scattered_share_slope(double deviation_m, double frequency_hz) {
   if (deviation_m == 0.0) return 0.0;
   const double wavelength_m = speed_of_light / frequency_hz,
                g = roughness_parameter(deviation_m, 1.0, wavelength_m);
-  return g * g * std::exp(-g * g) / (frequency_hz * scattered_share(deviation_m, wavelength_m));
+  const double share = scattered_share(deviation_m, wavelength_m);
+  return share > 0.0 ? g * g * std::exp(-g * g) / (frequency_hz * share) : 0.0;
 }
 
 double most_roughness_db(double rms_height_m, double wavelength_m) {

@@ -462,6 +462,9 @@ TEST(Roughness, WhatASurfaceScattersByItsDeviation) {
   EXPECT_EQ(scattered_share(deviation_m, speed_of_light / 77e9), 1.0);
   EXPECT_EQ(scattered_share(0.0, 0.1), 1.0);  // materials without a deviation scatter at all frequencies
   EXPECT_EQ(scattered_share_slope(0.0, 1e9), 0.0);
+  EXPECT_EQ(scattered_share(1e-200, 0.1), 0.0);  // g^2 is too small for a number, and for a slope
+  EXPECT_EQ(scattered_share_slope(1e-200, 3e9), 0.0);
+  EXPECT_EQ(scattered_share(10.0, 1e-3), 1.0);
 }
 
 TEST(Roughness, SmoothGrazingAndVeryRough) {

@@ -23,7 +23,12 @@ using testing::TurntableRadar;
 /// A scene with one body, and its targets.
 class TargetBody {
  public:
-  TargetBody(scene::Scene scene, double carrier_hz, uint32_t bounces = 1, double tube_m = 0.1)
+  struct Options {
+    uint32_t bounces = 1;
+    double tube_m = 0.1, square_m = 0.05, bandwidth_hz = 1.0;
+  };
+  TargetBody(scene::Scene scene, double carrier_hz) : TargetBody(std::move(scene), carrier_hz, Options{}) {}
+  TargetBody(scene::Scene scene, double carrier_hz, const Options& asked)
       : carrier_hz_(carrier_hz),
         scene_(std::move(scene)),
         gpu_(test::device(), scene_, {}),
@@ -31,10 +36,12 @@ class TargetBody {
         ring_(test::device(), 2, 1u << 20, 1u << 20) {
     TubeOptions options;
     options.instances = {0};
-    options.tube_m = tube_m;
-    options.max_bounces = bounces;
+    options.tube_m = asked.tube_m;
+    options.max_bounces = asked.bounces;
     options.roughness = true;
-    options.bandwidth_hz = 1.0;
+    options.square_m = asked.square_m;
+    options.budget = 100'000;
+    options.bandwidth_hz = asked.bandwidth_hz;
     tubes_.emplace(gpu_, surfaces_, "rcs", 0, 0, options);
     posed_.bodies.assign(scene_.bodies.size(), Pose{});
     posed_.centre = scene_.reach_of(1).center();
@@ -47,6 +54,15 @@ class TargetBody {
   double section(double azimuth_rad) {
     const dvec3 from(std::cos(azimuth_rad), std::sin(azimuth_rad), 0.0);
     return 4.0 * pi * std::norm(matrix(from, from)[0]);
+  }
+  /// Returns the sum of the cross-sections of all echoes alone, m^2, for vertical polarization. Its mean is
+  /// that of the body, and it spreads much less, since no echo interferes with another one.
+  double section_of_parts(const dvec3& source, const dvec3& receiver) {
+    const double r = far_distance_m(posed_, wavelength_m());
+    double sum = 0.0;
+    for (const TubeEcho& echo : far_echoes(*tubes_, gpu_, ring_, posed_, {source, receiver}, carrier_hz_))
+      if (echo.sent == 0 && echo.received == 0) sum += 4.0 * pi * std::norm(echo.transfer) * std::pow(r, 4);
+    return sum;
   }
   const PosedTarget& posed() const { return posed_; }
   const scene::Scene& scene() const { return scene_; }
@@ -80,29 +96,42 @@ scene::Scene rough_ball(double radius, double exponent) {
   return tiny.build();
 }
 
+/// A band in which no two scatterers merge.
+constexpr double unmerged_hz = 1e12;
+
+dvec3 horizontal(double azimuth_deg) {
+  return {std::cos(radians(azimuth_deg)), std::sin(radians(azimuth_deg)), 0.0};
+}
+
 /// A sphere that scatters by Lambert's law has 8/3 pi r^2 (sin b + (pi - b) cos b)/pi with the angle b
 /// between both directions (J. H. Lambert's phase function; E. Schoenberg, Handbuch der Astrophysik II,
-/// 1929). One that scatters about the mirror direction has that of geometrical optics, pi r^2, at all angles.
-/// Both polarizations of the receiver count, since facets that lie askew turn the polarization.
+/// 1929). One that scatters about the mirror direction has that of geometrical optics, pi r^2, at all angles,
+/// and keeps the polarization. Each sum is that of some 600 exponential powers at 0 degrees and 200 at 120:
+/// 0.18 to 0.3 dB of standard deviation.
 TEST(TargetBodies, RoughSpheresHaveTheirClosedFormsFromAllSides) {
   constexpr double radius = 0.5;
   for (const double exponent : {0.0, 14.0}) {
-    TargetBody ball(rough_ball(radius, exponent), 77e9);
-    for (const double between : {0.0, 90.0}) {
+    TargetBody ball(rough_ball(radius, exponent), 28e9, {.square_m = 0.0135, .bandwidth_hz = unmerged_hz});
+    for (const double between : {0.0, 60.0, 90.0, 120.0}) {
       const double b = radians(between);
-      double sum = 0.0;
-      constexpr int aspects = 72;
-      for (int i = 0; i < aspects; ++i) {
-        const double at = 2.0 * pi * i / aspects;
-        const ScatterMatrix s =
-            ball.matrix({std::cos(at), std::sin(at), 0.0}, {std::cos(at + b), std::sin(at + b), 0.0});
-        sum += 4.0 * pi * (std::norm(s[0]) + std::norm(s[2])) / aspects;
-      }
       const double lambert = 8.0 / 3.0 * (std::sin(b) + (pi - b) * std::cos(b)) / pi;
       const double expected = pi * radius * radius * (exponent > 0.0 ? 1.0 : lambert);
-      EXPECT_NEAR(decibels(sum), decibels(expected), 1.0) << exponent << " at " << between;
+      EXPECT_NEAR(decibels(ball.section_of_parts(horizontal(10.0), horizontal(10.0 + between))),
+                  decibels(expected), 0.7)
+          << exponent << " at " << between;
     }
   }
+}
+
+/// What rough metal scatters is reciprocal: both ends with their polarizations may be exchanged.
+TEST(TargetBodies, ARoughSphereIsReciprocal) {
+  TargetBody ball(rough_ball(0.5, 14.0), 28e9);
+  const ScatterMatrix there = ball.matrix(horizontal(10.0), horizontal(100.0)),
+                      back = ball.matrix(horizontal(100.0), horizontal(10.0));
+  double largest = 0.0;
+  for (const Complex& entry : there) largest = std::max(largest, std::abs(entry));
+  for (const auto& [of, transposed] : {std::pair{0, 0}, {1, 2}, {2, 1}, {3, 3}})
+    EXPECT_NEAR(std::abs(there[of] - back[transposed]) / largest, 0.0, 1e-3) << of;
 }
 
 scene::Scene moving_body(const char* kind, const char* variant) {
@@ -112,13 +141,12 @@ scene::Scene moving_body(const char* kind, const char* variant) {
 }
 
 /// A radar that is as far away, with the same seed, sees the same scatterers and the same flat parts. What is
-/// partly hidden is cut by tubes, whose grids differ: with tubes of 3 cm, as `greatx rcs` has them, the means
-/// differ by 0.04 dB and the amplitudes by 5 % (rms, of the rms amplitude) at 28 GHz; with tubes of 10 cm by
-/// 0.8 dB and 15 %.
+/// partly hidden is cut by tubes, whose grids differ. Found over 24 aspects: the means differ by 0.04 dB and
+/// the amplitudes by 5 % (rms, of the rms amplitude) at 28 GHz with tubes of 3 cm, as `greatx rcs` has them;
+/// by 0.3 dB and 12 % at 77 GHz with 3 cm, and by less than 0.3 dB and 10 % there with 1.5 cm.
 TEST(TargetBodies, ARadarSeesTheSameSection) {
-  constexpr double tube_m = 0.03;
-  for (const double carrier_hz : {28e9, 77e9}) {
-    TargetBody target(moving_body("vehicle", "saloon"), carrier_hz, 1, tube_m);
+  for (const auto& [carrier_hz, tube_m] : {std::pair{28e9, 0.03}, {77e9, 0.015}}) {
+    TargetBody target(moving_body("vehicle", "saloon"), carrier_hz, {.tube_m = tube_m});
     Turntable table;
     table.carrier_hz = carrier_hz;
     table.band_hz = 0.0;
@@ -131,7 +159,7 @@ TEST(TargetBodies, ARadarSeesTheSameSection) {
     TurntableRadar radar(target.scene(), table);
     double sum = 0.0, sum_radar = 0.0, off = 0.0;
     constexpr int aspects = 24;
-    for (int i = 0; i < aspects; ++i) {
+    for (int i = 0; i < aspects; i += 2) {
       const double azimuth = 2.0 * pi * (i + 0.3) / aspects;
       const double a = target.section(azimuth), b = radar.at(azimuth).all;
       sum += a, sum_radar += b;
@@ -147,7 +175,7 @@ TEST(TargetBodies, ARadarSeesTheSameSection) {
 /// has a deviation of 0.6 dB, that of a difference is 0.9 dB. Found: 1.5 dB (saloon) and 0.2 dB (man).
 TEST(TargetBodies, AreThoseOfTheWholeRadar) {
   const auto compare = [](const char* kind, const char* variant) {
-    TargetBody target(moving_body(kind, variant), 77e9, 3);
+    TargetBody target(moving_body(kind, variant), 77e9, {.bounces = 3});
     Turntable table;
     const dvec3 size = target.scene().reach_of(1).size();
     table.half_m = 0.55 * std::max({size.x, size.y, size.z}) + 0.2;

@@ -36,6 +36,15 @@ std::complex<float> gaussian(uint64_t bits) {
   return {re, im};
 }
 
+/// Turns an axis across the wave that comes along `out` into one across that which leaves against `home`:
+/// what sends to the receiver within an uneven facet are the places that are mirrors for both ends. Their
+/// normal is halfway between both, whatever the normal of the facet is. An axis stays itself if both ends are
+/// one.
+dvec3 mirrored_axis(const dvec3& axis, const dvec3& out, const dvec3& home) {
+  const dvec3 halfway = out + home;  // both have a part against the normal of the facet, so it is not 0
+  return axis - 2.0 * glm::dot(halfway, axis) / glm::dot(halfway, halfway) * halfway;
+}
+
 /// Holds the sides of a polygon, for testing many points.
 struct Outline {
   std::array<HalfPlane, Polygon::capacity> sides;
@@ -90,7 +99,7 @@ ClutterPatches::ClutterPatches(const scene::Scene& scene, const RadioSurfaces& s
                                const EchoEnd* receiver)
     : scene_(scene),
       options_(options),
-      table_(scene, surfaces),
+      table_(scene, surfaces, receiver != nullptr),
       surfaces_(surfaces),
       transmitter_pattern_(transmitter.pattern),
       receiver_pattern_(receiver != nullptr ? receiver->pattern : transmitter.pattern),
@@ -110,20 +119,25 @@ ClutterPatches::ClutterPatches(const scene::Scene& scene, const RadioSurfaces& s
 Complex ClutterPatches::amplitude(const PosedFacet& facet, const Leg& out, const Leg& home, double side,
                                   uint64_t draw) const {
   const double towards = glm::dot(out.in, facet.normal);
-  const dvec3 normal = towards < 0.0 ? facet.normal : -facet.normal;
+  const bool from_front = towards < 0.0;
+  const dvec3 normal = from_front ? facet.normal : -facet.normal;
   const dvec3 h_out = s_axis(out.in, normal), v_out = glm::cross(out.in, h_out);
   const Complex sent_h = out.field.along(h_out), sent_v = out.field.along(v_out);
-  double sine = std::abs(towards);
   Complex heard_h = sent_h, heard_v = sent_v;
-  if (&home != &out) {
-    sine = 0.5 * (sine + std::abs(glm::dot(home.in, normal)));
-    const dvec3 h_home = s_axis(home.in, normal);
-    heard_h = home.field.along(h_home), heard_v = home.field.along(glm::cross(home.in, h_home));
+  ClutterTable::Roots root;
+  if (!monostatic_ && table_.has_lobe(facet.material)) {
+    root = table_.lobe(facet.material, from_front, out.in, -home.in, normal);
+    heard_h = home.field.along(mirrored_axis(h_out, out.in, home.in));
+    heard_v = home.field.along(mirrored_axis(v_out, out.in, home.in));
+  } else {
+    double sine = std::abs(towards);
+    if (&home != &out) {
+      sine = 0.5 * (sine + std::abs(glm::dot(home.in, normal)));
+      const dvec3 h_home = s_axis(home.in, normal);
+      heard_h = home.field.along(h_home), heard_v = home.field.along(glm::cross(home.in, h_home));
+    }
+    root = table_.at(facet.material, from_front, sine);
   }
-  const bool lobe = !monostatic_ && table_.by_coefficient(facet.material);
-  const ClutterTable::Roots root =
-      lobe ? table_.bistatic(facet.material, towards < 0.0, out.in, -home.in, normal)
-           : table_.at(facet.material, towards < 0.0, sine);
   const Complex co = double(root.hh) * sent_h * heard_h + double(root.vv) * sent_v * heard_v,
                 cross = double(root.hv) * (sent_h * heard_v + sent_v * heard_h);
   const std::complex<float> g = gaussian(mixed(draw + 1)), g_cross = gaussian(mixed(draw + 2));

@@ -12,10 +12,11 @@
 // scatterer sends back
 //   a = lambda/((4 pi)^(3/2) r1 r2) sqrt(A) F_r . [g sqrt(sigma0_hh) h h + g sqrt(sigma0_vv) v v
 //       + g' sqrt(sigma0_hv) (h v + v h)] . F_t,
-// with independent circular Gaussian draws g and g' of mean power 1, the area A of a square, and the fields
-// F of both elements. The echo of a resolution cell is the coherent sum of its scatterers: its amplitude is
-// that of Rayleigh, it stays as long as the aspect stays, and it changes with the aspect and the carrier as
-// the sum of as many points does.
+// with independent circular Gaussian draws g and g' of mean power 1, the area A of a square, and the fields F
+// of both elements. Between two ends, a material that scatters by its lobe (ClutterTable::lobe()) has h and v
+// of the receiver from those of the transmitter, by the mirror that sends the wave there. The echo of a
+// resolution cell is the coherent sum of its scatterers: its amplitude is that of Rayleigh, it stays as long
+// as the aspect stays, and it changes with the aspect and the carrier as the sum of as many points does.
 //
 // A tube of a monostatic radar that meets a mirror first lights scatterers that the mirror shows. They send
 // back over the mirror, and, where the radar sees them itself, directly; and what reaches them directly goes

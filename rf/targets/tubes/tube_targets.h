@@ -30,6 +30,7 @@ struct TubeOptions {
   double air_db_per_km = 0.0;
   double bandwidth_hz = 100e6;  ///< echoes merge that this band cannot tell apart
   /// Side of the squares of the targets' surfaces with one scatterer each, where their materials scatter.
+  /// They widen until the box of the largest target has no more of them than `budget` and 32,768.
   double square_m = 0.05;
   uint64_t seed = 1;  ///< of the scatterers
 };
@@ -72,6 +73,9 @@ class TubeTargets {
   bool belongs(uint32_t instance, uint32_t target) const;
   /// Returns the instances of all targets with the parts that they carry, if any of them scatters.
   std::vector<uint32_t> scattering(const RadioSurfaces& surfaces) const;
+  /// Returns the box of a target with the parts that it carries, in the frame of its body.
+  scene::Bounds box_of(uint32_t target) const;
+  double square_m() const;
   Search view_of(uint32_t target, const dvec3& transmitter, std::span<const Pose> bodies) const;
 
   const scene::Scene& scene_;
