@@ -41,8 +41,7 @@ struct RcsCommand {
 };
 
 /// Returns the world of one node at the origin, its model a body of its own as that of a channel's target.
-sim::World world_of(const RcsCommand& command) {
-  sim::Scenario all = load_scenario(command.scenario);
+sim::World world_of(const RcsCommand& command, const sim::Scenario& all) {
   for (const sim::NodeConfig& node : all.nodes) {
     if (node.name != command.node) continue;
     if (!node.model) throw_user_error("--node: expected a node with a model, found '{}'", command.node);
@@ -128,7 +127,7 @@ void add_bistatic(const std::vector<TableDirection>& directions, const Matrix& m
     }
 }
 
-std::string table_of(const RcsCommand& command, gpu::Device& device, const sim::World& world) {
+std::string table_of(const RcsCommand& command, gpu::Device& device, const sim::World& world, uint64_t seed) {
   const scene::Scene& scene = world.scene;
   const uint32_t body = world.body_of_node[0];
   if (body == 0 || scene.reach_of(body).empty())
@@ -143,6 +142,7 @@ std::string table_of(const RcsCommand& command, gpu::Device& device, const sim::
   options.budget = command.budget;
   options.max_bounces = command.bounces;
   options.bandwidth_hz = 1.0;  // all echoes of a direction are summed at the carrier
+  options.seed = seed;
   rf::TubeTargets tubes(gpu_scene, surfaces, "rcs", 0, 0, options);
   gpu::TickRing ring(device, 2, 1u << 20, 1u << 20);
   const auto matrix = [&](const TableDirection& in, const TableDirection& out) {
@@ -150,8 +150,8 @@ std::string table_of(const RcsCommand& command, gpu::Device& device, const sim::
     return rf::far_field(tubes, gpu_scene, ring, target, {in.unit, out.unit}, command.carrier_hz);
   };
   std::string text = fmt::format(
-      "# {} at {:g} Hz, tubes of {:g} m, {} bounces: S in m by physical optics, phases about the centre of "
-      "its box\n",
+      "# {} at {:g} Hz, tubes of {:g} m, {} bounces: S in m by physical optics and scatterers, phases about "
+      "the centre of its box\n",
       command.node, command.carrier_hz, command.width_m, command.bounces);
   if (command.bistatic)
     add_bistatic(directions_of(command), matrix, text);
@@ -170,9 +170,10 @@ void run(const RcsCommand& command) {
   if (lines > sim::most_rcs_lines)
     throw_user_error("--step: expected a step that gives at most {} lines of the table, found {} with {}",
                      sim::most_rcs_lines, lines, command.step_deg);
-  const sim::World world = world_of(command);
+  const sim::Scenario scenario = load_scenario(command.scenario);
+  const sim::World world = world_of(command, scenario);
   gpu::Device device(command.run.device_options());
-  io::write_file_atomically(command.output, table_of(command, device, world));
+  io::write_file_atomically(command.output, table_of(command, device, world, scenario.seed));
   check_validation(device);
   std::cout << fmt::format("wrote {}: {} {} at {:g} GHz\n", command.output, lines,
                            command.bistatic ? "pairs of directions" : "directions",

@@ -83,7 +83,7 @@ std::string radio_fields_line(const scene::Material& material) {
   fields.push_back(fmt::format("backscatter_exponent: {}, backscatter_share: {}, cross_polarization: {}",
                                radio.backscatter_exponent, radio.backscatter_share,
                                radio.cross_polarization));
-  fields.push_back(fmt::format("roughness_m: {}", radio.roughness_m));
+  fields.push_back(fmt::format("roughness_m: {}, deviation_m: {}", radio.roughness_m, radio.deviation_m));
   if (radio.clutter) fields.push_back(fmt::format("clutter: {}", clutter_fields(*radio.clutter)));
   if (material.reflectance_905nm)
     fields.push_back(fmt::format("reflectance_905nm: {}", *material.reflectance_905nm));

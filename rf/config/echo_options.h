@@ -76,6 +76,11 @@ struct EchoOptions {
   bool diffuse = false;
   /// Side of the squares with one scatterer each, metres. 0: half a range cell of `waveform`.
   double diffuse_patch_m = 0.0;
+  /// The instances that scatter, if there are any here; indices into Scene::instances. Empty: all.
+  std::vector<uint32_t> diffuse_instances;
+  /// Scatterers are echoes of their own, which merge as others do, instead of patches. They take the field of
+  /// the element itself, whatever the field of view is.
+  bool scatterer_echoes = false;
   /// What raindrops send back. Only monostatic radars have it.
   RainEchoes rain;
   uint64_t seed = 1;       ///< seed of the scatterers

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "rf/surface/roughness.h"
 #include "scene/material/material.h"
 
 namespace greatx::rf {
@@ -31,6 +32,8 @@ CarrierSlopes carrier_slopes(const scene::Scene& scene, const Weather& weather, 
     const scene::Material& material = scene.materials[facet.material];
     if (!layers.wall.empty() || !material.radio || material.radio->foliage) continue;
     layers.wall = eta_slopes(material.radio->layers, carrier_hz, material.name);
+    layers.scattering = material.radio->scattering_coefficient *
+                        scattered_share_slope(material.radio->deviation_m, carrier_hz);
     if (material.radio->windows && material.radio->windows->share > 0.0)
       layers.windows = eta_slopes(material.radio->windows->layers, carrier_hz, material.name + " (windows)");
   }

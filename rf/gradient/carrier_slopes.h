@@ -14,6 +14,7 @@ struct CarrierSlopes {
   /// d eta/df of the layers of a material and of its windows, 1/Hz, in the order of RadioMaterial.
   struct Layers {
     std::vector<Complex> wall, windows;
+    double scattering = 0.0;  ///< of the scattering coefficient at the carrier
   };
   std::vector<Layers> materials;  ///< [materials of the scene]; empty where the material has no radio wall
   /// The attenuation at the carrier; the first slope is that by the carrier.

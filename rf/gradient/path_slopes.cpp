@@ -84,6 +84,7 @@ RadioSurfaceOf<Dual> dual_surface(const RadioSurface& surface, uint32_t material
         layers(false, i, [&](auto& layer) { add_slope(layer.eta, slot, of.wall[i]); });
       for (size_t i = 0; i < of.windows.size() && i < result.windows.front.size(); ++i)
         layers(true, i, [&](auto& layer) { add_slope(layer.eta, slot, of.windows[i]); });
+      result.scattering.coefficient.set_slope(slot, of.scattering);
     }
     if (!of_material(p.kind) || p.index != material) continue;
     const auto eta = [&](const Complex& slope) {

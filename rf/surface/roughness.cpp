@@ -46,6 +46,20 @@ R roughness_factor(RoughnessModel model, const Given<R>& g) {
   return model == RoughnessModel::ament ? exp(-x) : scaled_bessel_i0<R>(x);
 }
 
+double scattered_share(double deviation_m, double wavelength_m) {
+  if (deviation_m == 0.0) return 1.0;
+  const double g = roughness_parameter(deviation_m, 1.0, wavelength_m);
+  return std::sqrt(-std::expm1(-g * g));
+}
+
+double scattered_share_slope(double deviation_m, double frequency_hz) {
+  if (deviation_m == 0.0) return 0.0;
+  const double wavelength_m = speed_of_light / frequency_hz,
+               g = roughness_parameter(deviation_m, 1.0, wavelength_m);
+  const double share = scattered_share(deviation_m, wavelength_m);
+  return share > 0.0 ? g * g * std::exp(-g * g) / (frequency_hz * share) : 0.0;
+}
+
 double most_roughness_db(double rms_height_m, double wavelength_m) {
   const double g = roughness_parameter(rms_height_m, 1.0, wavelength_m);
   return -20.0 * std::log10(roughness_factor(RoughnessModel::ament, g));

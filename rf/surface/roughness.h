@@ -30,6 +30,16 @@ R roughness_parameter(const Given<R>& rms_height_m, const Given<R>& cos_theta, c
 template <typename R = double>
 R roughness_factor(RoughnessModel model, const Given<R>& g);
 
+/// Returns the share, 0 to 1, of the amplitude that a surface scatters which lies `deviation_m` (rms,
+/// normally distributed) off the plane that stands for it: sqrt(1 - e^{-g^2}), g at normal incidence. What
+/// Ament's factor leaves of the power goes on in the mirror direction, and the rest is scattered (P.
+/// Beckmann, A. Spizzichino, "The Scattering of Electromagnetic Waves from Rough Surfaces", Pergamon, 1963).
+/// The mirror direction would keep more at other angles, where g falls with the cosine: that is left out. 0
+/// m: 1, for materials that do not say how far off they are.
+double scattered_share(double deviation_m, double wavelength_m);
+/// Returns the derivative of scattered_share() by the frequency, 1/Hz.
+double scattered_share_slope(double deviation_m, double frequency_hz);
+
 /// Returns the largest loss of a specular reflection by Ament's factor, which occurs at normal incidence, dB,
 /// >= 0.
 double most_roughness_db(double rms_height_m, double wavelength_m);

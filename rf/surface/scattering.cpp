@@ -39,6 +39,17 @@ R lobe(const V& a, const V& b, uint32_t exponent) {
   return pow(std::min(R(1.0), R(0.25 * dot(sum, sum))), exponent);
 }
 
+/// Returns the lobes of a pattern that has some, without their normalisation.
+template <typename R>
+R lobes(const DiffuseScatteringOf<R>& surface, const Vec3Of<R>& in, const Vec3Of<R>& out, const R& cos_in,
+        const dvec3& normal) {
+  const Vec3Of<R> specular = in + 2.0 * cos_in * normal;
+  const R forward = lobe<R>(specular, out, surface.exponent);
+  if (surface.pattern == scene::ScatteringPattern::directive) return forward;
+  const R& back = surface.backscatter_share;
+  return (1.0 - back) * forward + back * lobe<R, Vec3Of<R>>(-in, out, surface.backscatter_exponent);
+}
+
 }  // namespace
 
 DiffuseScattering diffuse_scattering(const scene::RadioMaterial& material, const std::string& material_name) {
@@ -82,13 +93,20 @@ R scattering_pattern(const DiffuseScatteringOf<Given<R>>& surface, const Vec3Of<
   GREATX_CHECK(cos_in >= 0.0, "the wave comes from behind: cosine {}", value_of(cos_in));
   if (cos_out <= 0.0) return 0.0;
   if (surface.pattern == scene::ScatteringPattern::lambertian) return cos_out / pi;
-  const Vec3Of<R> specular = in + 2.0 * cos_in * normal;
-  const R forward = lobe<R>(specular, out, surface.exponent);
+  const R shape = lobes<R>(surface, in, out, cos_in, normal);
   const R forward_norm = lobe_normalisation<R>(surface.exponent, cos_in);
-  if (surface.pattern == scene::ScatteringPattern::directive) return forward / forward_norm;
+  if (surface.pattern == scene::ScatteringPattern::directive) return shape / forward_norm;
   const R& back = surface.backscatter_share;
-  return ((1.0 - back) * forward + back * lobe<R, Vec3Of<R>>(-in, out, surface.backscatter_exponent)) /
+  return shape /
          ((1.0 - back) * forward_norm + back * lobe_normalisation<R>(surface.backscatter_exponent, cos_in));
+}
+
+double scattering_shape(const DiffuseScattering& surface, const dvec3& in, const dvec3& out,
+                        const dvec3& normal) {
+  const double cos_in = std::min(1.0, -glm::dot(in, normal));
+  if (glm::dot(out, normal) <= 0.0) return 0.0;
+  if (surface.pattern == scene::ScatteringPattern::lambertian) return 1.0;
+  return lobes<double>(surface, in, out, cos_in, normal);
 }
 
 template <typename R>

@@ -55,6 +55,11 @@ template <typename R = double>
 R scattering_pattern(const DiffuseScatteringOf<Given<R>>& surface, const Vec3Of<R>& in, const Vec3Of<R>& out,
                      const dvec3& normal);
 
+/// Returns the numerator of f_s: 1 for `lambertian`, the lobe or the weighted sum of both lobes for the
+/// others. Returns 0 where f_s is 0. It is the same for a wave along -out that is scattered along -in.
+double scattering_shape(const DiffuseScattering& surface, const dvec3& in, const dvec3& out,
+                        const dvec3& normal);
+
 /// Relates the components along s and p of the field that a patch scatters to those of the incident field,
 /// without S, the pattern and the distance. The matrix is unitary, so that the patch keeps the power of any
 /// incident polarization exactly.

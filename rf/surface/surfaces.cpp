@@ -115,6 +115,10 @@ RadioSurface radio_surface(const scene::RadioMaterial& material, double frequenc
   surface.back = reversed(surface.front);
   surface.roughness_m = material.roughness_m;
   surface.scattering = diffuse_scattering(material, material_name);
+  if (!(material.deviation_m >= 0.0))
+    throw_user_error("material '{}', deviation_m: expected 0 m or more, found {}", material_name,
+                     material.deviation_m);
+  surface.scattering.coefficient *= scattered_share(material.deviation_m, speed_of_light / frequency_hz);
   if (material.windows) surface.windows = windows_of(*material.windows, frequency_hz, material_name);
   return surface;
 }

@@ -47,7 +47,7 @@ struct RadioSurfaceOf {
   std::vector<DielectricLayerOf<R>> back;  ///< the layers as seen from the other side
   bool foliage = false;                    ///< true: no wall, but the boundary of an attenuating volume
   R roughness_m = 0.0;                     ///< rms height of either face, m
-  DiffuseScatteringOf<R> scattering;       ///< of either face
+  DiffuseScatteringOf<R> scattering;       ///< of either face, at this frequency
   WindowSurfaceOf<R> windows;
 
   /// Returns whether no layer of the wall beside its windows is a half-space.

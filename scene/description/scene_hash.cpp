@@ -68,7 +68,7 @@ void feed(Feeder& feeder, const SurfaceClutter& clutter) {
 
 void feed(Feeder& feeder, const RadioMaterial& radio) {
   const auto& [layers, foliage, scattering_coefficient, pattern, pattern_exponent, backscatter_exponent,
-               backscatter_share, cross_polarization, roughness_m, clutter, windows] = radio;
+               backscatter_share, cross_polarization, roughness_m, deviation_m, clutter, windows] = radio;
   if (foliage) {
     const auto& [attenuation_db_per_m] = *foliage;
     feeder.values(static_cast<uint32_t>(attenuation_db_per_m.has_value()),
@@ -77,6 +77,7 @@ void feed(Feeder& feeder, const RadioMaterial& radio) {
   feed(feeder, layers);
   feeder.values(scattering_coefficient, static_cast<uint32_t>(pattern), pattern_exponent,
                 backscatter_exponent, backscatter_share, cross_polarization, roughness_m);
+  if (deviation_m > 0.0) feeder.values(deviation_m);
   if (clutter) feed(feeder, *clutter);
   if (!windows) return;
   const auto& [share, panes] = *windows;

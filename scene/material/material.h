@@ -90,6 +90,9 @@ struct RadioMaterial {
   double backscatter_share = 0.5;     ///< 1 - Lambda, the part of the energy in the backscattering lobe
   double cross_polarization = 0.0;    ///< K_x in [0, 1]
   double roughness_m = 0.0;           ///< rms height
+  /// Rms distance of the real surface from the plane of its facet, m, below which wavelengths see the plane:
+  /// S falls with the wavelength as rf::scattered_share() does. 0: S holds at all frequencies.
+  double deviation_m = 0.0;
   /// The power that the surface, or the outside of foliage, sends back to radars; empty: that which
   /// `scattering_coefficient` scatters back.
   std::optional<SurfaceClutter> clutter;

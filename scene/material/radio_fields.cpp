@@ -23,16 +23,18 @@ const Keys medium_keys{"itu",         "conductor", "rows",   "a",      "b",
                        "c",           "d",         "min_hz", "max_hz", "relative_permittivity",
                        "conductivity"};
 const Keys layer_keys = medium_keys + Keys{"thickness_m", "extrapolate"};
-const Keys material_keys = Keys{"foliage", "layers", "windows"} + layer_keys + Keys{"scattering_coefficient",
-                                                                                    "pattern",
-                                                                                    "pattern_exponent",
-                                                                                    "backscatter_exponent",
-                                                                                    "backscatter_share",
-                                                                                    "cross_polarization",
-                                                                                    "roughness_m",
-                                                                                    "clutter",
-                                                                                    "reflectance_905nm",
-                                                                                    "reflectance_1550nm"};
+const Keys material_keys = Keys{"foliage", "layers", "windows"} + layer_keys +
+                           Keys{"scattering_coefficient",
+                                "pattern",
+                                "pattern_exponent",
+                                "backscatter_exponent",
+                                "backscatter_share",
+                                "cross_polarization",
+                                "roughness_m",
+                                "deviation_m",
+                                "clutter",
+                                "reflectance_905nm",
+                                "reflectance_1550nm"};
 
 std::optional<double> number(const FieldMap& map, std::string_view key, double min, double max,
                              const std::string& expected) {
@@ -267,8 +269,10 @@ void read_surface(const FieldMap& map, std::optional<RadioMaterial>& radio) {
   const auto back_share = unit_interval(map, "backscatter_share");
   const auto cross_polarization = unit_interval(map, "cross_polarization");
   const auto roughness = number(map, "roughness_m", 0.0, 10.0, "an rms height from 0 to 10 m");
+  const auto deviation =
+      number(map, "deviation_m", 0.0, 10.0, "an rms distance of the surface from its facet from 0 to 10 m");
   const bool any_given = scattering || pattern || pattern_exponent || back_exponent || back_share ||
-                         cross_polarization || roughness;
+                         cross_polarization || roughness || deviation;
   if (!any_given) return;
   if (!radio || radio->foliage)
     map.field().refuse(
@@ -281,6 +285,7 @@ void read_surface(const FieldMap& map, std::optional<RadioMaterial>& radio) {
   if (back_share) radio->backscatter_share = *back_share;
   if (cross_polarization) radio->cross_polarization = *cross_polarization;
   if (roughness) radio->roughness_m = *roughness;
+  if (deviation) radio->deviation_m = *deviation;
 }
 
 /// Reads the numbers of a clutter model, of which a form has those that it needs.

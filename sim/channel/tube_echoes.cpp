@@ -25,6 +25,7 @@ rf::TubeOptions options_of(const Experiment& experiment, const ChannelConfig& co
   options.roughness = plan.roughness.on;
   if (plan.gas.on || plan.rain.on || plan.fog.on)
     options.air_db_per_km = radar_air_db_per_km(experiment.scenario.environment, config.carrier_hz);
+  options.seed = experiment.scenario.seed;
   options.bandwidth_hz = std::max(1.0, config.subcarriers * config.subcarrier_spacing_hz);
   return options;
 }

@@ -9,6 +9,7 @@
 
 #include "core/text.h"
 #include "core/units.h"
+#include "rf/surface/roughness.h"
 
 namespace greatx::sim {
 namespace {
@@ -55,7 +56,8 @@ double value_of(const FitParameter& parameter, const scene::Material& material, 
     case FitProperty::roughness:
       return radio.roughness_m;
     case FitProperty::scattering:
-      return radio.scattering_coefficient;
+      return radio.scattering_coefficient *
+             rf::scattered_share(radio.deviation_m, speed_of_light / carrier_hz);
     case FitProperty::cross_polarization:
       return radio.cross_polarization;
     default:
@@ -92,6 +94,7 @@ void set_value(const FitParameter& parameter, double value, double carrier_hz, c
       break;
     case FitProperty::scattering:
       radio.scattering_coefficient = value;
+      radio.deviation_m = 0.0;  // the value is that at the carrier
       break;
     case FitProperty::cross_polarization:
       radio.cross_polarization = value;

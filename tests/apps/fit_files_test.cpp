@@ -149,7 +149,7 @@ TEST_F(FitFiles, MaterialsReadAsTheyWereWritten) {
   wall.scattering_coefficient = 1.0 / 3.0;
   wall.pattern = scene::ScatteringPattern::backscattering;
   wall.pattern_exponent = 7.0, wall.backscatter_exponent = 2.0, wall.backscatter_share = 0.3;
-  wall.cross_polarization = 0.1, wall.roughness_m = 0.0021;
+  wall.cross_polarization = 0.1, wall.roughness_m = 0.0021, wall.deviation_m = 0.0033;
   wall.clutter = scene::SurfaceClutter{scene::ClutterForm::constant_gamma, -17.0, 0.0, 3.0, 0.0, -8.0};
   scene::RadioMaterial half_space;
   half_space.layers = {{{"fitted", {{5.24, 0.0, 0.0462, 0.7822, 1e9, 1e11}}, false}, 0.0}};

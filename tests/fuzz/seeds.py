@@ -168,7 +168,7 @@ RADIO = {
             "pattern": "directive",
             "pattern_exponent": 4,
         },
-        "itu_*": {"thickness_m": 0.3, "roughness_m": 0.001, "cross_polarization": 0.1},
+        "itu_*": {"thickness_m": 0.3, "roughness_m": 0.001, "deviation_m": 0.003, "cross_polarization": 0.1},
         "facade": {
             "itu": "brick",
             "windows": {

@@ -445,6 +445,28 @@ TEST(Roughness, Figures) {
   EXPECT_NEAR(roughness_factor(RoughnessModel::ament, g), std::exp(-0.5 * g * g), 1e-15);
 }
 
+/// What the mirror direction keeps and what is scattered is all the power. sqrt(1 - 1/e) at g = 1.
+TEST(Roughness, WhatASurfaceScattersByItsDeviation) {
+  constexpr double deviation_m = 3e-3;
+  const double one_hz = speed_of_light / (4.0 * pi * deviation_m);
+  EXPECT_NEAR(scattered_share(deviation_m, speed_of_light / one_hz), 0.7950600976206501, 1e-15);
+  for (const double hz : {1e8, 1e9, 2e9, 6e9, 28e9}) {
+    const double wavelength_m = speed_of_light / hz, g = roughness_parameter(deviation_m, 1.0, wavelength_m),
+                 share = scattered_share(deviation_m, wavelength_m);
+    EXPECT_NEAR(share * share + std::pow(roughness_factor(RoughnessModel::ament, g), 2), 1.0, 1e-15) << hz;
+    const double h = 1e-5 * hz, ahead = scattered_share(deviation_m, speed_of_light / (hz + h)),
+                 behind = scattered_share(deviation_m, speed_of_light / (hz - h));
+    EXPECT_NEAR(scattered_share_slope(deviation_m, hz) * hz, (ahead - behind) / (2.0 * h) * hz, 1e-9) << hz;
+  }
+  EXPECT_NEAR(scattered_share(1e-9, 1.0) / (4.0 * pi * 1e-9), 1.0, 1e-12);  // g where it is small
+  EXPECT_EQ(scattered_share(deviation_m, speed_of_light / 77e9), 1.0);
+  EXPECT_EQ(scattered_share(0.0, 0.1), 1.0);  // materials without a deviation scatter at all frequencies
+  EXPECT_EQ(scattered_share_slope(0.0, 1e9), 0.0);
+  EXPECT_EQ(scattered_share(1e-200, 0.1), 0.0);  // g^2 is too small for a number, and for a slope
+  EXPECT_EQ(scattered_share_slope(1e-200, 3e9), 0.0);
+  EXPECT_EQ(scattered_share(10.0, 1e-3), 1.0);
+}
+
 TEST(Roughness, SmoothGrazingAndVeryRough) {
   for (const RoughnessModel model : {RoughnessModel::ament, RoughnessModel::miller_brown}) {
     EXPECT_EQ(roughness_factor(model, roughness_parameter(0.0, 1.0, 0.01)), 1.0);

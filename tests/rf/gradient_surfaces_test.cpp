@@ -159,6 +159,7 @@ TEST(PathSlopes, RoughSurfacesThatScatter) {
       Link link = ground_link(thick, 0.4);
       radio_of(link).roughness_m = height;
       radio_of(link).scattering_coefficient = 0.35;
+      radio_of(link).deviation_m = 0.003;
       radio_of(link).cross_polarization = 0.2;
       link.effects.roughness = link.effects.scattering = true;
       link.effects.roughness_model = model;
@@ -214,6 +215,7 @@ TEST(PathSlopes, ScatteringPatches) {
       material.radio->pattern = pattern;
       material.radio->backscatter_share = 0.3;
       material.radio->roughness_m = 0.004;
+      material.radio->deviation_m = 0.003;
     }
     link.effects.scattering = link.effects.roughness = true;
     link.solve = over({{InteractionType::scattering, 4, 7}}, {{3.1, 1.2, 0.0}}, 0.25);

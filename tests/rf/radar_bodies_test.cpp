@@ -114,6 +114,72 @@ TEST(BodyMaterials, LobesAreAsWideAsTheNormalsTurn) {
   expect({{"person", "man"}, {"person", "woman"}, {"person", "child"}}, {"cloth", "skin", "hair", "face"});
 }
 
+/// Returns the mean square distance, m^2, by area, between the triangles of some materials and the surfaces
+/// whose normals are those by which they are shaded. Such a surface is h = sum of c_ij b_i b_j over a
+/// triangle with the barycentric coordinates b, so that it passes through the corners, and c_ij = (n_j - n_i)
+/// . e/2 gives it the slopes of both normals along the side e from i to j. The mean of (b_i b_j)^2 is 1/90,
+/// that of b_i b_j b_i b_k 1/180, and that of b_i b_j 1/12 (Dirichlet's integral).
+double square_deviation(const std::vector<std::pair<const char*, const char*>>& bodies,
+                        const std::vector<std::string>& prefixes, double& deviation_m) {
+  double area = 0.0, sum = 0.0;
+  for (const auto& [kind, variant] : bodies) {
+    const scene::Scene scene = generated_body(kind, variant);
+    for (const scene::Primitive& primitive : scene.primitives) {
+      const scene::Material& material = scene.materials[primitive.material];
+      if (std::none_of(prefixes.begin(), prefixes.end(),
+                       [&](const std::string& prefix) { return material.name.starts_with(prefix); }))
+        continue;
+      deviation_m = material.radio->deviation_m;
+      for (uint32_t i = primitive.first_index; i < primitive.first_index + primitive.index_count; i += 3) {
+        std::array<dvec3, 3> corner, normal;
+        for (uint32_t k = 0; k < 3; ++k) {
+          corner[k] = dvec3(scene.positions[scene.indices[i + k]]);
+          normal[k] = dvec3(scene.normals[scene.indices[i + k]]);
+        }
+        double squares = 0.0, all = 0.0;
+        for (uint32_t k = 0; k < 3; ++k) {
+          const uint32_t next = (k + 1) % 3;
+          const double c = 0.5 * glm::dot(normal[next] - normal[k], corner[next] - corner[k]);
+          squares += c * c, all += c;
+        }
+        const double size = 0.5 * glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
+        area += size;
+        sum += size * (squares / 90.0 + (all * all - squares) / 180.0 - all * all / 144.0);
+      }
+    }
+  }
+  return sum / area;
+}
+
+/// The deviations below which waves see flat facets are those of the meshes, within 30 %.
+TEST(BodyMaterials, DeviationsAreThoseOfTheMeshes) {
+  const auto expect = [](const std::vector<std::pair<const char*, const char*>>& bodies,
+                         const std::vector<std::string>& prefixes) {
+    double deviation_m = 0.0;
+    const double rms = std::sqrt(square_deviation(bodies, prefixes, deviation_m));
+    EXPECT_NEAR(deviation_m / rms, 1.0, 0.3) << prefixes[0] << ": " << rms;
+  };
+  expect({{"vehicle", "saloon"}, {"vehicle", "hatchback"}, {"vehicle", "suv"}}, {"car_paint"});
+  expect({{"vehicle", "saloon"}, {"vehicle", "van"}}, {"lamp_cover"});
+  expect({{"person", "man"}, {"person", "woman"}, {"person", "child"}}, {"cloth", "skin", "hair", "face"});
+}
+
+/// Bodies scatter the same at 28 and 77 GHz, and are mirrors at long waves: S falls with the frequency there.
+TEST(BodyMaterials, AreSmoothForLongWaves) {
+  const scene::Scene saloon = generated_body("vehicle", "saloon");
+  for (uint32_t i = 0; i < saloon.materials.size(); ++i) {
+    const scene::Material& material = saloon.materials[i];
+    if (!material.name.starts_with("car_paint")) continue;
+    const auto coefficient = [&](double hz) {
+      return radio_surface(*material.radio, hz, material.name).scattering.coefficient;
+    };
+    EXPECT_NEAR(coefficient(77e9), 0.99, 1e-9);
+    EXPECT_NEAR(coefficient(28e9), 0.99, 1e-3);
+    EXPECT_LT(coefficient(2e9), 0.4);
+    EXPECT_NEAR(coefficient(1e9) / coefficient(2e9), 0.5, 0.01);  // sigma/lambda where it is small
+  }
+}
+
 Turntable table_for(const scene::Scene& body, double carrier_hz) {
   const dvec3 size = body.reach_of(0).size();
   Turntable table;

@@ -59,6 +59,7 @@ TEST(RadioMaterial, ExtensionWithEveryField) {
                                                 {"backscatter_share", 0.25},
                                                 {"cross_polarization", 0.1},
                                                 {"roughness_m", 0.002},
+                                                {"deviation_m", 0.003},
                                                 {"clutter", "snow"},
                                                 {"reflectance_905nm", 0.4},
                                                 {"reflectance_1550nm", 0.35}}))
@@ -75,6 +76,7 @@ TEST(RadioMaterial, ExtensionWithEveryField) {
   EXPECT_EQ(material.radio->backscatter_share, 0.25);
   EXPECT_EQ(material.radio->cross_polarization, 0.1);
   EXPECT_EQ(material.radio->roughness_m, 0.002);
+  EXPECT_EQ(material.radio->deviation_m, 0.003);
   EXPECT_EQ(material.radio->clutter, clutter_called("snow"));
   EXPECT_EQ(material.reflectance_905nm, 0.4f);
   EXPECT_EQ(material.reflectance_1550nm, 0.35f);
@@ -195,8 +197,8 @@ TEST(RadioMaterial, FoliageErrors) {
   refuse({{"foliage", {{"attenuation_db_per_m", -0.1}}}},
          {".foliage.attenuation_db_per_m", "from 0 to 1000", "-0.1"});
   refuse({{"foliage", {{"db_per_m", 1}}}}, {".foliage", "unknown key 'db_per_m'"});
-  for (const char* key :
-       {"itu", "thickness_m", "layers", "scattering_coefficient", "roughness_m", "extrapolate"})
+  for (const char* key : {"itu", "thickness_m", "layers", "scattering_coefficient", "roughness_m",
+                          "deviation_m", "extrapolate"})
     refuse({{"foliage", "weissberger"}, {key, 1}}, {"no surface", fmt::format("'{}'", key)});
 }
 
@@ -234,6 +236,7 @@ TEST(RadioMaterial, EveryMemberCountsInEqualityAndHash) {
                                     [](Material& m) { m.radio->backscatter_share = 0.3; },
                                     [](Material& m) { m.radio->cross_polarization = 0.3; },
                                     [](Material& m) { m.radio->roughness_m = 0.3; },
+                                    [](Material& m) { m.radio->deviation_m = 0.3; },
                                     [](Material& m) { m.radio->clutter = clutter_called("soil"); },
                                     [](Material& m) { m.radio->clutter = clutter_called("snow"); },
                                     [](Material& m) { m.radio->clutter = clutter_called("water"); },
@@ -310,6 +313,8 @@ TEST(RadioMaterial, ExtensionErrorsNameFileMaterialAndField) {
   refuse({{"itu", "concrete"}, {"pattern", "spiky"}}, {"pattern", "spiky", "lambertian"});
   refuse({{"itu", "concrete"}, {"pattern_exponent", 2.5}}, {"pattern_exponent", "whole number"});
   refuse({{"itu", "concrete"}, {"roughness_m", -1}}, {"roughness_m"});
+  refuse({{"itu", "concrete"}, {"deviation_m", -1}}, {"deviation_m", "from 0 to 10 m", "-1"});
+  refuse({{"itu", "concrete"}, {"deviation_m", 11}}, {"deviation_m", "from 0 to 10 m", "11"});
   refuse({{"itu", "concrete"}, {"clutter", "lawn"}}, {"clutter", "one of asphalt", "'lawn'"});
   refuse({{"itu", "concrete"}, {"clutter", {{"angle_db", 3}}}}, {"clutter", "one of level_db, gamma_db"});
   refuse({{"itu", "concrete"}, {"clutter", {{"level_db", -30}, {"sea_state", 1}}}}, {"one of level_db"});

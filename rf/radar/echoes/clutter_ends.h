@@ -17,6 +17,7 @@ struct ClutterPatches::Ends {
   const ClutterSight& sight;
   dmat3 turn{1.0};                       ///< local axes from those of the transmitter
   double cell_rad = 0.1;                 ///< width of a resolution cell
+  std::optional<TurnedElement> sender;   ///< the transmitter's; empty if its field is kept by cells
   std::optional<TurnedElement> element;  ///< the receiver's; empty if it is the transmitter's
 };
 

@@ -36,6 +36,15 @@ std::complex<float> gaussian(uint64_t bits) {
   return {re, im};
 }
 
+/// Turns an axis across the wave that comes along `out` into one across that which leaves against `home`:
+/// what sends to the receiver within an uneven facet are the places that are mirrors for both ends. Their
+/// normal is halfway between both, whatever the normal of the facet is. An axis stays itself if both ends are
+/// one.
+dvec3 mirrored_axis(const dvec3& axis, const dvec3& out, const dvec3& home) {
+  const dvec3 halfway = out + home;  // both have a part against the normal of the facet, so it is not 0
+  return axis - 2.0 * glm::dot(halfway, axis) / glm::dot(halfway, halfway) * halfway;
+}
+
 /// Holds the sides of a polygon, for testing many points.
 struct Outline {
   std::array<HalfPlane, Polygon::capacity> sides;
@@ -90,30 +99,45 @@ ClutterPatches::ClutterPatches(const scene::Scene& scene, const RadioSurfaces& s
                                const EchoEnd* receiver)
     : scene_(scene),
       options_(options),
-      table_(scene, surfaces),
-      cells_(options, transmitter.pattern, transmitter.slant),
+      table_(scene, surfaces, receiver != nullptr),
       surfaces_(surfaces),
+      transmitter_pattern_(transmitter.pattern),
       receiver_pattern_(receiver != nullptr ? receiver->pattern : transmitter.pattern),
+      transmitter_slant_(transmitter.slant),
       receiver_slant_(receiver != nullptr ? receiver->slant : transmitter.slant),
       monostatic_(receiver == nullptr),
       wavelength_m_(surfaces.wavelength_m()),
       side_m_(options.diffuse_patch_m > 0.0 ? options.diffuse_patch_m
-                                            : 0.25 * speed_of_light / options.waveform.bandwidth_hz()) {}
+                                            : 0.25 * speed_of_light / options.waveform.bandwidth_hz()) {
+  GREATX_CHECK(!options.scatterer_echoes || !monostatic_, "scatterers are echoes of two ends");
+  if (!options.scatterer_echoes) cells_.emplace(options, transmitter.pattern, transmitter.slant);
+  if (options.diffuse_instances.empty()) return;
+  asked_.assign(scene.instances.size(), false);
+  for (const uint32_t instance : options.diffuse_instances) asked_.at(instance) = true;
+}
 
 Complex ClutterPatches::amplitude(const PosedFacet& facet, const Leg& out, const Leg& home, double side,
                                   uint64_t draw) const {
   const double towards = glm::dot(out.in, facet.normal);
-  const dvec3 normal = towards < 0.0 ? facet.normal : -facet.normal;
+  const bool from_front = towards < 0.0;
+  const dvec3 normal = from_front ? facet.normal : -facet.normal;
   const dvec3 h_out = s_axis(out.in, normal), v_out = glm::cross(out.in, h_out);
   const Complex sent_h = out.field.along(h_out), sent_v = out.field.along(v_out);
-  double sine = std::abs(towards);
   Complex heard_h = sent_h, heard_v = sent_v;
-  if (&home != &out) {
-    sine = 0.5 * (sine + std::abs(glm::dot(home.in, normal)));
-    const dvec3 h_home = s_axis(home.in, normal);
-    heard_h = home.field.along(h_home), heard_v = home.field.along(glm::cross(home.in, h_home));
+  ClutterTable::Roots root;
+  if (!monostatic_ && table_.has_lobe(facet.material)) {
+    root = table_.lobe(facet.material, from_front, out.in, -home.in, normal);
+    heard_h = home.field.along(mirrored_axis(h_out, out.in, home.in));
+    heard_v = home.field.along(mirrored_axis(v_out, out.in, home.in));
+  } else {
+    double sine = std::abs(towards);
+    if (&home != &out) {
+      sine = 0.5 * (sine + std::abs(glm::dot(home.in, normal)));
+      const dvec3 h_home = s_axis(home.in, normal);
+      heard_h = home.field.along(h_home), heard_v = home.field.along(glm::cross(home.in, h_home));
+    }
+    root = table_.at(facet.material, from_front, sine);
   }
-  const ClutterTable::Roots root = table_.at(facet.material, towards < 0.0, sine);
   const Complex co = double(root.hh) * sent_h * heard_h + double(root.vv) * sent_v * heard_v,
                 cross = double(root.hv) * (sent_h * heard_v + sent_v * heard_h);
   const std::complex<float> g = gaussian(mixed(draw + 1)), g_cross = gaussian(mixed(draw + 2));
@@ -191,15 +215,15 @@ void ClutterPatches::cover(const ClutterParts::Part& part, const Polygon& piece,
   const double side = side_of(facet, piece, from, to, scatterers_in_a_cell, ends);
   uint32_t tube = part.tube;
   CellField field;
-  if (tube != ClutterParts::of_a_beam) field = cells_.turned(tube, ends.turn);
+  if (cells_ && tube != ClutterParts::of_a_beam) field = cells_->turned(tube, ends.turn);
   spread(part.facet, piece, side, world, out, [&](const dvec3& point, uint64_t draw) {
-    if (part.tube == ClutterParts::of_a_beam) {  // a long facet may reach over several cells
+    if (cells_ && part.tube == ClutterParts::of_a_beam) {  // a long facet may reach over several cells
       const uint32_t at = ends.sight.grid.tube_at(point - from);
       if (at == RayGrid::outside) return;
-      if (at != tube) tube = at, field = cells_.turned(at, ends.turn);
+      if (at != tube) tube = at, field = cells_->turned(at, ends.turn);
     }
     Leg there(from, point);
-    there.field = field.towards(there.in);
+    there.field = cells_ ? field.towards(there.in) : field_towards(*ends.sender, there.in);
     Complex sent;
     if (ends.element) {
       Leg home(to, point);
@@ -255,7 +279,7 @@ void ClutterPatches::cover_over(const ClutterParts::Part& part, const Polygon& p
       !hidden(facet, piece, over.image, radar, ends, [&](const dvec3& point) { return over.share(point); });
   if (!both && !once) return;
   const double side = side_of(facet, piece, over.image, once ? radar : over.image, mirrored_in_a_cell, ends);
-  const CellField field = cells_.turned(part.tube, ends.turn);
+  const CellField field = cells_->turned(part.tube, ends.turn);
   uint32_t direct_tube = RayGrid::outside;
   CellField direct_field;
   spread(part.facet, piece, side, world, out, [&](const dvec3& point, uint64_t draw) {
@@ -267,7 +291,7 @@ void ClutterPatches::cover_over(const ClutterParts::Part& part, const Polygon& p
     if (tube == RayGrid::outside) return;
     const dvec3 lit = facet.distance(radar) > 0.0 ? facet.normal : -facet.normal;
     if (!ends.sight.tracer.clear(ends.sight.view, EchoTracer::lifted(point, lit), radar, part.facet)) return;
-    if (tube != direct_tube) direct_tube = tube, direct_field = cells_.turned(tube, ends.turn);
+    if (tube != direct_tube) direct_tube = tube, direct_field = cells_->turned(tube, ends.turn);
     Leg home(radar, point);
     home.field = direct_field.towards(home.in);
     // The way out directly and home over the mirror is the reciprocal of this one.
@@ -310,8 +334,10 @@ double ClutterPatches::cell_rad(const EchoMotion& motion) const {
 FoundPatches ClutterPatches::find(const ClutterParts& parts, const FacetWorld& world,
                                   const ClutterSight& sight, const Pose& transmitter, const Pose& receiver,
                                   const EchoMotion& motion) const {
-  Ends ends{transmitter, receiver, sight, glm::mat3_cast(transmitter.orientation), 0.0, std::nullopt};
+  Ends ends{transmitter, receiver, sight, glm::mat3_cast(transmitter.orientation), 0.0, {}, {}};
   ends.cell_rad = cell_rad(motion);
+  if (!cells_)
+    ends.sender.emplace(transmitter_pattern_, std::span(&transmitter_slant_, 1), transmitter.orientation);
   if (!monostatic_)
     ends.element.emplace(receiver_pattern_, std::span(&receiver_slant_, 1), receiver.orientation);
   return timed(scatterers(parts, world, ends), world, ends, motion);

@@ -12,10 +12,11 @@
 // scatterer sends back
 //   a = lambda/((4 pi)^(3/2) r1 r2) sqrt(A) F_r . [g sqrt(sigma0_hh) h h + g sqrt(sigma0_vv) v v
 //       + g' sqrt(sigma0_hv) (h v + v h)] . F_t,
-// with independent circular Gaussian draws g and g' of mean power 1, the area A of a square, and the fields
-// F of both elements. The echo of a resolution cell is the coherent sum of its scatterers: its amplitude is
-// that of Rayleigh, it stays as long as the aspect stays, and it changes with the aspect and the carrier as
-// the sum of as many points does.
+// with independent circular Gaussian draws g and g' of mean power 1, the area A of a square, and the fields F
+// of both elements. Between two ends, a material that scatters by its lobe (ClutterTable::lobe()) has h and v
+// of the receiver from those of the transmitter, by the mirror that sends the wave there. The echo of a
+// resolution cell is the coherent sum of its scatterers: its amplitude is that of Rayleigh, it stays as long
+// as the aspect stays, and it changes with the aspect and the carrier as the sum of as many points does.
 //
 // A tube of a monostatic radar that meets a mirror first lights scatterers that the mirror shows. They send
 // back over the mirror, and, where the radar sees them itself, directly; and what reaches them directly goes
@@ -86,7 +87,8 @@ struct ClutterSight {
 
 struct FoundPatches {
   PatchList list;
-  /// Scatterers that turn too fast for a constant rate within a block (rotors).
+  /// Scatterers that turn too fast for a constant rate within a block (rotors), or all of them
+  /// (EchoOptions::scatterer_echoes).
   std::vector<Scatterer> fast;
 };
 
@@ -96,7 +98,10 @@ class ClutterPatches {
   ClutterPatches(const scene::Scene& scene, const RadioSurfaces& surfaces, const EchoOptions& options,
                  const EchoEnd& transmitter, const EchoEnd* receiver);
 
-  bool rough(uint32_t material) const { return table_.rough(material); }
+  bool rough(uint32_t facet) const {
+    const scene::Facet& one = scene_.facets[facet];
+    return table_.rough(one.material) && (asked_.empty() || asked_[one.instance]);
+  }
   /// Returns the patches of `parts`. The bytes do not depend on the number of threads.
   FoundPatches find(const ClutterParts& parts, const FacetWorld& world, const ClutterSight& sight,
                     const Pose& transmitter, const Pose& receiver, const EchoMotion& motion) const;
@@ -149,10 +154,11 @@ class ClutterPatches {
   const scene::Scene& scene_;
   EchoOptions options_;
   ClutterTable table_;
-  ElementCells cells_;
+  std::vector<bool> asked_;            ///< [instances] those that scatter; empty: all
+  std::optional<ElementCells> cells_;  ///< absent if scatterers take the field of the element itself
   const RadioSurfaces& surfaces_;
-  ElementPattern receiver_pattern_;
-  double receiver_slant_ = 0.0;
+  ElementPattern transmitter_pattern_, receiver_pattern_;
+  double transmitter_slant_ = 0.0, receiver_slant_ = 0.0;
   bool monostatic_;
   double wavelength_m_, side_m_;
 };

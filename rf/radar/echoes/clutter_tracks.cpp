@@ -140,6 +140,10 @@ FoundPatches ClutterPatches::timed(std::vector<Scatterer> all, const FacetWorld&
   const uint32_t slots = static_cast<uint32_t>(motion.slot_start_s.size());
   const double frame_s = std::max(motion.frame_s(), options_.waveform.interval_s);
   FoundPatches found;
+  if (options_.scatterer_echoes) {
+    found.fast = std::move(all);
+    return found;
+  }
   std::vector<uint32_t> blocks(all.size());
   {
     const double step_s = 0.5 * frame_s;

@@ -191,7 +191,7 @@ void FacetEchoes::solve_behind(uint32_t facet, const Polygon& part, double farth
 
 void FacetEchoes::keep_rough(uint32_t facet, const Polygon& part, Job& job) const {
   const PosedFacet& posed = scene_.world.facet(facet);
-  if (scene_.clutter == nullptr || !scene_.clutter->rough(posed.material)) return;
+  if (scene_.clutter == nullptr || !scene_.clutter->rough(facet)) return;
   if (posed.distance(ends_.source) * posed.distance(ends_.receiver) <= 0.0) return;
   job.chain[0] = facet;
   if (monostatic_)

@@ -245,7 +245,7 @@ uint32_t TubeEchoes::omitted_sides(const Job& job, uint32_t bounce, const PosedF
 }
 
 bool TubeEchoes::scatters(uint32_t bounce, uint32_t facet) const {
-  if (clutter_ == nullptr || !clutter_->rough(world_.facet(facet).material)) return false;
+  if (clutter_ == nullptr || !clutter_->rough(facet)) return false;
   return bounce == 0 || (bounce == 1 && monostatic_ && options_.max_bounces > 1);
 }
 

@@ -22,6 +22,11 @@ struct PosedTarget {
 /// at the wavelength.
 double far_distance_m(const PosedTarget& target, double wavelength_m);
 
+/// Returns the echoes for directions in world axes, which point away from the target. Times the square of
+/// far_distance_m(), their transfers are entries of scattering matrices.
+std::vector<TubeEcho> far_echoes(TubeTargets& tubes, scene::GpuScene& scene, gpu::TickRing& ring,
+                                 const PosedTarget& target, const Aspect& aspect, double carrier_hz);
+
 /// Returns the matrix for directions in world axes, on the bases (theta, phi) of the world at these
 /// directions, which point away from the target.
 ScatterMatrix far_field(TubeTargets& tubes, scene::GpuScene& scene, gpu::TickRing& ring,

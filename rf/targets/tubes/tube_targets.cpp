@@ -18,6 +18,7 @@ constexpr double margin = 0.05;
 constexpr double tubes_beside = 3.0;
 constexpr double widest_tube = 0.25;  ///< rad
 constexpr uint32_t least_tubes = 100;
+constexpr uint32_t most_squares = 32'768;  ///< of a box; EchoOptions::max_echoes leaves room for all of them
 
 EchoEnd end_of(const std::string& name, uint32_t polarization, uint32_t body) {
   EchoEnd end;
@@ -27,7 +28,8 @@ EchoEnd end_of(const std::string& name, uint32_t polarization, uint32_t body) {
   return end;
 }
 
-EchoOptions options_of(const TubeOptions& tubes) {
+/// `scattering`: the instances that scatter, one scatterer in each square of `square_m`.
+EchoOptions options_of(const TubeOptions& tubes, std::vector<uint32_t> scattering, double square_m) {
   EchoOptions options;
   options.max_bounces = tubes.max_bounces;
   options.moving_targets = false;  // the view is that of a target, with all its tubes
@@ -36,6 +38,11 @@ EchoOptions options_of(const TubeOptions& tubes) {
   options.air_db_per_km = tubes.air_db_per_km;
   options.roughness = tubes.roughness;
   options.bandwidth_hz = tubes.bandwidth_hz;
+  options.diffuse = !scattering.empty();
+  options.diffuse_instances = std::move(scattering);
+  options.diffuse_patch_m = square_m;
+  options.scatterer_echoes = true;
+  options.seed = tubes.seed;
   return options;
 }
 
@@ -72,11 +79,26 @@ TubeTargets::TubeTargets(scene::GpuScene& scene, const RadioSurfaces& surfaces, 
                          uint32_t transmitter_body, uint32_t receiver_body, const TubeOptions& options)
     : scene_(scene.scene()), wavelength_m_(surfaces.wavelength_m()), options_(options) {
   // Both ends are always given, so that ends at one place with other polarizations are treated alike.
+  const EchoOptions echoes = options_of(options, scattering(surfaces), square_m());
   for (uint32_t received = 0; received < 2; ++received)
     for (uint32_t sent = 0; sent < 2; ++sent)
       finders_[2 * received + sent] =
           std::make_unique<EchoFinder>(scene, surfaces, end_of(name, sent, transmitter_body),
-                                       end_of(name, received, receiver_body), options_of(options));
+                                       end_of(name, received, receiver_body), echoes);
+}
+
+std::vector<uint32_t> TubeTargets::scattering(const RadioSurfaces& surfaces) const {
+  std::vector<uint32_t> instances;
+  for (uint32_t i = 0; i < scene_.instances.size(); ++i)
+    if (std::ranges::any_of(options_.instances, [&](uint32_t target) { return belongs(i, target); }))
+      instances.push_back(i);
+  const bool any = std::ranges::any_of(scene_.facets, [&](const scene::Facet& facet) {
+    const RadioSurface& surface = surfaces.surface(facet.material);
+    return !surface.foliage && surface.scattering.coefficient > 0.0 &&
+           std::ranges::binary_search(instances, facet.instance);
+  });
+  if (!any) instances.clear();
+  return instances;
 }
 
 bool TubeTargets::belongs(uint32_t instance, uint32_t target) const {
@@ -85,12 +107,28 @@ bool TubeTargets::belongs(uint32_t instance, uint32_t target) const {
          (body != 0 && scene_.owner_of(scene_.instances[instance].body) == scene_.owner_of(body));
 }
 
-TubeTargets::Search TubeTargets::view_of(uint32_t target, const dvec3& transmitter,
-                                         std::span<const Pose> bodies) const {
+scene::Bounds TubeTargets::box_of(uint32_t target) const {
   const scene::Instance& instance = scene_.instances[target];
   const uint32_t body = scene_.owner_of(instance.body);
   scene::Bounds box = instance.body == body ? instance.bounds : scene::Bounds{};
   if (body != 0) box.add(scene_.reach_of(body));
+  return box;
+}
+
+double TubeTargets::square_m() const {
+  double largest_m2 = 0.0;
+  for (const uint32_t target : options_.instances) {
+    const dvec3 size = box_of(target).size();
+    largest_m2 = std::max(largest_m2, 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x));
+  }
+  const uint32_t most = std::clamp(options_.budget, least_tubes, most_squares);
+  return std::max(options_.square_m, std::sqrt(largest_m2 / most));
+}
+
+TubeTargets::Search TubeTargets::view_of(uint32_t target, const dvec3& transmitter,
+                                         std::span<const Pose> bodies) const {
+  const uint32_t body = scene_.owner_of(scene_.instances[target].body);
+  const scene::Bounds box = box_of(target);
   const Pose pose = body == 0 ? Pose{} : bodies[body];
   const double distance_m =
       std::max(glm::length(pose.apply(box.center()) - transmitter) - 0.5 * glm::length(box.size()), 1e-3);

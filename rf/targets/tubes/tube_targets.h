@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Computes the echoes of targets between two points from their surfaces, with the ray tubes and the physical
-// optics of radars (docs/radar_echoes.md), for both polarizations at each end.
+// Computes the echoes of targets between two points from their surfaces, with the ray tubes, the physical
+// optics and the scatterers of radars (docs/radar_echoes.md, docs/clutter.md), for both polarizations at each
+// end. A body has the cross-section that a radar sees (docs/radar_bodies.md), but for what edges add beyond
+// physical optics, what waves bring that pass through panes, and what comes back over a mirror.
 #pragma once
 
 #include <array>
@@ -27,6 +29,10 @@ struct TubeOptions {
   bool roughness = false;
   double air_db_per_km = 0.0;
   double bandwidth_hz = 100e6;  ///< echoes merge that this band cannot tell apart
+  /// Side of the squares of the targets' surfaces with one scatterer each, where their materials scatter.
+  /// They widen until the box of the largest target has no more of them than `budget` and 32,768.
+  double square_m = 0.05;
+  uint64_t seed = 1;  ///< of the scatterers
 };
 
 /// Describes what one polarization of the transmitter sends over a target to one polarization of the
@@ -65,6 +71,11 @@ class TubeTargets {
 
  private:
   bool belongs(uint32_t instance, uint32_t target) const;
+  /// Returns the instances of all targets with the parts that they carry, if any of them scatters.
+  std::vector<uint32_t> scattering(const RadioSurfaces& surfaces) const;
+  /// Returns the box of a target with the parts that it carries, in the frame of its body.
+  scene::Bounds box_of(uint32_t target) const;
+  double square_m() const;
   Search view_of(uint32_t target, const dvec3& transmitter, std::span<const Pose> bodies) const;
 
   const scene::Scene& scene_;

@@ -48,21 +48,24 @@ const char* const cloth = R"({"relative_permittivity":1.8,"conductivity":0.002,"
 // which the normals of the piece turn: such a piece scatters nearly all, in a directive lobe. Normals that
 // turn by s (rms, about each axis) make alpha_R = 1/(2 s^2). The normals by which the meshes are shaded turn
 // by 4.5 degrees on car bodies and panes, by 7 degrees on lamps, and by 10 degrees on people
-// (docs/radar_bodies.md).
-#define GREATX_CURVED(exponent) \
-  R"("scattering_coefficient":0.99,"pattern":"directive","pattern_exponent":)" #exponent
-const char* const body_metal = R"({"itu":"metal","thickness_m":0.002,)" GREATX_CURVED(80) "}";
-const char* const body_pane = R"({"itu":"glass","thickness_m":0.005,)" GREATX_CURVED(80) "}";
+// (docs/radar_bodies.md). Waves that are long beside the distance between facet and piece (rms, `deviation`)
+// see the flat facet.
+#define GREATX_CURVED(exponent, deviation)                                               \
+  R"("scattering_coefficient":0.99,"pattern":"directive","pattern_exponent":)" #exponent \
+  R"(,"deviation_m":)" #deviation
+const char* const body_metal = R"({"itu":"metal","thickness_m":0.002,)" GREATX_CURVED(80, 0.003) "}";
+const char* const body_pane = R"({"itu":"glass","thickness_m":0.005,)" GREATX_CURVED(80, 0.003) "}";
 // Bumpers, grilles and lamps: a plastic skin before steel beams, radiators and metallized reflectors.
 const char* const body_cover =
     R"({"layers":[{"relative_permittivity":2.8,"conductivity":0.003,"thickness_m":0.003},)"
     R"({"relative_permittivity":1.0,"conductivity":0.0,"thickness_m":0.06},)"
-    R"({"itu":"metal","thickness_m":0.002}],)" GREATX_CURVED(33) "}";
+    R"({"itu":"metal","thickness_m":0.002}],)" GREATX_CURVED(33, 0.0025) "}";
 // Engines and wheels: fins, pipes, spokes and bolts turn every way within a facet.
-const char* const castings = R"({"itu":"metal","thickness_m":0.002,"scattering_coefficient":0.99})";
+const char* const castings =
+    R"({"itu":"metal","thickness_m":0.002,"scattering_coefficient":0.99,"deviation_m":0.01})";
 // Treads have blocks and grooves.
-const char* const rubber =
-    R"({"relative_permittivity":3.0,"conductivity":0.02,"thickness_m":0.02,"scattering_coefficient":0.99})";
+const char* const rubber = R"({"relative_permittivity":3.0,"conductivity":0.02,"thickness_m":0.02,)"
+                           R"("scattering_coefficient":0.99,"deviation_m":0.005})";
 const char* const plastic = R"({"relative_permittivity":2.8,"conductivity":0.003,"thickness_m":0.003})";
 // Dry skin by the four Cole-Cole terms of S. Gabriel, R. W. Lau and C. Gabriel, "The dielectric properties of
 // biological tissues: III", Phys. Med. Biol. 41 (1996). The rows are fitted to it within 1.1 % of the
@@ -77,7 +80,7 @@ const char* const tissue =
     R"({"a":438.3,"b":-0.9822,"c":6.69,"d":0.4207,"min_hz":3.4e10,"max_hz":5.2e10},)"
     R"({"a":237.0,"b":-0.8273,"c":14.78,"d":0.2194,"min_hz":5.2e10,"max_hz":7.6e10},)"
     R"({"a":94.09,"b":-0.6134,"c":22.23,"d":0.1246,"min_hz":7.6e10,"max_hz":1e11}],)"
-    R"("extrapolate":true,"cross_polarization":0.1,)" GREATX_CURVED(14) "}";
+    R"("extrapolate":true,"cross_polarization":0.1,)" GREATX_CURVED(14, 0.002) "}";
 #undef GREATX_CURVED
 // Woven or coated cloth.
 const char* const fabric = R"({"relative_permittivity":2.8,"conductivity":0.003,"thickness_m":0.001})";
