@@ -40,6 +40,7 @@ gpu::ComputeDesc CameraPass::shading() const {
   shade.specialization[shared::spec_sky] = effects_.sky;
   shade.specialization[shared::spec_static_shadows] = effects_.static_shadows;
   shade.specialization[shared::spec_moving_shadows] = effects_.moving_shadows;
+  shade.specialization[shared::spec_pane_shadows] = lighting_->shadows().panes() != nullptr;
   shade.specialization[shared::spec_shadow_cascades] = near_shadows_ ? near_shadows_->cascades() : 0;
   shade.specialization[shared::spec_textures] = effects_.textures && draws_->textured();
   shade.specialization[shared::spec_normal_maps] = effects_.normal_maps && draws_->normal_mapped();

@@ -87,6 +87,7 @@ const uint spec_band_rows = 25u;
 const uint spec_clouds = 26u;
 const uint spec_horizon = 27u;  // a HorizonKind (renderer/light/lighting.h)
 const uint spec_markings = 28u;
+const uint spec_pane_shadows = 29u;  // panes are in the maps of shadows (camera/shadow_pane.frag.glsl)
 // Weather and night (shaders/shared/weather.h).
 const uint spec_wet_surfaces = 32u;
 const uint spec_snow_cover = 33u;
@@ -177,9 +178,10 @@ const uint triangle_record_quads = 6u;
 ///      through beside its reflection, in three fractions of 1023 from the lowest bits
 /// A texture is stored as its reference (scene/device/texture_layers.h) + 1, or 0 if there is none.
 const uint material_record_quads = 3u;
-const uint roughness_in_texture = 1u;  ///< metallic-roughness texture
-const uint roughness_in_alpha = 2u;    ///< alpha of the base-colour texture
-const uint roughness_of_pane = 3u;     ///< nowhere; the material is a pane
+const uint roughness_in_texture = 1u;   ///< metallic-roughness texture
+const uint roughness_in_alpha = 2u;     ///< alpha of the base-colour texture
+const uint roughness_of_pane = 3u;      ///< nowhere; the material is a pane, and so it is from here on
+const uint roughness_of_lit_pane = 4u;  ///< one that glows as far as cameras do not look through it
 
 const uint shade_group_width = 8u;
 const uint shade_group_height = 8u;

@@ -229,6 +229,29 @@ TEST(Panes, LackOnlyWhatPanesBehindTheNearestMirror) {
   }
 }
 
+/// A pane before a lit room glows as far as a camera does not look through it.
+TEST(Panes, LitPanesGlowWhereTheyDoNotClear) {
+  const render::CameraDesc desc = plain_camera();
+  const double reach = double(shared::pane_dark_pixel) * desc.fx, own_cd_m2 = 300.0;
+  for (const double share : {0.5, 0.8, 0.95, 1.05})
+    for (const bool panes : {true, false}) {
+      TinyScene tiny;
+      tiny.object("screen", 0, tiny.material_as(glowing()))
+          .quad({5, 9, -9}, {5, -9, -9}, {5, -9, 9}, {5, 9, 9});
+      scene::Material lit = glass();
+      lit.name = "lit_pane_of_a_bus";
+      lit.pbr.emissive = vec3(float(own_cd_m2 / 1000.0));
+      const double x = share * reach;
+      tiny.object("pane", 0, tiny.material_as(lit)).quad({x, 9, -9}, {x, -9, -9}, {x, -9, 9}, {x, 9, 9});
+      CameraRig rig(tiny.build(), plain_light(), desc, dark(panes));
+      const double ray = glm::length(pixel_ray(desc, 32, 32));
+      const double shows = panes ? double(shared::pane_shows(float(x * ray / desc.fx))) : 0.0;
+      EXPECT_NEAR(luminance_at(rig.shoot(look({0, 0, 0})), 32 * 64 + 32),
+                  glow_cd_m2 * shows * pane_transmittance(1.0 / ray) + own_cd_m2 * (1.0 - shows), 4.0)
+          << share << panes;
+    }
+}
+
 TEST(Panes, HazeLiesBeforeAndBehindThem) {
   render::Lighting lighting = plain_light();
   lighting.haze_extinction_per_m = 0.2;
