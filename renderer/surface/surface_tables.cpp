@@ -10,7 +10,6 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/error.h"
-#include "renderer/surface/closed_bodies.h"
 #include "renderer/surface/mark_map.h"
 #include "renderer/surface/octahedral.h"
 #include "renderer/surface/pane_color.h"
@@ -88,8 +87,7 @@ void require_16_bits(const char* what, size_t count) {
 
 SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene, bool lamps) {
   const scene::Scene& scene = gpu_scene.scene();
-  closed_ = closed_bodies(scene);
-  closed_instances_ = render::closed_instances(scene);
+  closed_ = closed_surfaces(scene);
   require_16_bits("bodies", scene.bodies.size());
   require_16_bits("materials", scene.materials.size());
   Words triangles, materials;

@@ -113,17 +113,17 @@ VehicleBody make_bus(const VehicleShape& shape, const BusStyle& style, int paint
   if (shape.variant == "city_bus") doors.insert(doors.end(), {0.35, -front + 2.0});
   add_doors(body.mesh, w, doors, style.floor + 0.06, std::min(2.35, style.window_top[0]));
   for (size_t i = 0; i < style.window_low.size(); ++i)
-    add_saloon(body.mesh, {.front = front - (i == 0 ? 1.7 : 0.6),
-                           .rear = -front + 0.15,
-                           .half_width = w - 0.12,
-                           .floor = style.window_low[i] - 0.1,
-                           .ceiling = std::min(style.window_top[i] + 0.06, top - 0.12),
-                           .doors = i == 0 ? doors : std::vector<double>{}});
-  add_drivers_cab(body.mesh, {.front = front - style.rake,
-                              .rear = front - 1.7,
-                              .half_width = w - 0.1,
-                              .belt = style.window_low[0],
-                              .alone = true});
+    add_saloon(body.inside, {.front = front - (i == 0 ? 1.7 : 0.6),
+                             .rear = -front + 0.15,
+                             .half_width = w - 0.12,
+                             .floor = style.window_low[i] - 0.1,
+                             .ceiling = std::min(style.window_top[i] + 0.06, top - 0.12),
+                             .doors = i == 0 ? doors : std::vector<double>{}});
+  add_drivers_cab(body.inside, {.front = front - style.rake,
+                                .rear = front - 1.7,
+                                .half_width = w - 0.1,
+                                .belt = style.window_low[0],
+                                .alone = true});
   add_bus_mirrors(body.mesh, front, w, style.window_top[0] - 0.1);
   if (shape.variant == "city_bus")
     body.mesh.box(material("car_paint_white"), {-1.6, -0.85, top - 0.05}, {1.4, 0.85, shape.height_m});
@@ -173,13 +173,13 @@ VehicleBody make_tram(const VehicleShape& shape, int paint) {
   MeshBuilder other;  // the doors on the left side
   add_doors(other, w - 0.015, {4.5, 0.9, -0.9, -4.5}, 0.34, 2.25);
   body.mesh.append(other, dvec3(0.0), pi);
-  add_saloon(body.mesh, {.front = front - 1.9,
-                         .rear = -front + 1.9,
-                         .half_width = w - 0.12,
-                         .floor = 0.86,
-                         .ceiling = 2.40,
-                         .doors = {4.5, 0.9, -0.9, -4.5},
-                         .gaps = {{3.0, 3.9}, {-3.9, -3.0}}});
+  add_saloon(body.inside, {.front = front - 1.9,
+                           .rear = -front + 1.9,
+                           .half_width = w - 0.12,
+                           .floor = 0.86,
+                           .ceiling = 2.40,
+                           .doors = {4.5, 0.9, -0.9, -4.5},
+                           .gaps = {{3.0, 3.9}, {-3.9, -3.0}}});
   // the pantograph: an arm with an elbow, and the bow that touches the wire
   SmoothMesh arm;
   const dvec3 knee(-0.9, 0.0, roof + 0.25);
@@ -220,7 +220,7 @@ void add_cab(VehicleBody& body, const VehicleShape& shape, double rear, double t
     return paint;
   };
   add_box_shell(body.mesh, shell);
-  add_drivers_cab(body.mesh, {.front = front - 0.05, .rear = rear, .half_width = w, .belt = belt});
+  add_drivers_cab(body.inside, {.front = front - 0.05, .rear = rear, .half_width = w, .belt = belt});
   add_boxes(body.mesh, material("bumper"), {front - 0.12, w + 0.02, belt + 0.08},
             {front - 0.02, w + 0.22, belt + 0.62});
   add_boxes(body.mesh, material("bumper"), {front - 0.2, w - 0.1, belt + 0.55},

@@ -444,7 +444,7 @@ VehicleBody make_car_body(const VehicleShape& shape, int paint, bool detailed) {
   VehicleBody body;
   shell.add_to(body.mesh, 38.0 * pi / 180.0, side_mapping(style, shape));
   if (detailed) add_car_details(body, shape, style, paint);
-  add_cabin(body.mesh, cabin_of(shape, style, detailed));
+  add_cabin(body.inside, cabin_of(shape, style, detailed));
   return body;
 }
 
