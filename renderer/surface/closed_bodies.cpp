@@ -116,13 +116,13 @@ double volume(const dvec3& a, const dvec3& b, const dvec3& c, const dvec3& d) {
   return glm::dot(glm::cross(b - a, c - a), d - a);
 }
 
-/// Returns whether an edge of `a` passes through `b`.
+/// Returns whether an edge of `a` passes through `b` or its rim.
 bool pierces(const Corners& a, const Corners& b) {
   for (size_t k = 0; k < 3; ++k) {
     const dvec3 p = a[k], q = a[(k + 1) % 3];
     if (volume(b[0], b[1], b[2], p) * volume(b[0], b[1], b[2], q) >= 0.0) continue;
     const double u = volume(p, q, b[0], b[1]), v = volume(p, q, b[1], b[2]), w = volume(p, q, b[2], b[0]);
-    if ((u > 0.0 && v > 0.0 && w > 0.0) || (u < 0.0 && v < 0.0 && w < 0.0)) return true;
+    if (std::min({u, v, w}) >= 0.0 || std::max({u, v, w}) <= 0.0) return true;
   }
   return false;
 }

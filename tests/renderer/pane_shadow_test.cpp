@@ -16,7 +16,7 @@
 namespace greatx::test {
 namespace {
 
-scene::Material glass(const vec3& color) {
+scene::Material shading_glass(const vec3& color) {
   scene::Material material;
   material.name = "glass";
   material.pbr.base_color = vec4(color, 1.0f);
@@ -48,7 +48,7 @@ scene::Scene under_glass(const vec3& color, bool moves) {
   add_ground(tiny);
   const uint32_t body = moves ? tiny.body("pane") : 0;
   constexpr double p = pane_half_m;
-  tiny.object("pane", body, tiny.material_as(glass(color)))
+  tiny.object("pane", body, tiny.material_as(shading_glass(color)))
       .quad({-p, -p, pane_z_m}, {p, -p, pane_z_m}, {p, p, pane_z_m}, {-p, p, pane_z_m});
   return tiny.build();
 }
@@ -132,7 +132,7 @@ TEST(PaneShadows, TheSunShinesIntoBodies) {
       .quad({-2, 1, 0.3}, {-2, 1, 1.5}, {2, 1, 1.5}, {2, 1, 0.3})
       .quad({-2, -1, 0.3}, {-2, -1, 1.5}, {-2, 1, 1.5}, {-2, 1, 0.3})
       .quad({2, -1, 0.3}, {2, 1, 0.3}, {2, 1, 1.5}, {2, -1, 1.5});
-  tiny.object("roof", car, tiny.material_as(glass(vec3(0.8f))))
+  tiny.object("roof", car, tiny.material_as(shading_glass(vec3(0.8f))))
       .quad({-2, -1, 1.5}, {2, -1, 1.5}, {2, 1, 1.5}, {-2, 1, 1.5});
   const scene::Scene scene = tiny.build();
   ASSERT_TRUE(render::closed_bodies(scene)[car]);

@@ -347,7 +347,7 @@ TEST(Panes, InsidesShowNearByAlone) {
 }
 
 TEST(Panes, InsidesAreHiddenFromAllSides) {
-  const auto found = [](const dvec3& a, const dvec3& b, const dvec3& c, bool open = false) {
+  const auto found = [](const dvec3& a, const dvec3& b, const dvec3& c, bool open = false) -> bool {
     TinyScene tiny;
     const uint32_t body = tiny.body("case"), pane = tiny.material_as(glass());
     tiny.object("case", body, pane).box({0, 0, 0}, {2, 2, 2});

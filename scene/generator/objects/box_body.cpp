@@ -116,7 +116,7 @@ VehicleBody make_bus(const VehicleShape& shape, const BusStyle& style, int paint
     add_saloon(body.inside, {.front = front - (i == 0 ? 1.7 : 0.6),
                              .rear = -front + 0.15,
                              .half_width = w - 0.12,
-                             .floor = style.window_low[i] - 0.1,
+                             .floor = style.window_low[i] - (i == 0 ? 0.03 : 0.1),  // above the wheel arches
                              .ceiling = std::min(style.window_top[i] + 0.06, top - 0.12),
                              .doors = i == 0 ? doors : std::vector<double>{}});
   add_drivers_cab(body.inside, {.front = front - style.rake,

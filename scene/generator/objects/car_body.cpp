@@ -367,10 +367,10 @@ SmoothMesh::Mapping side_mapping(const CarStyle& style, const VehicleShape& shap
 /// flat from side to side.
 CabinRoom cabin_of(const VehicleShape& shape, const CarStyle& style, bool detailed) {
   return {.front = detailed ? style.cowl : style.cowl - 0.14,
-          .rear = (detailed ? style.back_base : style.d_rear) + 0.03,
+          .rear = detailed ? style.back_base + (style.flat() ? 0.14 : 0.08) : style.d_rear + 0.03,
           .seats = style.b_front,
-          // above the box between the wheels (add_car_details)
-          .floor = std::max(style.belt - 0.30, 2.0 * shape.wheels[0].radius_m + 0.03),
+          // above the wheel arches and the box between the wheels (add_car_details)
+          .floor = std::max(style.belt - 0.30, 2.0 * shape.wheels[0].radius_m + 0.06),
           .belt = style.belt,
           .roof = shape.height_m - style.roof_cut,
           .half_width = 0.5 * shape.width_m - 0.085,

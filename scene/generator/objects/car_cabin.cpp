@@ -57,8 +57,8 @@ void add_plain_seats(MeshBuilder& mesh, const CabinRoom& room) {
   const double y = room.half_width - 0.12;
   if (room.load) {
     const double wall = front_row - 0.22;
-    mesh.quad(material("cabin"), {wall, -y, room.floor}, {wall, y, room.floor}, {wall, y, room.roof - 0.1},
-              {wall, -y, room.roof - 0.1});
+    mesh.quad(material("cabin"), {wall, -y, room.floor}, {wall, y, room.floor}, {wall, y, room.roof - 0.18},
+              {wall, -y, room.roof - 0.18});
     return;
   }
   const double x = front_row - row_step_m, back = std::min(room.belt + 0.03, ceiling(room, x - 0.12));
@@ -72,11 +72,12 @@ void add_plain_seats(MeshBuilder& mesh, const CabinRoom& room) {
 void add_cabin(MeshBuilder& mesh, const CabinRoom& room) {
   const int trim = material("cabin");
   const double y = room.half_width - 0.06, dash = room.front - 0.40, low = room.floor;
-  mesh.quad(trim, {room.rear, -y, low}, {room.front, -y, low}, {room.front, y, low}, {room.rear, y, low});
+  const double front_row = room.seats - 0.12, rear = room.load ? front_row - 0.25 : room.rear;
+  mesh.quad(trim, {rear, -y, low}, {room.front, -y, low}, {room.front, y, low}, {rear, y, low});
   for (const double side : {-1.0, 1.0}) {  // the inside of the doors
     const double high = room.belt - 0.03;
-    const dvec3 a(room.rear, side * y, low), b(dash, side * y, low), c(dash, side * y, high),
-        d(room.rear, side * y, high);
+    const dvec3 a(rear, side * y, low), b(dash, side * y, low), c(dash, side * y, high),
+        d(rear, side * y, high);
     if (side < 0.0)
       mesh.quad(trim, d, c, b, a);
     else
@@ -89,8 +90,7 @@ void add_cabin(MeshBuilder& mesh, const CabinRoom& room) {
     mesh.quad(trim, {dash, reach, low}, {dash, -reach, low}, {dash, -reach, top}, {dash, reach, top});
     return add_plain_seats(mesh, room);
   }
-  mesh.box(trim, {dash, -y + 0.04, low - 0.012}, {room.front - 0.06, y - 0.04, room.belt - 0.05});
-  const double front_row = room.seats - 0.12;
+  mesh.box(trim, {dash, -y + 0.04, low - 0.012}, {room.front - 0.12, y - 0.04, room.belt - 0.05});
   for (const double side : {-1.0, 1.0}) {
     const double middle = side * seat_middle * room.half_width, top = room.belt + 0.10;
     mesh.box(material("seat"), {front_row - 0.13, middle - seat_half_m, low - 0.012},
@@ -99,8 +99,8 @@ void add_cabin(MeshBuilder& mesh, const CabinRoom& room) {
   }
   if (room.load) {
     const double wall = front_row - 0.22;
-    mesh.box(trim, {wall - 0.03, -room.roof_y + 0.02, low - 0.012},
-             {wall, room.roof_y - 0.02, room.roof - 0.06});
+    mesh.box(trim, {wall - 0.03, -room.roof_y + 0.08, low - 0.012},
+             {wall, room.roof_y - 0.08, room.roof - 0.14});
     return;
   }
   for (double x = front_row - row_step_m; x - 0.12 > room.rear + 0.05; x -= row_step_m)
