@@ -10,14 +10,14 @@
 
 namespace greatx::render {
 
-/// Returns, for each primitive, whether it is an inside: where panes (renderer/surface/pane_color.h) count as
-/// solid, closed surfaces with panes hide it from all sides. These surfaces and the inside belong to one body,
-/// or one instance of the static world. No triangle of an inside crosses them, and a point of each of its
-/// connected parts has a winding number of 1 or more.
+/// Returns, for each primitive, whether it is an inside: closed surfaces with panes
+/// (renderer/surface/pane_color.h) hide it from all sides where panes count as solid. Both belong to one body,
+/// or to one instance of the static world. No triangle of an inside crosses these surfaces, and a point of
+/// each of its connected parts has a winding number of 1.
 std::vector<bool> insides(const scene::Scene& scene);
 
-/// Returns, for each body, whether its triangles but for the given insides are closed surfaces that face outwards: every edge belongs
-/// to as many triangles in one direction as in the other, and every connected part has a positive volume.
+/// Returns, for each body, whether its triangles but for the insides are closed surfaces that face outwards:
+/// every edge belongs to as many in one direction as in the other, and connected parts have positive volumes.
 /// From outside, at every place of a picture, as many of its front faces cover the place as of its back
 /// faces, and a front face is the nearest. Body 0, bodies without triangles, and bodies with materials that
 /// have holes are not closed.

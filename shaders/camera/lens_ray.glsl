@@ -25,7 +25,9 @@ uint face_invocation() {
 
 #ifdef GREATX_PANES
 /// With one view: the groups of pixels that panes may cover (renderer/camera/pane_groups.h).
-layout(set = 0, binding = face_pixels_binding, scalar) readonly buffer PaneGroupsBlock { uint pane_groups[]; };
+layout(set = 0, binding = face_pixels_binding, scalar) readonly buffer PaneGroupsBlock {
+  uint pane_groups[];
+};
 ivec2 pixel_of_group() {
   uint number = group_number();
   uint group = number < pane_groups.length() ? pane_groups[number] : ~0u;
