@@ -28,8 +28,8 @@ struct DrawPiece {
   bool closed = false;
   scene::Bounds hull;    ///< of these surfaces, if they stand still
   scene::Bounds bounds;  ///< in the body's frame
-  /// With panes, their numbers in DrawList::panes(), and in DrawList::rests() those of the solid rest and of the
-  /// insides behind the panes, which the piece itself does not draw.
+  /// With panes, their numbers in DrawList::panes(), and in DrawList::rests() those of the solid rest and of
+  /// the insides behind the panes, which the piece itself does not draw.
   std::vector<uint32_t> panes, rests;
   /// The sphere around the bounds.
   dvec3 center() const { return bounds.center(); }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lists the groups of pixels that panes may cover, so that only these are shaded twice (renderer/camera/panes.h).
+// Lists the groups of pixels that panes may cover, so that only these are shaded twice
+// (renderer/camera/panes.h).
 #pragma once
 
 #include <cstdint>
