@@ -126,7 +126,7 @@ TEST(DrawList, InsidesAreDrawnBehindPanesAlone) {
         .quad({-2, -1, 0}, {-2, -1, 1}, {-2, 1, 1}, {-2, 1, 0})
         .quad({2, -1, 0}, {2, 1, 0}, {2, 1, 1}, {2, -1, 1});
     tiny.object("roof", body, pane).quad({-2, -1, 1}, {2, -1, 1}, {2, 1, 1}, {-2, 1, 1});
-    tiny.object("seat", body, seat).quad({-1, -1, 0.5}, {1, -1, 0.5}, {1, 1, 0.5}, {-1, 1, 0.5});
+    tiny.object("seat", body, seat).quad({-1, -0.9, 0.5}, {1, -0.9, 0.5}, {1, 0.9, 0.5}, {-1, 0.9, 0.5});
     scene::Scene scene = tiny.build();
     for (scene::Primitive& primitive : scene.primitives) primitive.instance = 0;
     const ClosedSurfaces surfaces = closed_surfaces(scene);

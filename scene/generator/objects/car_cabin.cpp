@@ -73,7 +73,10 @@ void add_cabin(MeshBuilder& mesh, const CabinRoom& room) {
   const int trim = material("cabin");
   const double y = room.half_width - 0.06, dash = room.front - 0.40, low = room.floor;
   const double front_row = room.seats - 0.12, rear = room.load ? front_row - 0.25 : room.rear;
-  mesh.quad(trim, {rear, -y, low}, {room.front, -y, low}, {room.front, y, low}, {rear, y, low});
+  // The floor is larger than the walls on it, so that no corner stands on its edge.
+  const double over = 0.01;
+  mesh.quad(trim, {rear - over, -y - over, low}, {room.front, -y - over, low}, {room.front, y + over, low},
+            {rear - over, y + over, low});
   for (const double side : {-1.0, 1.0}) {  // the inside of the doors
     const double high = room.belt - 0.03;
     const dvec3 a(rear, side * y, low), b(dash, side * y, low), c(dash, side * y, high),
