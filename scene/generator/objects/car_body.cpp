@@ -367,7 +367,7 @@ SmoothMesh::Mapping side_mapping(const CarStyle& style, const VehicleShape& shap
 /// flat from side to side.
 CabinRoom cabin_of(const VehicleShape& shape, const CarStyle& style, bool detailed) {
   return {.front = detailed ? style.cowl : style.cowl - 0.14,
-          .rear = detailed ? style.back_base + (style.flat() ? 0.14 : 0.08) : style.d_rear + 0.03,
+          .rear = detailed ? style.back_base + (style.flat() ? 0.20 : 0.08) : style.d_rear + 0.03,
           .seats = style.b_front,
           // above the wheel arches and the box between the wheels (add_car_details)
           .floor = std::max(style.belt - 0.30, 2.0 * shape.wheels[0].radius_m + 0.06),
