@@ -65,8 +65,7 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
         "camera {}: distortion: expected a pinhole picture of at most {} pixels along a side, found {} x {}",
         desc_.name, most, pinhole_->width, pinhole_->height);
   draws_ = std::make_unique<DrawList>(
-      scene_->scene(), lighting_->surfaces().closed(), lighting_->surfaces().closed_instances(),
-      desc_.excluded_body, effects_.alpha_mask,
+      scene_->scene(), lighting_->surfaces().closed(), desc_.excluded_body, effects_.alpha_mask,
       effects_.panes && shaded ? pane_materials(scene_->scene()) : std::vector<bool>());
   if (effects_.shadow_cascades && shaded) near_shadows_ = std::make_unique<NearShadows>(lighting_->shadows());
   if (wants_lines(effects_, desc_)) lines_ = std::make_unique<ThinLines>(scene_->scene());

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 
 #include "scene/description/index_bounds.h"
 #include "scene/description/lamps.h"
@@ -13,11 +15,18 @@ namespace greatx::render {
 namespace {
 
 // A piece is seen as a whole or not at all, so one that is much larger than its parts draws in vain.
-constexpr double free_radius_m = 4.0, most_growth = 1.2;
+// What panes show is drawn together as far as a vehicle reaches.
+constexpr double free_radius_m = 4.0, glazed_radius_m = 8.0, most_growth = 1.2;
+
+/// Returns the number of a primitive's body, or of its instance in the static world, and no two are equal.
+uint32_t thing_of(const scene::Scene& scene, uint32_t primitive) {
+  const uint32_t instance = scene.primitives[primitive].instance, body = scene.instances[instance].body;
+  return body != 0 ? body : static_cast<uint32_t>(scene.bodies.size()) + instance;
+}
 
 /// Adds a piece to the last one if it follows it, both have one body, and both are closed or both open.
-/// Without `any_size`, the sphere limits this.
-void add(std::vector<DrawPiece>& pieces, const DrawPiece& next, bool any_size) {
+/// The sphere limits this beyond a radius that is free.
+void add(std::vector<DrawPiece>& pieces, const DrawPiece& next, double free_m) {
   if (!pieces.empty()) {
     DrawPiece& last = pieces.back();
     const bool follows = last.body == next.body && last.closed == next.closed &&
@@ -26,8 +35,8 @@ void add(std::vector<DrawPiece>& pieces, const DrawPiece& next, bool any_size) {
     both.index_count += next.index_count;
     both.bounds.add(next.bounds);
     both.hull.add(next.hull);
-    const double most = std::max(free_radius_m, most_growth * std::max(last.radius(), next.radius()));
-    if (follows && (any_size || both.radius() <= most)) {
+    const double most = std::max(free_m, most_growth * std::max(last.radius(), next.radius()));
+    if (follows && both.radius() <= most) {
       last = both;
       return;
     }
@@ -37,21 +46,33 @@ void add(std::vector<DrawPiece>& pieces, const DrawPiece& next, bool any_size) {
 
 }  // namespace
 
-DrawList::DrawList(const scene::Scene& scene, const std::vector<bool>& closed,
-                   const std::vector<bool>& closed_instances, std::optional<uint32_t> excluded,
-                   bool alpha_mask, const std::vector<bool>& pane_materials) {
+DrawList::DrawList(const scene::Scene& scene, const ClosedSurfaces& surfaces,
+                   std::optional<uint32_t> excluded, bool alpha_mask,
+                   const std::vector<bool>& pane_materials) {
+  std::set<uint32_t> glazed;
+  for (uint32_t i = 0; i < scene.primitives.size() && !pane_materials.empty(); ++i)
+    if (pane_materials[scene.primitives[i].material]) glazed.insert(thing_of(scene, i));
+  std::map<uint32_t, std::vector<uint32_t>> insides;
   for (uint32_t i = 0; i < scene.primitives.size(); ++i) {
     const scene::Primitive& primitive = scene.primitives[i];
-    const uint32_t body = scene.instances[primitive.instance].body;
+    const uint32_t body = scene.instances[primitive.instance].body, thing = thing_of(scene, i);
     if (excluded && scene.owner_of(body) == *excluded) continue;
     DrawPiece piece{primitive.first_index, primitive.index_count, body, i};
     piece.bounds = scene::bounds_of_indices(scene, primitive.first_index, primitive.index_count);
     if (alpha_mask && scene.has_holes(i)) {
       masked_.push_back(piece);
+    } else if (glazed.contains(thing) && surfaces.insides[i]) {
+      insides[thing].push_back(i);
     } else {
-      piece.closed = body != 0 ? closed[body] : closed_instances[primitive.instance] && !scene.has_holes(i);
+      piece.closed =
+          body != 0 ? surfaces.bodies[body] : surfaces.instances[primitive.instance] && !scene.has_holes(i);
       piece.hull = scene.instances[primitive.instance].bounds;
-      add(body == 0 ? still_ : moving_, piece, body != 0);
+      std::vector<DrawPiece>& to = body == 0 ? still_ : moving_;
+      const bool one = glazed.contains(thing) && !to.empty() && thing_of(scene, to.back().primitive) == thing;
+      add(to, piece,
+          body != 0 ? std::numeric_limits<double>::infinity()
+          : one     ? glazed_radius_m
+                    : free_radius_m);
     }
     const scene::PbrMaterial& pbr = scene.materials[primitive.material].pbr;
     textured_ |=
@@ -62,34 +83,53 @@ DrawList::DrawList(const scene::Scene& scene, const std::vector<bool>& closed,
   }
   if (pane_materials.empty()) return;
   for (std::vector<DrawPiece>* pieces : {&still_, &moving_})
-    for (DrawPiece& piece : *pieces) split_panes(scene, pane_materials, piece);
+    for (DrawPiece& piece : *pieces) {
+      split_panes(scene, pane_materials, insides, piece);
+      // What stands apart from the panes that show its back faces keeps them.
+      if (piece.panes.empty() && glazed.contains(thing_of(scene, piece.primitive))) piece.closed = false;
+    }
+}
+
+void DrawList::add_rest(const scene::Scene& scene, uint32_t primitive, DrawPiece& piece) {
+  const scene::Primitive& range = scene.primitives[primitive];
+  const scene::Bounds bounds = scene::bounds_of_indices(scene, range.first_index, range.index_count);
+  const bool follows =
+      !piece.rests.empty() && rests_.back().first_index + rests_.back().index_count == range.first_index;
+  if (follows) {
+    rests_.back().index_count += range.index_count;
+    rests_.back().bounds.add(bounds);
+    return;
+  }
+  DrawPiece rest{range.first_index, range.index_count, piece.body, primitive};
+  rest.bounds = bounds;
+  piece.rests.push_back(static_cast<uint32_t>(rests_.size()));
+  rests_.push_back(rest);
 }
 
 void DrawList::split_panes(const scene::Scene& scene, const std::vector<bool>& pane_materials,
-                           DrawPiece& piece) {
+                           std::map<uint32_t, std::vector<uint32_t>>& insides, DrawPiece& piece) {
   const auto is_pane = [&](uint32_t i) { return pane_materials[scene.primitives[i].material]; };
   uint32_t end = piece.primitive;
   for (uint32_t left = piece.index_count; left > 0; ++end) left -= scene.primitives[end].index_count;
   bool any = false;
   for (uint32_t i = piece.primitive; i < end; ++i) any |= is_pane(i);
   if (!any) return;
-  bool follows = false;
   for (uint32_t i = piece.primitive; i < end; ++i) {
-    const scene::Primitive& primitive = scene.primitives[i];
-    const scene::Bounds bounds =
-        scene::bounds_of_indices(scene, primitive.first_index, primitive.index_count);
-    const bool pane = is_pane(i);
-    if (!pane && follows) {
-      rests_.back().index_count += primitive.index_count;
-      rests_.back().bounds.add(bounds);
-    } else {
-      DrawPiece part{primitive.first_index, primitive.index_count, piece.body, i};
-      part.bounds = bounds;
-      std::vector<DrawPiece>& to = pane ? panes_ : rests_;
-      (pane ? piece.panes : piece.rests).push_back(static_cast<uint32_t>(to.size()));
-      to.push_back(part);
+    if (!is_pane(i)) {
+      add_rest(scene, i, piece);
+      continue;
     }
-    follows = !pane;
+    const scene::Primitive& primitive = scene.primitives[i];
+    DrawPiece pane{primitive.first_index, primitive.index_count, piece.body, i};
+    pane.bounds = scene::bounds_of_indices(scene, primitive.first_index, primitive.index_count);
+    piece.panes.push_back(static_cast<uint32_t>(panes_.size()));
+    panes_.push_back(pane);
+  }
+  for (uint32_t i = piece.primitive; i < end; ++i) {
+    const auto behind = insides.find(thing_of(scene, i));
+    if (behind == insides.end()) continue;
+    for (const uint32_t inside : behind->second) add_rest(scene, inside, piece);
+    insides.erase(behind);
   }
 }
 

@@ -6,12 +6,14 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/vec.h"
 #include "renderer/camera/camera_view.h"
+#include "renderer/surface/closed_bodies.h"
 #include "scene/description/scene.h"
 
 namespace greatx::render {
@@ -26,7 +28,8 @@ struct DrawPiece {
   bool closed = false;
   scene::Bounds hull;    ///< of these surfaces, if they stand still
   scene::Bounds bounds;  ///< in the body's frame
-  /// With panes, their numbers in DrawList::panes() and those of the solid rest in DrawList::rests().
+  /// With panes, their numbers in DrawList::panes(), and in DrawList::rests() those of the solid rest and of
+  /// the insides behind the panes, which the piece itself does not draw.
   std::vector<uint32_t> panes, rests;
   /// The sphere around the bounds.
   dvec3 center() const { return bounds.center(); }
@@ -35,12 +38,10 @@ struct DrawPiece {
 
 class DrawList {
  public:
-  /// `closed` has a value for each body, `closed_instances` for each instance of the static world. The body
-  /// `excluded` and its parts are left out. With `alpha_mask`, primitives with holes are listed apart.
-  /// `pane_materials` has a value for each material; empty: no material is a pane.
-  DrawList(const scene::Scene& scene, const std::vector<bool>& closed,
-           const std::vector<bool>& closed_instances, std::optional<uint32_t> excluded, bool alpha_mask,
-           const std::vector<bool>& pane_materials);
+  /// The body `excluded` and its parts are left out. With `alpha_mask`, primitives with holes are listed
+  /// apart. `pane_materials` has a value for each material; empty: no material is a pane.
+  DrawList(const scene::Scene& scene, const ClosedSurfaces& surfaces, std::optional<uint32_t> excluded,
+           bool alpha_mask, const std::vector<bool>& pane_materials);
 
   /// Opaque pieces of the static world. Primitives share a piece if its sphere stays small, or hardly larger
   /// than the largest of theirs.
@@ -60,7 +61,10 @@ class DrawList {
   bool switched() const { return switched_; }
 
  private:
-  void split_panes(const scene::Scene& scene, const std::vector<bool>& pane_materials, DrawPiece& piece);
+  /// `insides` are those of bodies and of instances of the static world that have no piece yet.
+  void split_panes(const scene::Scene& scene, const std::vector<bool>& pane_materials,
+                   std::map<uint32_t, std::vector<uint32_t>>& insides, DrawPiece& piece);
+  void add_rest(const scene::Scene& scene, uint32_t primitive, DrawPiece& piece);
 
   std::vector<DrawPiece> still_, moving_, masked_, panes_, rests_;
   bool textured_ = false, normal_mapped_ = false, emissive_ = false, switched_ = false;

@@ -9,6 +9,7 @@
 #include "renderer/camera/draw_list.h"
 #include "renderer/camera/faces.h"
 #include "renderer/camera/mirror.h"
+#include "renderer/camera/pane_groups.h"
 #include "renderer/camera/panes.h"
 #include "shaders/shared/lines.h"
 
@@ -40,6 +41,7 @@ gpu::ComputeDesc CameraPass::shading() const {
   shade.specialization[shared::spec_sky] = effects_.sky;
   shade.specialization[shared::spec_static_shadows] = effects_.static_shadows;
   shade.specialization[shared::spec_moving_shadows] = effects_.moving_shadows;
+  shade.specialization[shared::spec_pane_shadows] = lighting_->shadows().panes() != nullptr;
   shade.specialization[shared::spec_shadow_cascades] = near_shadows_ ? near_shadows_->cascades() : 0;
   shade.specialization[shared::spec_textures] = effects_.textures && draws_->textured();
   shade.specialization[shared::spec_normal_maps] = effects_.normal_maps && draws_->normal_mapped();
@@ -94,21 +96,38 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view, con
     descriptors.push_back(descriptor);
   descriptors.push_back(gpu::Descriptor::buffer(shared::lights_binding, upload_lamps(slot, view)));
   descriptors.push_back(gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_));
-  descriptors.push_back(gpu::Descriptor::buffer(shared::face_pixels_binding, pixels));
   descriptors.push_back(gpu::Descriptor::buffer(shared::shade_mirror_binding, beside_));
-  const auto bind = [&](const gpu::ComputePipeline& with, std::vector<gpu::Descriptor> own) {
+  const auto bind = [&](const gpu::ComputePipeline& with, std::vector<gpu::Descriptor> own,
+                        const gpu::Slice& listed) {
+    own.push_back(gpu::Descriptor::buffer(shared::face_pixels_binding, listed));
     own.insert(own.end(), descriptors.begin(), descriptors.end());
     cmd.bind(with);
     cmd.push(own);
     cmd.constants(view.constants);
   };
-  const auto shade = [&](const gpu::ComputePipeline& with, std::vector<gpu::Descriptor> own) {
-    bind(with, std::move(own));
-    if (faces_)
-      return cmd.dispatch_linear(pixels.size / sizeof(shared::FacePixel),
-                                 shared::shade_group_width * shared::shade_group_height);
-    cmd.dispatch((desc_.width + shared::shade_group_width - 1) / shared::shade_group_width,
-                 (desc_.height + shared::shade_group_height - 1) / shared::shade_group_height);
+  constexpr uint32_t group_pixels = shared::shade_group_width * shared::shade_group_height;
+  const auto shade_faces = [&] {
+    cmd.dispatch_linear(pixels.size / sizeof(shared::FacePixel), group_pixels);
+  };
+  const auto shade_panes = [&] {
+    const auto pane_descriptors = panes_->descriptors(texel_sampler_);
+    if (faces_) {
+      bind(panes_->shade(), pane_descriptors, pixels);
+      return shade_faces();
+    }
+    // The list is of the view's pixels, and a lens that distorts shows them elsewhere.
+    const std::vector<uint32_t> groups =
+        desc_.distortion.any()
+            ? all_groups(desc_.width, desc_.height)
+            : pane_groups(scene_->scene(), draws_->panes(), seen_panes_, lighting_->body_poses(), view);
+    const size_t all = size_t{desc_.width} * desc_.height;
+    const size_t mirror_bytes = mirror_ ? all * sizeof(shared::uvec3) : 0;
+    cmd.barrier(gpu::sync::compute, gpu::sync::transfer_write);
+    cmd.fill(beside_.slice().part(mirror_bytes, all * sizeof(uint32_t)), 0);
+    cmd.barrier(gpu::sync::transfer_write, gpu::sync::compute);
+    if (groups.empty()) return;
+    bind(panes_->shade(), pane_descriptors, slot.upload.put(std::span<const uint32_t>(groups)));
+    cmd.dispatch_linear(uint64_t{group_pixels} * groups.size(), group_pixels);
   };
   const std::vector<gpu::Descriptor> own{
       multisampled() ? gpu::Descriptor::sampled(shared::visibility_binding, visibility_, texel_sampler_)
@@ -119,15 +138,20 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view, con
   {
     const auto scope = cmd.scope(shade_scope_);
     if ((view.constants.first & shared::camera_sees_panes) != 0) {
-      shade(panes_->shade(), panes_->descriptors(texel_sampler_));
+      shade_panes();
       cmd.barrier(gpu::sync::compute, gpu::sync::compute);
     }
-    shade(shade_, own);
+    bind(shade_, own, pixels);
+    if (faces_)
+      shade_faces();
+    else
+      cmd.dispatch((desc_.width + shared::shade_group_width - 1) / shared::shade_group_width,
+                   (desc_.height + shared::shade_group_height - 1) / shared::shade_group_height);
   }
   if (line_pixels == 0) return;
   const auto scope = cmd.scope(lines_scope_);
   cmd.barrier(gpu::sync::compute, gpu::sync::compute);
-  bind(shade_lines_, own);
+  bind(shade_lines_, own, pixels);
   cmd.dispatch_linear(line_pixels, shared::line_group_pixels);
 }
 

@@ -127,7 +127,8 @@ SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& light
                          .alpha_mask = effects_.alpha_mask,
                          .static_texels = lighting.static_shadow_texels,
                          .moving_tile_texels = lighting.moving_shadow_texels,
-                         .closed = surfaces_.closed()});
+                         .closed = surfaces_.closed().bodies,
+                         .panes = effects_.panes ? &surfaces_.materials() : nullptr});
   effects_.moving_shadows = effects_.moving_shadows && shadows_.moving().tile_count() > 0;
   body_poses_.resize(scene.scene().bodies.size());
   bake(lighting, sky);

@@ -10,6 +10,7 @@
 #include "core/units.h"
 #include "renderer/light/shadow_grid.h"
 #include "renderer/light/shadow_raster.h"
+#include "renderer/surface/pane_color.h"
 
 namespace greatx::render {
 
@@ -57,7 +58,7 @@ bool same(std::span<const shared::GpuShadowPart> a, std::span<const shared::GpuS
 
 MovingShadows::MovingShadows(const scene::GpuScene& scene, const SunFrame& frame,
                              const MovingShadowOptions& options)
-    : scene_(&scene), frame_(frame) {
+    : scene_(&scene), frame_(frame), panes_(options.panes) {
   gpu::Device& device = scene.device();
   collect(options);
   uint32_t size = 1;
@@ -68,12 +69,13 @@ MovingShadows::MovingShadows(const scene::GpuScene& scene, const SunFrame& frame
                     std::max(most_map_texels, least_tile_texels * tiles_across_));
   }
   const double texels = double(size) / std::max(tiles_across_, 1u) - 2.0 * tile_rim_texels;
-  bool any_opaque = false, any_masked = false, any_closed = false;
+  bool any_opaque = false, any_masked = false, any_closed = false, any_pane = false;
   for (Caster& caster : casters_)
     for (Part& part : caster.parts) {
       any_opaque |= !part.opaque.empty();
       any_masked |= !part.masked.empty();
       any_closed |= !part.closed.empty();
+      any_pane |= !part.panes.empty();
       part.round = scene.scene().bodies[part.body].joint && part.masked.empty() &&
                    outline_variation(scene.scene(), part.body) < round_texels * 2.0 * caster.radius / texels;
     }
@@ -83,6 +85,11 @@ MovingShadows::MovingShadows(const scene::GpuScene& scene, const SunFrame& frame
   desc.push_constant_bytes = sizeof(shared::GpuShadowPart);
   if (any_opaque) opaque_ = shadow_pipeline(scene, desc, false, "moving shadow");
   if (any_masked) masked_ = shadow_pipeline(scene, desc, true, "moving shadow");
+  if (any_pane) {
+    gpu::GraphicsDesc panes = desc;
+    panes.vertex_shader = "camera/pane_moving_shadow.vert";
+    pane_pipeline_ = pane_shadow_pipeline(scene, panes, "moving shadow");
+  }
   // In the sun's frame y points up, and in clip space down: what faces the sun winds clockwise.
   desc.cull = VK_CULL_MODE_FRONT_BIT;
   if (any_closed) closed_ = shadow_pipeline(scene, desc, false, "moving shadow of closed bodies");
@@ -100,7 +107,8 @@ MovingShadows::MovingShadows(const scene::GpuScene& scene, const SunFrame& frame
   tiles_ = no_tiles_.slice();
 }
 
-MovingShadows::Part MovingShadows::part_of(uint32_t body, const MovingShadowOptions& options) const {
+MovingShadows::Part MovingShadows::part_of(uint32_t body, const MovingShadowOptions& options,
+                                           const std::vector<bool>& is_pane) const {
   const scene::Scene& scene = scene_->scene();
   Part part;
   part.body = body;
@@ -108,7 +116,9 @@ MovingShadows::Part MovingShadows::part_of(uint32_t body, const MovingShadowOpti
   for (uint32_t i = range.first_primitive; i < range.first_primitive + range.primitive_count; ++i) {
     const scene::Primitive& primitive = scene.primitives[i];
     const Range next{primitive.first_index, primitive.index_count, i};
-    if (options.alpha_mask && scene.has_holes(i)) {
+    if (!is_pane.empty() && is_pane[primitive.material]) {
+      part.panes.push_back(next);
+    } else if (options.alpha_mask && scene.has_holes(i)) {
       part.masked.push_back(next);
     } else if (!part.opaque.empty() &&
                part.opaque.back().first_index + part.opaque.back().index_count == next.first_index) {
@@ -117,12 +127,15 @@ MovingShadows::Part MovingShadows::part_of(uint32_t body, const MovingShadowOpti
       part.opaque.push_back(next);
     }
   }
-  if (body < options.closed.size() && options.closed[body]) part.closed.swap(part.opaque);
+  // Through panes the sun sees the inside of a body, too.
+  if (part.panes.empty() && body < options.closed.size() && options.closed[body])
+    part.closed.swap(part.opaque);
   return part;
 }
 
 void MovingShadows::collect(const MovingShadowOptions& options) {
   const scene::Scene& scene = scene_->scene();
+  const std::vector<bool> is_pane = options.panes != nullptr ? pane_materials(scene) : std::vector<bool>();
   std::vector<uint32_t> caster_of(scene.bodies.size(), ~0u);
   for (uint32_t b = 1; options.casters && b < scene.bodies.size(); ++b) {
     const uint32_t owner = scene.owner_of(b);
@@ -134,7 +147,7 @@ void MovingShadows::collect(const MovingShadowOptions& options) {
       caster.radius = std::max(0.5 * glm::length(scene.reach_of(b).size()), 1e-3);
       casters_.push_back(std::move(caster));
     }
-    if (caster_of[owner] != ~0u) casters_[caster_of[owner]].parts.push_back(part_of(b, options));
+    if (caster_of[owner] != ~0u) casters_[caster_of[owner]].parts.push_back(part_of(b, options, is_pane));
   }
   for (Caster& caster : casters_) {
     caster.first_part = part_count_;
@@ -225,7 +238,10 @@ void MovingShadows::draw(gpu::TickSlot& slot, const Outside& outside) {
   const auto draw_all = [&](const gpu::GraphicsPipeline& with, std::vector<Range> Part::*ranges) {
     if (!with) return;
     cmd.bind(with);
-    cmd.push(scene_->raster_descriptors());
+    std::vector<gpu::Descriptor> descriptors = scene_->raster_descriptors();
+    if (&with == &pane_pipeline_)
+      descriptors.push_back(gpu::Descriptor::buffer(shared::material_records_binding, *panes_));
+    cmd.push(descriptors);
     cmd.bind_indices(scene_->indices());
     for (const uint32_t i : casters)
       for (uint32_t k = 0; k < casters_[i].parts.size(); ++k) {
@@ -239,6 +255,7 @@ void MovingShadows::draw(gpu::TickSlot& slot, const Outside& outside) {
   draw_all(opaque_, &Part::opaque);
   draw_all(closed_, &Part::closed);
   draw_all(masked_, &Part::masked);
+  draw_all(pane_pipeline_, &Part::panes);
   cmd.end_rendering();
   cmd.transition(map_, gpu::ImageUse::sampled);
   drawn_tiles_ += casters.size();

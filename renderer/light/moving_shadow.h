@@ -21,8 +21,9 @@ namespace greatx::render {
 
 struct MovingShadowOptions {
   bool casters = false, alpha_mask = false;
-  uint32_t tile_texels = 128;  ///< edge of a tile, at most
-  std::vector<bool> closed;    ///< by body (renderer/surface/closed_bodies.h)
+  uint32_t tile_texels = 128;          ///< edge of a tile, at most
+  std::vector<bool> closed;            ///< by body (renderer/surface/closed_bodies.h)
+  const gpu::Buffer* panes = nullptr;  ///< as ShadowOptions::panes
 };
 
 class MovingShadows {
@@ -53,8 +54,8 @@ class MovingShadows {
   };
   struct Part {
     uint32_t body = 0;
-    bool round = false;                         ///< it looks the same however it has turned on its joint
-    std::vector<Range> opaque, masked, closed;  ///< `closed` faces away from the sun are left out
+    bool round = false;  ///< it looks the same however it has turned on its joint
+    std::vector<Range> opaque, masked, closed, panes;  ///< `closed` faces away from the sun are left out
   };
   struct Caster {
     uint32_t body = 0, first_part = 0;
@@ -63,7 +64,7 @@ class MovingShadows {
     std::vector<Part> parts;
   };
   void collect(const MovingShadowOptions& options);
-  Part part_of(uint32_t body, const MovingShadowOptions& options) const;
+  Part part_of(uint32_t body, const MovingShadowOptions& options, const std::vector<bool>& is_pane) const;
   shared::GpuShadowTile tile_of(uint32_t caster, std::span<const Pose> body_poses) const;
   shared::GpuShadowPart rows_of(const Caster& caster, const Part& part, const shared::GpuShadowTile& tile,
                                 std::span<const Pose> body_poses) const;
@@ -76,7 +77,8 @@ class MovingShadows {
   const scene::GpuScene* scene_ = nullptr;
   SunFrame frame_;
   gpu::Image map_;  ///< 1 x 1 without casters
-  gpu::GraphicsPipeline opaque_, masked_, closed_;
+  gpu::GraphicsPipeline opaque_, masked_, closed_, pane_pipeline_;
+  const gpu::Buffer* panes_ = nullptr;
   std::vector<Caster> casters_;
   uint32_t tiles_across_ = 0, part_count_ = 0;
   uint64_t drawn_tiles_ = 0;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "renderer/light/shadow_raster.h"
+#include "renderer/surface/pane_color.h"
 
 namespace greatx::render {
 
@@ -37,6 +38,7 @@ NearShadows::NearShadows(const ShadowMaps& base) : base_(&base), scene_(&base.sc
   find_ground();
   if (!opaque_.empty()) opaque_pipeline_ = caster_pipeline(*scene_, false, false, "shadow cascade");
   if (!masked_.empty()) masked_pipeline_ = caster_pipeline(*scene_, false, true, "shadow cascade");
+  if (!panes_.empty()) pane_pipeline_ = pane_caster_pipeline(*scene_, "shadow cascade");
   sampler_ = shadow_sampler(scene_->device(), "shadow cascade", true);
   for (const double texel_m : cascade_texels(base.static_texel_m())) {
     Level level;
@@ -61,10 +63,13 @@ NearShadows::NearShadows(const ShadowMaps& base) : base_(&base), scene_(&base.sc
 void NearShadows::find_casters() {
   const scene::Scene& scene = scene_->scene();
   const SunFrame& frame = base_->frame();
+  const std::vector<bool> is_pane = base_->panes() != nullptr ? pane_materials(scene) : std::vector<bool>();
   const scene::Body& world = scene.bodies[0];
   for (uint32_t i = world.first_primitive; i < world.first_primitive + world.primitive_count; ++i) {
     const scene::Primitive& primitive = scene.primitives[i];
-    std::vector<Block>& blocks = base_->alpha_mask() && scene.has_holes(i) ? masked_ : opaque_;
+    std::vector<Block>& blocks = !is_pane.empty() && is_pane[primitive.material] ? panes_
+                                 : base_->alpha_mask() && scene.has_holes(i)     ? masked_
+                                                                                 : opaque_;
     for (uint32_t first = 0; first < primitive.index_count; first += 3 * block_triangles) {
       Block block{i, primitive.first_index + first,
                   std::min(3 * block_triangles, primitive.index_count - first)};
@@ -187,7 +192,7 @@ void NearShadows::draw(gpu::Cmd& cmd, Level& level, const std::vector<uint32_t>&
   const auto draw_all = [&](const gpu::GraphicsPipeline& with, const std::vector<Block>& blocks) {
     if (blocks.empty()) return;
     cmd.bind(with);
-    cmd.push(static_caster_descriptors(*scene_));
+    cmd.push(static_caster_descriptors(*scene_, &with == &pane_pipeline_ ? base_->panes() : nullptr));
     cmd.bind_indices(scene_->indices());
     for (const uint32_t slot : slots) {
       const Page& page = level.pages[slot];
@@ -201,6 +206,7 @@ void NearShadows::draw(gpu::Cmd& cmd, Level& level, const std::vector<uint32_t>&
   };
   draw_all(opaque_pipeline_, opaque_);
   draw_all(masked_pipeline_, masked_);
+  draw_all(pane_pipeline_, panes_);
   cmd.end_rendering();
   cmd.transition(level.map, gpu::ImageUse::sampled);
   drawn_pages_ += slots.size();

@@ -79,8 +79,8 @@ class NearShadows {
 
   const ShadowMaps* base_;
   const scene::GpuScene* scene_;
-  std::vector<Block> opaque_, masked_;
-  gpu::GraphicsPipeline opaque_pipeline_, masked_pipeline_;
+  std::vector<Block> opaque_, masked_, panes_;
+  gpu::GraphicsPipeline opaque_pipeline_, masked_pipeline_, pane_pipeline_;
   gpu::Sampler sampler_;
   std::vector<Level> levels_;
   /// Lowest heights of the static world over cells of ground_cell_m, local x and y.

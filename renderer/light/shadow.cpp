@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "renderer/light/shadow_raster.h"
+#include "renderer/surface/pane_color.h"
 
 namespace greatx::render {
 
@@ -25,24 +26,33 @@ SunFrame SunFrame::of(const dvec3& to_sun) {
 
 ShadowMaps::ShadowMaps(const scene::GpuScene& scene, const SunFrame& frame, const ShadowOptions& options)
     : scene_(&scene), options_(options), frame_(frame) {
+  if (std::ranges::none_of(scene.scene().materials, [](const scene::Material& material) {
+        return pane_color(material.pbr).has_value();
+      }))
+    options_.panes = nullptr;
   sampler_ = shadow_sampler(scene.device(), "shadow");
   build_static(options.alpha_mask);
   moving_ = MovingShadows(scene, frame,
                           {.casters = options.moving_casters,
                            .alpha_mask = options.alpha_mask,
                            .tile_texels = options.moving_tile_texels,
-                           .closed = options.closed});
+                           .closed = options.closed,
+                           .panes = options_.panes});
 }
 
 void ShadowMaps::build_static(bool alpha_mask) {
   const scene::Scene& scene = scene_->scene();
-  std::vector<uint32_t> opaque, masked;
+  std::vector<uint32_t> opaque, masked, panes;
+  const std::vector<bool> is_pane = options_.panes != nullptr ? pane_materials(scene) : std::vector<bool>();
   scene::Bounds bounds;
   const scene::Body& world = scene.bodies[0];
   if (options_.static_casters)
     for (uint32_t i = world.first_primitive; i < world.first_primitive + world.primitive_count; ++i)
-      (alpha_mask && scene.has_holes(i) ? masked : opaque).push_back(i);
-  const bool wanted = !opaque.empty() || !masked.empty();
+      (!is_pane.empty() && is_pane[scene.primitives[i].material] ? panes
+       : alpha_mask && scene.has_holes(i)                        ? masked
+                                                                 : opaque)
+          .push_back(i);
+  const bool wanted = !opaque.empty() || !masked.empty() || !panes.empty();
   const uint32_t size = wanted ? options_.static_texels : 1;
   static_map_ = shadow_map(scene_->device(), size, "static shadow map");
   if (wanted) {
@@ -63,9 +73,10 @@ void ShadowMaps::build_static(bool alpha_mask) {
   constants.rows[1] = row_of(frame_.y, 2.0 / size_m.y, -2.0 * center.y / size_m.y);
   constants.rows[2] = row_of(frame_.z, 1.0 / size_m.z, -static_min_.z / size_m.z);
   constants.rows[3] = vec4(0.0f, 0.0f, 0.0f, 1.0f);
-  gpu::GraphicsPipeline opaque_pipeline, masked_pipeline;
+  gpu::GraphicsPipeline opaque_pipeline, masked_pipeline, pane_pipeline;
   if (!opaque.empty()) opaque_pipeline = caster_pipeline(*scene_, false, false, "static shadow");
   if (!masked.empty()) masked_pipeline = caster_pipeline(*scene_, false, true, "static shadow");
+  if (!panes.empty()) pane_pipeline = pane_caster_pipeline(*scene_, "static shadow");
   gpu::submit_setup(scene_->device(), [&](gpu::Cmd& cmd) {
     const auto scope = cmd.scope("static shadow");
     cmd.transition(static_map_, gpu::ImageUse::depth_target, true);
@@ -74,13 +85,14 @@ void ShadowMaps::build_static(bool alpha_mask) {
     const auto draw_all = [&](const gpu::GraphicsPipeline& with, std::span<const uint32_t> primitives) {
       if (primitives.empty()) return;
       cmd.bind(with);
-      cmd.push(static_caster_descriptors(*scene_));
+      cmd.push(static_caster_descriptors(*scene_, &with == &pane_pipeline ? options_.panes : nullptr));
       cmd.constants(constants);
       cmd.bind_indices(scene_->indices());
       draw_casters(cmd, scene, primitives);
     };
     draw_all(opaque_pipeline, opaque);
     draw_all(masked_pipeline, masked);
+    draw_all(pane_pipeline, panes);
     cmd.end_rendering();
     cmd.transition(static_map_, gpu::ImageUse::sampled);
   });

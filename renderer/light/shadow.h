@@ -23,6 +23,9 @@ struct ShadowOptions {
   bool static_casters = false, moving_casters = false, alpha_mask = false;
   uint32_t static_texels = 4096, moving_tile_texels = 512;
   std::vector<bool> closed;  ///< by body (renderer/surface/closed_bodies.h)
+  /// The records of materials. Panes (renderer/surface/pane_color.h) let light through by them; null: they
+  /// are solid.
+  const gpu::Buffer* panes = nullptr;
 };
 
 class ShadowMaps {
@@ -37,6 +40,8 @@ class ShadowMaps {
   const SunFrame& frame() const { return frame_; }
   const scene::GpuScene& scene() const { return *scene_; }
   bool alpha_mask() const { return options_.alpha_mask; }
+  /// The records of materials, if panes let light through.
+  const gpu::Buffer* panes() const { return options_.panes; }
   /// The edge of a texel of the static map, m, and the depths in it: z depth_scale() + depth_offset().
   double static_texel_m() const { return (static_max_.x - static_min_.x) / static_map_.desc().width; }
   double depth_scale() const { return 1.0 / (static_max_.z - static_min_.z); }

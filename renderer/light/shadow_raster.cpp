@@ -44,6 +44,22 @@ gpu::GraphicsPipeline shadow_pipeline(const scene::GpuScene& scene, gpu::Graphic
   return gpu::GraphicsPipeline(scene.device(), desc, fmt::format("{}{}", name, masked ? " masked" : ""));
 }
 
+gpu::GraphicsPipeline pane_shadow_pipeline(const scene::GpuScene& scene, gpu::GraphicsDesc desc,
+                                           std::string_view name) {
+  desc.fragment_shader = "camera/shadow_pane.frag";
+  desc.bindings.push_back({shared::material_records_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  for (const gpu::Binding& binding : scene::GpuScene::raster_bindings()) desc.bindings.push_back(binding);
+  desc.depth_format = shadow_map_format;
+  return gpu::GraphicsPipeline(scene.device(), desc, fmt::format("{} of panes", name));
+}
+
+gpu::GraphicsPipeline pane_caster_pipeline(const scene::GpuScene& scene, std::string_view name) {
+  gpu::GraphicsDesc desc;
+  desc.vertex_shader = "camera/pane_caster.vert";
+  desc.push_constant_bytes = sizeof(shared::CasterConstants);
+  return pane_shadow_pipeline(scene, desc, name);
+}
+
 gpu::GraphicsPipeline caster_pipeline(const scene::GpuScene& scene, bool moving, bool masked,
                                       std::string_view name) {
   gpu::GraphicsDesc desc;
@@ -63,11 +79,13 @@ MovingCasters moving_casters(const scene::GpuScene& scene, bool alpha_mask) {
   return moving;
 }
 
-std::vector<gpu::Descriptor> static_caster_descriptors(const scene::GpuScene& scene) {
+std::vector<gpu::Descriptor> static_caster_descriptors(const scene::GpuScene& scene,
+                                                       const gpu::Buffer* panes) {
   std::vector<gpu::Descriptor> found;
   for (const gpu::Descriptor& descriptor : scene.raster_descriptors())
     if (descriptor.slot == shared::scene_binding) found.push_back(descriptor);
   GREATX_CHECK(found.size() == 1, "the scene has no descriptor {}", shared::scene_binding);
+  if (panes != nullptr) found.push_back(gpu::Descriptor::buffer(shared::material_records_binding, *panes));
   return found;
 }
 

@@ -31,6 +31,12 @@ gpu::GraphicsPipeline shadow_pipeline(const scene::GpuScene& scene, gpu::Graphic
 /// are.
 gpu::GraphicsPipeline caster_pipeline(const scene::GpuScene& scene, bool moving, bool masked,
                                       std::string_view name);
+/// Returns such a pipeline for panes, which fill a part of the texels (camera/shadow_pane.frag.glsl).
+/// Its vertex shader is camera/pane_caster.vert or camera/pane_moving_shadow.vert.
+gpu::GraphicsPipeline pane_shadow_pipeline(const scene::GpuScene& scene, gpu::GraphicsDesc desc,
+                                           std::string_view name);
+/// Returns such a pipeline for static panes, with push constants CasterConstants.
+gpu::GraphicsPipeline pane_caster_pipeline(const scene::GpuScene& scene, std::string_view name);
 /// The bodies that move and cast shadows in the light of lamps, and the pipelines that draw them.
 struct MovingCasters {
   std::vector<BodyCaster> bodies;
@@ -38,8 +44,10 @@ struct MovingCasters {
 };
 /// With `alpha_mask`, primitives with holes are drawn apart.
 MovingCasters moving_casters(const scene::GpuScene& scene, bool alpha_mask);
-/// Returns the descriptors that a pipeline of static casters needs.
-std::vector<gpu::Descriptor> static_caster_descriptors(const scene::GpuScene& scene);
+/// Returns the descriptors that a pipeline of static casters needs; those for panes with the records of
+/// materials.
+std::vector<gpu::Descriptor> static_caster_descriptors(const scene::GpuScene& scene,
+                                                       const gpu::Buffer* panes = nullptr);
 /// Draws a body's parts with the bound pipeline. The scene's indices are bound.
 void draw_casters(gpu::Cmd& cmd, std::span<const CasterRange> ranges);
 /// Draws primitives with the bound pipeline. The scene's indices are bound.

@@ -230,7 +230,9 @@ RaySurface RayScene::surface(const Ray& ray, const RayHit& hit) const {
   s.metallic = pbr.metallic;
   s.roughness = pbr.roughness;
   const bool lamp = switched_[primitive.material];
-  const bool glows = lamp ? effects_.switched_lamps : effects_.emissive;
+  const scene::Material& material = scene_->materials[primitive.material];
+  const bool seen_through = panes_[primitive.material] && is_lit_pane(material);
+  const bool glows = lamp ? effects_.switched_lamps : effects_.emissive && !seen_through;
   if (glows) s.glow = dvec3(pbr.emissive) * double(shared::emissive_nits) * double(factor_[hit.primitive]);
   const dvec2 uv = texture_place(hit.triangle, hit.u, hit.v);
   const auto texture = [&](int32_t index) {

@@ -20,6 +20,10 @@ vec3 solid_color(const scene::PbrMaterial& material) {
   return vec3(material.base_color) * (pane_color(material) ? 1.0f - material.transmission : 1.0f);
 }
 
+bool is_lit_pane(const scene::Material& material) {
+  return material.name.starts_with("lit_pane") && pane_color(material.pbr).has_value();
+}
+
 std::vector<bool> pane_materials(const scene::Scene& scene) {
   std::vector<bool> panes;
   panes.reserve(scene.materials.size());

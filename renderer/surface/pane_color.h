@@ -21,6 +21,10 @@ std::optional<vec3> pane_color(const scene::PbrMaterial& material);
 /// Returns the base colour of what a material reflects diffusely: without the light that a pane lets through.
 vec3 solid_color(const scene::PbrMaterial& material);
 
+/// Returns whether a material is a pane before a lit room: its name begins with "lit_pane". Such a pane glows
+/// with the light of the room behind it where a camera does not look through it, and as far as it does not.
+bool is_lit_pane(const scene::Material& material);
+
 /// Returns, for each material of a scene, whether it is a pane to a camera.
 std::vector<bool> pane_materials(const scene::Scene& scene);
 

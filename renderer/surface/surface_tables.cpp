@@ -10,7 +10,6 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/error.h"
-#include "renderer/surface/closed_bodies.h"
 #include "renderer/surface/mark_map.h"
 #include "renderer/surface/octahedral.h"
 #include "renderer/surface/pane_color.h"
@@ -51,12 +50,14 @@ void put_triangle(Words& words, const scene::Scene& scene, uint32_t triangle, ui
   words.push_back(holes_and_lamp);
 }
 
-void put_material(Words& words, const scene::PbrMaterial& pbr, const scene::MaterialTextures& textures) {
+void put_material(Words& words, const scene::Material& material, const scene::MaterialTextures& textures) {
+  const scene::PbrMaterial& pbr = material.pbr;
   const auto pair = [](uint32_t low, uint32_t high) { return low | high << 16; };
   const auto texture = [](scene::TextureReference reference) { return static_cast<uint32_t>(reference + 1); };
   const auto fraction = [](float x) { return static_cast<uint32_t>(std::lround(x * 65535.0f)); };
   const std::optional<vec3> passes = pane_color(pbr);
-  const uint32_t roughness_in = passes                             ? shared::roughness_of_pane
+  const uint32_t roughness_in = is_lit_pane(material)              ? shared::roughness_of_lit_pane
+                                : passes                           ? shared::roughness_of_pane
                                 : textures.roughness_in_alpha      ? shared::roughness_in_alpha
                                 : textures.metallic_roughness >= 0 ? shared::roughness_in_texture
                                                                    : 0u;
@@ -86,8 +87,7 @@ void require_16_bits(const char* what, size_t count) {
 
 SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene, bool lamps) {
   const scene::Scene& scene = gpu_scene.scene();
-  closed_ = closed_bodies(scene);
-  closed_instances_ = render::closed_instances(scene);
+  closed_ = closed_surfaces(scene);
   require_16_bits("bodies", scene.bodies.size());
   require_16_bits("materials", scene.materials.size());
   Words triangles, materials;
@@ -114,9 +114,9 @@ SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene, bool lamps) {
     }
   }
   for (size_t i = 0; i < scene.materials.size(); ++i) {
-    scene::PbrMaterial pbr = scene.materials[i].pbr;
-    if (!lamps && scene::lamp_role(scene.materials[i])) pbr.emissive = vec3(0.0f);
-    put_material(materials, pbr, gpu_scene.textures().of_material(i));
+    scene::Material material = scene.materials[i];
+    if (!lamps && scene::lamp_role(material)) material.pbr.emissive = vec3(0.0f);
+    put_material(materials, material, gpu_scene.textures().of_material(i));
   }
   // An empty scene must still have buffers to bind.
   if (triangles.empty()) triangles.resize(4 * shared::triangle_record_quads);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gpu/cmd.h"
+#include "renderer/surface/closed_bodies.h"
 #include "scene/device/gpu_scene.h"
 
 namespace greatx::render {
@@ -28,16 +29,13 @@ class SurfaceTables {
   /// uvec2 [triangles + 1], by triangle + 1: instance + 1, semantic class | (material + 1) << 16; [0]:
   /// nothing.
   const gpu::Buffer& triangle_ids() const { return triangle_ids_; }
-  /// Whether a body is closed (renderer/surface/closed_bodies.h).
-  const std::vector<bool>& closed() const { return closed_; }
-  /// Whether an instance of the static world is.
-  const std::vector<bool>& closed_instances() const { return closed_instances_; }
+  const ClosedSurfaces& closed() const { return closed_; }
 
  private:
   gpu::Buffer triangles_, materials_;  ///< shaders/shared/camera.h: triangle_record_quads
   gpu::Buffer address_;                ///< address of triangles_, if they are too many to be bound
   gpu::Buffer triangle_primitives_, triangle_ids_;
-  std::vector<bool> closed_, closed_instances_;
+  ClosedSurfaces closed_;
 };
 
 }  // namespace greatx::render

@@ -13,6 +13,7 @@ layout(constant_id = spec_sky) const bool sky_on = true;
 layout(constant_id = spec_static_shadows) const bool static_shadows_on = true;
 layout(constant_id = spec_moving_shadows) const bool moving_shadows_on = true;
 layout(constant_id = spec_shadow_cascades) const uint shadow_cascades = 0u;
+layout(constant_id = spec_pane_shadows) const bool pane_shadows_on = false;
 layout(constant_id = spec_textures) const bool textures_on = true;
 layout(constant_id = spec_normal_maps) const bool normal_maps_on = true;
 layout(constant_id = spec_emissive) const bool emissive_on = true;

@@ -17,14 +17,32 @@ layout(set = 0, binding = face_pixels_binding, scalar) readonly buffer FacePixel
   FacePixel face_pixels[];
 };
 
+uint group_number() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+
 uint face_invocation() {
-  uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-  return group * (shade_group_width * shade_group_height) + gl_LocalInvocationIndex;
+  return group_number() * (shade_group_width * shade_group_height) + gl_LocalInvocationIndex;
 }
+
+#ifdef GREATX_PANES
+/// With one view: the groups of pixels that panes may cover (renderer/camera/pane_groups.h).
+layout(set = 0, binding = face_pixels_binding, scalar) readonly buffer PaneGroupsBlock {
+  uint pane_groups[];
+};
+ivec2 pixel_of_group() {
+  uint number = group_number();
+  uint group = number < pane_groups.length() ? pane_groups[number] : ~0u;
+  return ivec2(group & 0xffffu, group >> 16) * ivec2(shade_group_width, shade_group_height) +
+         ivec2(gl_LocalInvocationID.xy);
+}
+#endif
 
 /// Returns the pixel that the invocation handles, which may lie outside the picture.
 ivec2 own_pixel() {
+#ifdef GREATX_PANES
+  if (!faces_on) return pixel_of_group();
+#else
   if (!faces_on) return ivec2(gl_GlobalInvocationID.xy);
+#endif
   uint i = face_invocation();
   uint at = i < face_pixels.length() ? face_pixels[i].at : ~0u;
   return ivec2(at & 0xffffu, at >> 16);

@@ -50,8 +50,11 @@ vec3 sky_irradiance_over_pi(vec3 n) {
 
 /// Returns the share of the light that passes a shadow map at uv. If `near`, it makes four bilinear
 /// comparisons, a 3 x 3 texel tent. Otherwise it makes one, since a pixel is then no smaller than a texel.
+/// Panes fill some texels of every square of 2 x 2. The tent weighs each of the four alike; where there are
+/// panes, the single comparison is at the nearest corner of texels and does so, too.
 float shadow_filter(sampler2DShadow map, vec2 uv, float depth, float texel_uv, bool near) {
   float r = near ? 0.5 : 0.0;
+  if (pane_shadows_on) uv = near ? uv : floor(uv / texel_uv + 0.5) * texel_uv;
   float sum = texture(map, vec3(uv + texel_uv * vec2(-r, -r), depth));
   if (near) {
     sum += texture(map, vec3(uv + texel_uv * vec2(r, -r), depth));

@@ -8,13 +8,18 @@
 #include "camera/effects.glsl"
 #include "camera/picture.glsl"
 
-/// Mirrors of water first, then panes.
+/// Mirrors of water first, then the ids of panes, which are 0 where no group of panes was shaded, then the
+/// other words of panes.
 layout(set = 0, binding = shade_mirror_binding, scalar) buffer BesideBlock { uint picture_beside[]; };
 
+uint first_pane_word() {
+  ivec2 size = picture_size();
+  return mirrors_on ? 3u * uint(size.x * size.y) : 0u;
+}
+uint pane_id_word(uint element) { return first_pane_word() + element; }
 uint pane_word(uint element) {
   ivec2 size = picture_size();
-  uint mirror_words = mirrors_on ? 3u * uint(size.x * size.y) : 0u;
-  return mirror_words + pane_pixel_words * element;
+  return first_pane_word() + uint(size.x * size.y) + (pane_pixel_words - 1u) * element;
 }
 
 #ifdef GREATX_PANES
@@ -33,14 +38,14 @@ vec3 passes_at(ivec2 at, uint s) {
 }
 
 void store_panes(uint element, uint id, float depth, vec3 stored, vec3 passes) {
-  uint word = pane_word(element);
-  picture_beside[word] = id;
+  picture_beside[pane_id_word(element)] = id;
   if (id != 0u) {
-    picture_beside[word + 1u] = floatBitsToUint(depth);
+    uint word = pane_word(element);
+    picture_beside[word] = floatBitsToUint(depth);
     stored = min(stored, vec3(65504.0));
-    picture_beside[word + 2u] = packHalf2x16(stored.rg);
-    picture_beside[word + 3u] = packHalf2x16(vec2(stored.b, passes.r));
-    picture_beside[word + 4u] = packHalf2x16(passes.gb);
+    picture_beside[word + 1u] = packHalf2x16(stored.rg);
+    picture_beside[word + 2u] = packHalf2x16(vec2(stored.b, passes.r));
+    picture_beside[word + 3u] = packHalf2x16(passes.gb);
   }
 }
 #else
@@ -53,14 +58,14 @@ struct Panes {
 
 Panes panes_before(uint element) {
   Panes panes = Panes(0u, 0.0, vec3(0.0), vec3(1.0));
-  uint word = pane_word(element);
-  panes.id = picture_beside[word];
+  panes.id = picture_beside[pane_id_word(element)];
   bool any = panes.id != 0u;
   if (any) {
-    panes.depth = uintBitsToFloat(picture_beside[word + 1u]);
-    vec2 middle = unpackHalf2x16(picture_beside[word + 3u]);
-    panes.radiance = vec3(unpackHalf2x16(picture_beside[word + 2u]), middle.x) / camera.exposure;
-    panes.passes = vec3(middle.y, unpackHalf2x16(picture_beside[word + 4u]));
+    uint word = pane_word(element);
+    panes.depth = uintBitsToFloat(picture_beside[word]);
+    vec2 middle = unpackHalf2x16(picture_beside[word + 2u]);
+    panes.radiance = vec3(unpackHalf2x16(picture_beside[word + 1u]), middle.x) / camera.exposure;
+    panes.passes = vec3(middle.y, unpackHalf2x16(picture_beside[word + 3u]));
   }
   return panes;
 }

@@ -10,6 +10,7 @@
 #include "camera/triangle.glsl"
 #include "lib/textures.glsl"
 #include "shared/marks.h"
+#include "shared/pane.h"
 
 layout(set = 0, binding = material_records_binding, scalar) readonly buffer MaterialRecordsBlock {
   u64vec2 material_records[];
@@ -106,13 +107,16 @@ Surface surface_at(Seen seen, vec3 ray) {
   vec2 metallic_roughness = unpackUnorm2x16(m0.z);
   s.metallic = metallic_roughness.x;
   s.roughness = metallic_roughness.y;
-  s.pane = panes_on && m0.y >> 16 == roughness_of_pane;
+  s.pane = panes_on && m0.y >> 16 >= roughness_of_pane;
   s.glow = vec3(0.0);
   uint of_glow = 0u;
   if (emissive_on) {
     uvec4 m1 = material_record(seen.material, 1u);
     s.glow = uintBitsToFloat(m1.xyz) * emissive_nits;
     of_glow = m1.w;
+#ifdef GREATX_PANES
+    if (m0.y >> 16 == roughness_of_lit_pane) s.glow *= 1.0 - pane_shows(length(s.p) * length(camera.ray_x));
+#endif
   }
   if (switched_lamps_on && (r4.w & triangle_switched) != 0u) {
     uvec4 m1 = material_record(seen.material, 1u);

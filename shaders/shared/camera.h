@@ -48,7 +48,7 @@ const uint weather_binding = 24u;      // uniform: GpuWeather
 const uint rain_cover_binding = 25u;   // sampled with comparison: what lies under the open sky
 const uint lamp_shadow_binding = 26u;  // sampled with comparison: the lamps' tiles
 // storage, words: uvec3 [pixels], halves: weight and roughness of a mirror, and the stored radiance that it
-// shows so far (if spec_mirrors is set); then PanePixel [pixels] (if spec_panes is)
+// shows so far (if spec_mirrors is set); then what pixels see of panes (if spec_panes is; pane_pixel_words)
 const uint shade_mirror_binding = 23u;
 const uint pane_passes_binding = 33u;  // what the panes of a sample let through: storage image, or sampled
 
@@ -87,6 +87,7 @@ const uint spec_band_rows = 25u;
 const uint spec_clouds = 26u;
 const uint spec_horizon = 27u;  // a HorizonKind (renderer/light/lighting.h)
 const uint spec_markings = 28u;
+const uint spec_pane_shadows = 29u;  // panes are in the maps of shadows (camera/shadow_pane.frag.glsl)
 // Weather and night (shaders/shared/weather.h).
 const uint spec_wet_surfaces = 32u;
 const uint spec_snow_cover = 33u;
@@ -177,9 +178,10 @@ const uint triangle_record_quads = 6u;
 ///      through beside its reflection, in three fractions of 1023 from the lowest bits
 /// A texture is stored as its reference (scene/device/texture_layers.h) + 1, or 0 if there is none.
 const uint material_record_quads = 3u;
-const uint roughness_in_texture = 1u;  ///< metallic-roughness texture
-const uint roughness_in_alpha = 2u;    ///< alpha of the base-colour texture
-const uint roughness_of_pane = 3u;     ///< nowhere; the material is a pane
+const uint roughness_in_texture = 1u;   ///< metallic-roughness texture
+const uint roughness_in_alpha = 2u;     ///< alpha of the base-colour texture
+const uint roughness_of_pane = 3u;      ///< nowhere; the material is a pane, and so it is from here on
+const uint roughness_of_lit_pane = 4u;  ///< one that glows as far as cameras do not look through it
 
 const uint shade_group_width = 8u;
 const uint shade_group_height = 8u;
@@ -200,8 +202,10 @@ const uint camera_sees_panes = 2u;  ///< PanePixels of this view are valid
 const uint camera_sees_lines = 4u;  ///< the view has words of thin lines
 
 /// Holds what a pixel sees of panes, in five words: the triangle + 1 of the nearest pane before its centre
-/// and its planar depth (0: no pane; pane_beside: only before other samples), then six halves: the stored
-/// radiance that the panes add, and the share of the light behind that they let through.
+/// Holds what a pixel sees of panes, in five words. The first is the triangle + 1 of the nearest pane before
+/// its centre (0: no pane; pane_beside: only before other samples); those of all pixels stand together. The
+/// others are its planar depth, then six halves: the stored radiance that the panes add, and the share of the
+/// light behind that they let through.
 const uint pane_pixel_words = 5u;
 const uint pane_beside = 0x80000000u;
 

@@ -6,11 +6,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "renderer/reference/path_tracer.h"
+#include "renderer/surface/closed_bodies.h"
 #include "renderer/surface/pane_color.h"
+#include "scene/build/build.h"
+#include "scene/generator/generate.h"
+#include "scene/generator/shapes.h"
 #include "shaders/shared/brdf.h"
 #include "shaders/shared/pane.h"
 #include "tests/renderer/camera_rig.h"
@@ -229,6 +236,29 @@ TEST(Panes, LackOnlyWhatPanesBehindTheNearestMirror) {
   }
 }
 
+/// A pane before a lit room glows as far as a camera does not look through it.
+TEST(Panes, LitPanesGlowWhereTheyDoNotClear) {
+  const render::CameraDesc desc = plain_camera();
+  const double reach = double(shared::pane_dark_pixel) * desc.fx, own_cd_m2 = 300.0;
+  for (const double share : {0.5, 0.8, 0.95, 1.05})
+    for (const bool panes : {true, false}) {
+      TinyScene tiny;
+      tiny.object("screen", 0, tiny.material_as(glowing()))
+          .quad({5, 9, -9}, {5, -9, -9}, {5, -9, 9}, {5, 9, 9});
+      scene::Material lit = glass();
+      lit.name = "lit_pane_of_a_bus";
+      lit.pbr.emissive = vec3(float(own_cd_m2 / 1000.0));
+      const double x = share * reach;
+      tiny.object("pane", 0, tiny.material_as(lit)).quad({x, 9, -9}, {x, -9, -9}, {x, -9, 9}, {x, 9, 9});
+      CameraRig rig(tiny.build(), plain_light(), desc, dark(panes));
+      const double ray = glm::length(pixel_ray(desc, 32, 32));
+      const double shows = panes ? double(shared::pane_shows(float(x * ray / desc.fx))) : 0.0;
+      EXPECT_NEAR(luminance_at(rig.shoot(look({0, 0, 0})), 32 * 64 + 32),
+                  glow_cd_m2 * shows * pane_transmittance(1.0 / ray) + own_cd_m2 * (1.0 - shows), 4.0)
+          << share << panes;
+    }
+}
+
 TEST(Panes, HazeLiesBeforeAndBehindThem) {
   render::Lighting lighting = plain_light();
   lighting.haze_extinction_per_m = 0.2;
@@ -278,6 +308,77 @@ TEST(Panes, LetLightInWhereThePathTracerLooks) {
     hemisphere += pane_transmittance(std::sqrt(1.0 - level)) / 1000.0;
   }
   EXPECT_NEAR(mean / (500.0 * hemisphere), 1.0, 0.01);
+}
+
+/// A body with a roof of glass. Its inside is a sheet below the roof, or lies within the floor.
+scene::Scene with_inside(bool inside) {
+  TinyScene tiny;
+  tiny.quad({-90, -90, 0}, {90, -90, 0}, {90, 90, 0}, {-90, 90, 0});
+  const uint32_t car = tiny.body("car"), paint = tiny.material_as(optical_material("paint", 0.5f));
+  tiny.object("car", car, paint)
+      .quad({-2, -1, 0.3}, {-2, 1, 0.3}, {2, 1, 0.3}, {2, -1, 0.3})
+      .quad({-2, -1, 0.3}, {2, -1, 0.3}, {2, -1, 1.5}, {-2, -1, 1.5})
+      .quad({-2, 1, 0.3}, {-2, 1, 1.5}, {2, 1, 1.5}, {2, 1, 0.3})
+      .quad({-2, -1, 0.3}, {-2, -1, 1.5}, {-2, 1, 1.5}, {-2, 1, 0.3})
+      .quad({2, -1, 0.3}, {2, 1, 0.3}, {2, 1, 1.5}, {2, -1, 1.5});
+  tiny.object("roof", car, tiny.material_as(glass(vec3(0.8f))))
+      .quad({-2, -1, 1.5}, {2, -1, 1.5}, {2, 1, 1.5}, {-2, 1, 1.5});
+  if (inside)
+    tiny.object("seat", car, tiny.material_as(glowing()))
+        .quad({-1, -0.5, 1.2}, {1, -0.5, 1.2}, {1, 0.5, 1.2}, {-1, 0.5, 1.2});
+  return tiny.build();
+}
+
+/// Insides, which far cameras do not draw, would not show there.
+TEST(Panes, InsidesShowNearByAlone) {
+  ASSERT_EQ(render::insides(with_inside(true)), (std::vector<bool>{false, false, false, true}));
+  ASSERT_TRUE(render::closed_surfaces(with_inside(true)).bodies[1]);
+  ASSERT_FALSE(render::closed_bodies(with_inside(true))[1]);
+  const render::CameraDesc desc = plain_camera(128);
+  const double reach = double(shared::pane_dark_pixel) * desc.fx;
+  CameraRig with(with_inside(true), plain_light(60.0, 35.0), desc, dark()),
+      without(with_inside(false), plain_light(60.0, 35.0), desc, dark());
+  for (int k = 0; k < 6; ++k) {
+    const Pose car{{0.3 * k, -0.2 * k, 0.0}, orientation_from_yaw_pitch_roll(0.7 * k, 0.02 * k, -0.1 * k)};
+    const Pose far = look({-reach - 6.0, 1, 3.0}, 0.0, 15.0), near = look({-2.5, 0, 4.5}, 0.0, 60.0);
+    EXPECT_EQ(with.shoot(far, {car}).hdr, without.shoot(far, {car}).hdr);
+    EXPECT_NE(with.shoot(near, {car}).hdr, without.shoot(near, {car}).hdr);
+  }
+}
+
+TEST(Panes, InsidesAreHiddenFromAllSides) {
+  const auto found = [](const dvec3& a, const dvec3& b, const dvec3& c, bool open = false) -> bool {
+    TinyScene tiny;
+    const uint32_t body = tiny.body("case"), pane = tiny.material_as(glass());
+    tiny.object("case", body, pane).box({0, 0, 0}, {2, 2, 2});
+    if (open) tiny.quad({2, 2, 2}, {2, 3, 2}, {2, 3, 3}, {2, 2, 3});
+    tiny.object("thing", body).triangle(a, b, c);
+    return render::insides(tiny.build())[1];
+  };
+  EXPECT_TRUE(found({0.5, 0.5, 0.5}, {1.5, 0.5, 0.5}, {0.5, 1.5, 1.5}));
+  EXPECT_FALSE(found({0.5, 0.5, 0.5}, {2.5, 0.5, 0.5}, {0.5, 1.5, 1.5})) << "a corner sticks out";
+  EXPECT_FALSE(found({-9, 1, 1}, {9, 1, 1}, {1, 9, 1})) << "it cuts the case, and all corners are outside";
+  EXPECT_FALSE(found({4, 0, 0}, {5, 0, 0}, {4, 1, 0})) << "beside the case";
+  EXPECT_FALSE(found({0.5, 0.5, 0.5}, {1.5, 0.5, 0.5}, {0.5, 1.5, 1.5}, true)) << "the case is not closed";
+}
+
+/// Far away a generated vehicle is its closed shell, without its inside.
+TEST(Panes, GeneratedVehiclesHideTheirInsides) {
+  for (const scene::VehicleShape& shape : scene::vehicle_shapes()) {
+    if (shape.two_wheeler) continue;
+    const scene::Model model = scene::load_model(
+        "v.glb", scene::generate_glb({.kind = "vehicle", .seed = 5, .variant = shape.variant}), {});
+    const scene::Scene scene = scene::build_scene({{.name = "v", .model = &model, .moving = true}}, {});
+    const render::ClosedSurfaces surfaces = render::closed_surfaces(scene);
+    std::set<std::string> hidden, shown;
+    for (size_t i = 0; i < scene.primitives.size(); ++i)
+      (surfaces.insides[i] ? hidden : shown).insert(scene.materials[scene.primitives[i].material].name);
+    EXPECT_THAT(shown, testing::Not(testing::Contains(testing::AnyOf("cabin", "seat", "bus_seat", "bus_pole",
+                                                                     "bus_floor", "bus_ceiling"))))
+        << shape.variant;
+    EXPECT_FALSE(hidden.empty()) << shape.variant;
+    EXPECT_TRUE(surfaces.bodies[1]) << shape.variant;
+  }
 }
 
 }  // namespace

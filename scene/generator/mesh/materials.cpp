@@ -322,7 +322,7 @@ std::vector<MaterialSpec> make_library() {
       {"blue_beacon", "", dvec2(1.0), 0, vec3(0.02f, 0.06f, 0.55f), 0.2f, 0.0f, vec3(0), plastic},
       {"destination", "", dvec2(1.0), 0, vec3(0.05f, 0.03f, 0.01f), 0.4f, 0.0f, vec3(0.35f, 0.16f, 0.015f),
        plastic},
-      {"lit_window", "", dvec2(1.0), 0, vec3(0.035f, 0.042f, 0.045f), 0.08f, 0.0f, lamp_color_4000k * 0.04f,
+      {"lit_window", "", dvec2(1.0), 0, vec3(0.035f, 0.042f, 0.045f), 0.08f, 0.0f, lamp_color_4000k * 0.012f,
        body_pane},
       {"wheel_alloy", "wheel_alloy", dvec2(1.0), 0, vec3(1.0f), 0.45f, 0.0f, vec3(0), castings},
       {"wheel_steel", "wheel_steel", dvec2(1.0), 0, vec3(1.0f), 0.55f, 0.0f, vec3(0), castings},
@@ -331,6 +331,18 @@ std::vector<MaterialSpec> make_library() {
        0.95f},
       // Windows behind which nothing is modelled.
       {"car_glass_dark", "", dvec2(1.0), 0, vec3(0.025f, 0.035f, 0.04f), 0.08f, 0.0f, vec3(0), body_pane},
+      // Windows of buses, which glow where no camera looks through them (renderer/surface/pane_color.h), and
+      // what stands behind. A saloon with 100 to 150 lux: its surfaces glow with the light that they reflect.
+      {"lit_pane_bus", "", dvec2(1.0), 0, vec3(0.79f, 0.83f, 0.80f), 0.06f, 0.0f, lamp_color_4000k * 0.04f,
+       body_pane, -1, false, 0.95f},
+      {"bus_ceiling", "", dvec2(1.0), 0, vec3(0.3f, 0.3f, 0.29f), 0.8f, 0.0f, lamp_color_4000k * 0.12f,
+       unseen},
+      {"bus_floor", "", dvec2(1.0), 0, vec3(0.05f, 0.05f, 0.055f), 0.9f, 0.0f, lamp_color_4000k * 0.004f,
+       unseen},
+      {"bus_seat", "", dvec2(1.0), 0, vec3(0.03f, 0.05f, 0.12f), 0.9f, 0.0f, vec3(0.0016f, 0.0024f, 0.004f),
+       unseen},
+      {"bus_pole", "", dvec2(1.0), 0, vec3(0.55f, 0.40f, 0.03f), 0.4f, 0.0f, vec3(0.03f, 0.021f, 0.002f),
+       unseen},
       {"cabin", "", dvec2(1.0), 0, vec3(0.022f, 0.022f, 0.024f), 0.9f, 0.0f, vec3(0), unseen},
       {"seat", "", dvec2(1.0), 0, vec3(0.038f, 0.036f, 0.035f), 0.9f, 0.0f, vec3(0), unseen},
       {"tyre", "", dvec2(1.0), 0, vec3(0.015f), 0.9f, 0.0f, vec3(0), rubber},

@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "scene/generator/mesh/materials.h"
 #include "scene/generator/objects/box_shell.h"
+#include "scene/generator/objects/saloon.h"
 #include "scene/generator/objects/smooth_mesh.h"
 
 namespace greatx::scene::generator {
@@ -61,7 +62,7 @@ void add_doors(MeshBuilder& mesh, double w, const std::vector<double>& middles, 
 VehicleBody make_bus(const VehicleShape& shape, const BusStyle& style, int paint) {
   const double front = 0.5 * shape.length_m, w = 0.5 * shape.width_m;
   const double top = shape.height_m - (shape.variant == "city_bus" ? 0.2 : 0.0);
-  const int glass = material("lit_window"), trim = material("car_trim");
+  const int glass = material("lit_pane_bus"), trim = material("car_trim");
   const double rear_axle = shape.rear_axle_x_m, front_axle = shape.wheels.front().hub_m.x;
   BoxShell shell;
   shell.front_x = front;
@@ -95,7 +96,7 @@ VehicleBody make_bus(const VehicleShape& shape, const BusStyle& style, int paint
     for (size_t i = 0; i + 1 < s.size(); i += 2)
       if (zone == ShellZone::side && x < s[i] && x > s[i + 1]) return trim;
     if (zone == ShellZone::rear_corner) return paint;
-    return zone == ShellZone::front_corner || zone == ShellZone::front ? material("car_glass_dark") : glass;
+    return zone == ShellZone::front_corner || zone == ShellZone::front ? material("car_glass") : glass;
   };
   VehicleBody body;
   add_box_shell(body.mesh, shell);
@@ -111,6 +112,18 @@ VehicleBody make_bus(const VehicleShape& shape, const BusStyle& style, int paint
   std::vector<double> doors{front - 0.85};
   if (shape.variant == "city_bus") doors.insert(doors.end(), {0.35, -front + 2.0});
   add_doors(body.mesh, w, doors, style.floor + 0.06, std::min(2.35, style.window_top[0]));
+  for (size_t i = 0; i < style.window_low.size(); ++i)
+    add_saloon(body.inside, {.front = front - (i == 0 ? 1.7 : 0.6),
+                             .rear = -front + 0.15,
+                             .half_width = w - 0.12,
+                             .floor = style.window_low[i] - (i == 0 ? 0.03 : 0.1),  // above the wheel arches
+                             .ceiling = std::min(style.window_top[i] + 0.06, top - 0.12),
+                             .doors = i == 0 ? doors : std::vector<double>{}});
+  add_drivers_cab(body.inside, {.front = front - style.rake,
+                                .rear = front - 1.7,
+                                .half_width = w - 0.1,
+                                .belt = style.window_low[0],
+                                .alone = true});
   add_bus_mirrors(body.mesh, front, w, style.window_top[0] - 0.1);
   if (shape.variant == "city_bus")
     body.mesh.box(material("car_paint_white"), {-1.6, -0.85, top - 0.05}, {1.4, 0.85, shape.height_m});
@@ -119,7 +132,7 @@ VehicleBody make_bus(const VehicleShape& shape, const BusStyle& style, int paint
 
 VehicleBody make_tram(const VehicleShape& shape, int paint) {
   const double front = 0.5 * shape.length_m, w = 0.5 * shape.width_m, roof = shape.height_m - 0.42;
-  const int glass = material("lit_window"), trim = material("car_trim"), bellows = material("bumper");
+  const int glass = material("lit_pane_bus"), trim = material("car_trim"), bellows = material("bumper");
   BoxShell shell;
   shell.front_x = front;
   shell.rear_x = -front;
@@ -141,7 +154,7 @@ VehicleBody make_tram(const VehicleShape& shape, int paint) {
       for (const double joint : joints)
         if (std::abs(x - joint) < 0.27) return bellows;
     if (level == 1) {
-      if (zone != ShellZone::side) return material("car_glass_dark");
+      if (zone != ShellZone::side) return material("car_glass");
       for (const double s : shell.stations)
         if (std::abs(std::abs(x - s) - 0.04) < 1e-6 && std::abs(s - x) < 0.05) return trim;
       return glass;
@@ -160,6 +173,13 @@ VehicleBody make_tram(const VehicleShape& shape, int paint) {
   MeshBuilder other;  // the doors on the left side
   add_doors(other, w - 0.015, {4.5, 0.9, -0.9, -4.5}, 0.34, 2.25);
   body.mesh.append(other, dvec3(0.0), pi);
+  add_saloon(body.inside, {.front = front - 1.9,
+                           .rear = -front + 1.9,
+                           .half_width = w - 0.12,
+                           .floor = 0.86,
+                           .ceiling = 2.40,
+                           .doors = {4.5, 0.9, -0.9, -4.5},
+                           .gaps = {{3.0, 3.9}, {-3.9, -3.0}}});
   // the pantograph: an arm with an elbow, and the bow that touches the wire
   SmoothMesh arm;
   const dvec3 knee(-0.9, 0.0, roof + 0.25);
@@ -196,10 +216,11 @@ void add_cab(VehicleBody& body, const VehicleShape& shape, double rear, double t
     if (level == 2 && zone != ShellZone::rear && zone != ShellZone::rear_corner)
       return zone == ShellZone::front_corner && x < front - 0.1 ? paint
              : zone == ShellZone::side && x < door              ? paint
-                                                                : material("car_glass_dark");
+                                                                : material("car_glass");
     return paint;
   };
   add_box_shell(body.mesh, shell);
+  add_drivers_cab(body.inside, {.front = front - 0.05, .rear = rear, .half_width = w, .belt = belt});
   add_boxes(body.mesh, material("bumper"), {front - 0.12, w + 0.02, belt + 0.08},
             {front - 0.02, w + 0.22, belt + 0.62});
   add_boxes(body.mesh, material("bumper"), {front - 0.2, w - 0.1, belt + 0.55},

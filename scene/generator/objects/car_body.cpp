@@ -363,18 +363,21 @@ SmoothMesh::Mapping side_mapping(const CarStyle& style, const VehicleShape& shap
   };
 }
 
-CabinRoom cabin_of(const VehicleShape& shape, const CarStyle& style) {
-  return {.front = style.cowl,
-          .rear = style.back_base + 0.03,
+/// Returns the room of a cabin. In the thinned shell of a parked car the windscreen and the rear window are
+/// flat from side to side.
+CabinRoom cabin_of(const VehicleShape& shape, const CarStyle& style, bool detailed) {
+  return {.front = detailed ? style.cowl : style.cowl - 0.14,
+          .rear = detailed ? style.back_base + (style.flat() ? 0.20 : 0.08) : style.d_rear + 0.03,
           .seats = style.b_front,
-          // above the box between the wheels (add_car_details)
-          .floor = std::max(style.belt - 0.30, 2.0 * shape.wheels[0].radius_m + 0.03),
+          // above the wheel arches and the box between the wheels (add_car_details)
+          .floor = std::max(style.belt - 0.30, 2.0 * shape.wheels[0].radius_m + 0.06),
           .belt = style.belt,
           .roof = shape.height_m - style.roof_cut,
           .half_width = 0.5 * shape.width_m - 0.085,
           .roof_y = style.roof_y,
           .rear_roof = style.d_rear + style.d_lean,
-          .load = style.kind == CarStyle::Kind::van};
+          .load = style.kind == CarStyle::Kind::van,
+          .plain = !detailed};
 }
 
 void add_car_details(VehicleBody& body, const VehicleShape& shape, const CarStyle& style, int paint) {
@@ -423,7 +426,7 @@ VehicleBody make_car_body(const VehicleShape& shape, int paint, bool detailed) {
                         paint,
                         roof,
                         material("bumper"),
-                        material(detailed ? "car_glass" : "car_glass_dark"),
+                        material("car_glass"),
                         material("car_trim"),
                         material(detailed ? "lamp_cover" : "headlight_off"),
                         material(detailed ? "switched_stop" : "tail_light_off"),
@@ -440,10 +443,8 @@ VehicleBody make_car_body(const VehicleShape& shape, int paint, bool detailed) {
                         .top = [&](size_t) { return roof; }});
   VehicleBody body;
   shell.add_to(body.mesh, 38.0 * pi / 180.0, side_mapping(style, shape));
-  if (detailed) {
-    add_car_details(body, shape, style, paint);
-    add_cabin(body.mesh, cabin_of(shape, style));
-  }
+  if (detailed) add_car_details(body, shape, style, paint);
+  add_cabin(body.inside, cabin_of(shape, style, detailed));
   return body;
 }
 

@@ -17,6 +17,7 @@ struct CabinRoom {
   double half_width, roof_y;  ///< y of the sides at the belt line, and of the roof's edge
   double rear_roof;           ///< x of the upper edge of the rear window
   bool load = false;          ///< a van: a wall behind the front seats instead of other seats
+  bool plain = false;         ///< a parked car: few triangles
 };
 
 void add_cabin(MeshBuilder& mesh, const CabinRoom& room);

@@ -15,6 +15,8 @@ namespace greatx::scene::generator {
 /// The body of a vehicle and the middles of its lamps on the left side. The right side mirrors them.
 struct VehicleBody {
   MeshBuilder mesh;
+  MeshBuilder
+      inside;  ///< what one sees behind the panes; follows the rest (renderer/surface/closed_bodies.h)
   std::vector<dvec3> head_lamps, tail_lamps;
   double beam_cd = 12000.0;  ///< peak of one head lamp
 };

@@ -67,13 +67,15 @@ MeshBuilder make_parked_car(const std::string& variant, const std::string& paint
   for (size_t i = 0; i < shape.wheels.size(); i += 2)
     add_axle(body.mesh, shape.wheels[i].hub_m, shape.wheels[i].radius_m, tyre_width(shape),
              wheel_face(shape));
+  body.mesh.append(body.inside, dvec3(0.0));
   return std::move(body.mesh);
 }
 
 void write_vehicle(SceneWriter& writer, const std::string& variant, uint64_t seed) {
   const VehicleShape& shape = vehicle_shape(variant);
   if (shape.two_wheeler) return write_two_wheeler(writer, shape, seed);
-  const VehicleBody body = make_body(shape, paint_of(variant, seed));
+  VehicleBody body = make_body(shape, paint_of(variant, seed));
+  body.mesh.append(body.inside, dvec3(0.0));
   const int root = writer.add_node({.name = variant,
                                     .mesh = writer.add_mesh(variant, body.mesh),
                                     .semantic_class = SemanticClass::vehicle});
@@ -99,6 +101,7 @@ void write_car(SceneWriter& writer, const std::string& variant) {
   for (size_t i = 0; i < shape.wheels.size(); ++i)
     body.mesh.append(make_wheel(shape.wheels[i].radius_m, tyre_width(shape), wheel_face(shape), i % 2 == 0),
                      shape.wheels[i].hub_m);
+  body.mesh.append(body.inside, dvec3(0.0));
   const int root = writer.add_node(
       {.name = "car", .mesh = writer.add_mesh(variant, body.mesh), .semantic_class = SemanticClass::vehicle});
   add_vehicle_lights(writer, body, root);

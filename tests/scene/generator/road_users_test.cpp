@@ -89,10 +89,12 @@ TEST_P(Vehicle, WheelsTurnAboutTheirHubsAndTouchTheGround) {
 
 TEST_P(Vehicle, KeepsToItsLimitOfTriangles) {
   const std::string& variant = shape().variant;
-  const size_t limit = shape().two_wheeler                                   ? 870
-                       : variant == "articulated_lorry" || variant == "tram" ? 1050
-                       : shape().length_m > 7.0 || variant == "minibus"      ? 980
-                                                                             : 850;
+  const bool benches = variant == "city_bus" || variant == "double_decker" || variant == "tram";
+  const size_t limit = shape().two_wheeler                              ? 870
+                       : benches                                        ? 1150
+                       : variant == "articulated_lorry"                 ? 1050
+                       : shape().length_m > 7.0 || variant == "minibus" ? 980
+                                                                        : 850;
   EXPECT_LE(soup_.triangles.size(), limit);
   EXPECT_GE(soup_.triangles.size(), 300u);
 }
@@ -191,7 +193,7 @@ TEST(Vehicles, SidesOfVansBusesAndLorriesAreOneFacet) {
   EXPECT_GT(largest_side("fire_engine"), 10.0);
 }
 
-TEST(ParkedCars, AreDarkClosedAndOfFewTriangles) {
+TEST(ParkedCars, HaveNoLightsAndFewTriangles) {
   for (const VehicleShape& shape : vehicle_shapes()) {
     if (shape.two_wheeler || shape.length_m > 7.0) continue;
     const generator::MeshBuilder mesh = generator::make_parked_car(shape.variant, "car_paint_red");
@@ -201,7 +203,7 @@ TEST(ParkedCars, AreDarkClosedAndOfFewTriangles) {
       indices += primitive.indices.size();
       for (const vec3& p : primitive.positions) bounds.add(dvec3(p));
     }
-    EXPECT_LE(indices / 3, 150u) << shape.variant;
+    EXPECT_LE(indices / 3, 185u) << shape.variant;
     EXPECT_NEAR(bounds.size().x, shape.length_m, 0.12) << shape.variant;
     EXPECT_NEAR(bounds.min.z, 0.0, 0.001) << shape.variant;
     EXPECT_LT(bounds.size().y, shape.width_m + 0.03) << shape.variant;
