@@ -168,6 +168,10 @@ struct Group {
   }
 };
 
+/// Of meshes with more pairs of a shell's triangle and another one, nothing counts as inside: a vehicle has
+/// some hundred thousand, and each takes some 10 ns at set-up.
+constexpr size_t most_pairs = 4'000'000;
+
 /// Returns which primitives of a group are insides, by place.
 std::vector<bool> insides_of(const Group& group) {
   const Parts parts(group.corners);
@@ -183,7 +187,9 @@ std::vector<bool> insides_of(const Group& group) {
   std::vector<Corners> shell;
   for (size_t t = 0; t < count; ++t)
     if (outer[parts.of(t)]) shell.push_back(triangle(t));
-  std::vector<bool> inside(group.primitives.size(), !shell.empty());
+  const bool few = shell.size() * (count - shell.size()) <= most_pairs;
+  std::vector<bool> inside(group.primitives.size(), few && !shell.empty());
+  if (!few) return inside;
   enum class Where : uint8_t { unknown, in, out };
   std::vector<Where> where(group.corners.size(), Where::unknown);  // by part
   for (size_t t = 0; t < count; ++t) {

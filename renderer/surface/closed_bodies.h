@@ -13,7 +13,8 @@ namespace greatx::render {
 /// Returns, for each primitive, whether it is an inside: closed surfaces with panes
 /// (renderer/surface/pane_color.h) hide it from all sides where panes count as solid. Both belong to one
 /// body, or to one instance of the static world. No triangle of an inside crosses these surfaces, and a point
-/// of each of its connected parts has a winding number of 1.
+/// of each of its connected parts has a winding number of 1. Meshes with more than 4 million pairs of a
+/// triangle of such a surface and another one have no insides, since each pair is looked at.
 std::vector<bool> insides(const scene::Scene& scene);
 
 /// Returns, for each body, whether its triangles but for the insides are closed surfaces that face outwards:
