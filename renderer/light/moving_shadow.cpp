@@ -116,7 +116,7 @@ MovingShadows::Part MovingShadows::part_of(uint32_t body, const MovingShadowOpti
   for (uint32_t i = range.first_primitive; i < range.first_primitive + range.primitive_count; ++i) {
     const scene::Primitive& primitive = scene.primitives[i];
     const Range next{primitive.first_index, primitive.index_count, i};
-    if (!is_pane.empty() && is_pane[primitive.material]) {
+    if (is_pane[primitive.material]) {
       part.panes.push_back(next);
     } else if (options.alpha_mask && scene.has_holes(i)) {
       part.masked.push_back(next);
@@ -135,7 +135,7 @@ MovingShadows::Part MovingShadows::part_of(uint32_t body, const MovingShadowOpti
 
 void MovingShadows::collect(const MovingShadowOptions& options) {
   const scene::Scene& scene = scene_->scene();
-  const std::vector<bool> is_pane = options.panes != nullptr ? pane_materials(scene) : std::vector<bool>();
+  const std::vector<bool> is_pane = pane_materials(scene, options.panes != nullptr);
   std::vector<uint32_t> caster_of(scene.bodies.size(), ~0u);
   for (uint32_t b = 1; options.casters && b < scene.bodies.size(); ++b) {
     const uint32_t owner = scene.owner_of(b);

@@ -63,13 +63,13 @@ NearShadows::NearShadows(const ShadowMaps& base) : base_(&base), scene_(&base.sc
 void NearShadows::find_casters() {
   const scene::Scene& scene = scene_->scene();
   const SunFrame& frame = base_->frame();
-  const std::vector<bool> is_pane = base_->panes() != nullptr ? pane_materials(scene) : std::vector<bool>();
+  const std::vector<bool> is_pane = pane_materials(scene, base_->panes() != nullptr);
   const scene::Body& world = scene.bodies[0];
   for (uint32_t i = world.first_primitive; i < world.first_primitive + world.primitive_count; ++i) {
     const scene::Primitive& primitive = scene.primitives[i];
-    std::vector<Block>& blocks = !is_pane.empty() && is_pane[primitive.material] ? panes_
-                                 : base_->alpha_mask() && scene.has_holes(i)     ? masked_
-                                                                                 : opaque_;
+    std::vector<Block>& blocks = is_pane[primitive.material]                 ? panes_
+                                 : base_->alpha_mask() && scene.has_holes(i) ? masked_
+                                                                             : opaque_;
     for (uint32_t first = 0; first < primitive.index_count; first += 3 * block_triangles) {
       Block block{i, primitive.first_index + first,
                   std::min(3 * block_triangles, primitive.index_count - first)};

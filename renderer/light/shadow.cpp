@@ -26,10 +26,8 @@ SunFrame SunFrame::of(const dvec3& to_sun) {
 
 ShadowMaps::ShadowMaps(const scene::GpuScene& scene, const SunFrame& frame, const ShadowOptions& options)
     : scene_(&scene), options_(options), frame_(frame) {
-  if (std::ranges::none_of(scene.scene().materials, [](const scene::Material& material) {
-        return pane_color(material.pbr).has_value();
-      }))
-    options_.panes = nullptr;
+  const std::vector<bool> is_pane = pane_materials(scene.scene());
+  if (std::ranges::find(is_pane, true) == is_pane.end()) options_.panes = nullptr;
   sampler_ = shadow_sampler(scene.device(), "shadow");
   build_static(options.alpha_mask);
   moving_ = MovingShadows(scene, frame,
@@ -43,14 +41,14 @@ ShadowMaps::ShadowMaps(const scene::GpuScene& scene, const SunFrame& frame, cons
 void ShadowMaps::build_static(bool alpha_mask) {
   const scene::Scene& scene = scene_->scene();
   std::vector<uint32_t> opaque, masked, panes;
-  const std::vector<bool> is_pane = options_.panes != nullptr ? pane_materials(scene) : std::vector<bool>();
+  const std::vector<bool> is_pane = pane_materials(scene, options_.panes != nullptr);
   scene::Bounds bounds;
   const scene::Body& world = scene.bodies[0];
   if (options_.static_casters)
     for (uint32_t i = world.first_primitive; i < world.first_primitive + world.primitive_count; ++i)
-      (!is_pane.empty() && is_pane[scene.primitives[i].material] ? panes
-       : alpha_mask && scene.has_holes(i)                        ? masked
-                                                                 : opaque)
+      (is_pane[scene.primitives[i].material] ? panes
+       : alpha_mask && scene.has_holes(i)    ? masked
+                                             : opaque)
           .push_back(i);
   const bool wanted = !opaque.empty() || !masked.empty() || !panes.empty();
   const uint32_t size = wanted ? options_.static_texels : 1;

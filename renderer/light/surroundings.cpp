@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "core/srgb.h"
 #include "core/units.h"
 #include "renderer/light/cell_cover.h"
 #include "renderer/surface/pane_color.h"
+#include "renderer/surface/texel.h"
 #include "shaders/shared/surroundings.h"
 
 namespace greatx::render {
@@ -26,18 +26,10 @@ dvec3 mean_color(const scene::Scene& scene, const scene::PbrMaterial& pbr) {
   const scene::Texture& texture = scene.textures[static_cast<size_t>(pbr.base_color_texture)];
   constexpr uint32_t most = 32;
   const uint32_t across = std::min(texture.width, most), down = std::min(texture.height, most);
-  static const std::array<double, 256> linear = [] {
-    std::array<double, 256> values;
-    for (size_t byte = 0; byte < values.size(); ++byte) values[byte] = linear_from_srgb(double(byte) / 255.0);
-    return values;
-  }();
   dvec3 sum(0.0);
   for (uint32_t j = 0; j < down; ++j)
-    for (uint32_t i = 0; i < across; ++i) {
-      const size_t column = size_t{i} * texture.width / across, row = size_t{j} * texture.height / down;
-      const uint8_t* bytes = &texture.rgba[4 * (row * texture.width + column)];
-      for (int c = 0; c < 3; ++c) sum[c] += texture.srgb ? linear[bytes[c]] : bytes[c] / 255.0;
-    }
+    for (uint32_t i = 0; i < across; ++i)
+      sum += linear_texel(texture, size_t{i} * texture.width / across, size_t{j} * texture.height / down);
   return factor * sum / double(across * down);
 }
 

@@ -3,10 +3,9 @@
 //
 // A coarse model of the static world for light that surfaces reflect: level cells, each a column with a top,
 // mean colours, what its walls emit, and the height up to which it lies in the shadow of the key light. Two
-// effects read it.
-// `bounced_light` takes from it the light that reaches a place after one reflection; it is gathered once,
-// over the cells, at two heights (light_gathering.h). `glass` looks into it along mirrored rays.
-// surroundings_words.h writes what shaders read of both. docs/global_light.md has the errors.
+// effects read it. `bounced_light` takes from it the light that reaches a place after one reflection; it is
+// gathered once, over the cells, at two heights (light_gathering.h). `glass` looks into it along mirrored
+// rays. surroundings_words.h writes what shaders read of both. docs/global_light.md has the errors.
 #pragma once
 
 #include <array>

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/srgb.h"
 #include "renderer/light/sky.h"
+#include "renderer/surface/texel.h"
 #include "scene/description/lamps.h"
 #include "shaders/shared/camera.h"
 #include "shaders/shared/surroundings.h"
@@ -36,13 +36,9 @@ dvec3 mean_over_part(const scene::Texture& texture, uint32_t i, uint32_t j, uint
                  down = std::clamp(texture.height / rows, 1u, most_texels);
   dvec3 sum(0.0);
   for (uint32_t l = 0; l < down; ++l)
-    for (uint32_t k = 0; k < across; ++k) {
-      const size_t row = texel(j, rows, l, down, texture.height),
-                   column = texel(i, columns, k, across, texture.width);
-      const uint8_t* bytes = &texture.rgba[4 * (row * texture.width + column)];
-      for (int c = 0; c < 3; ++c)
-        sum[c] += texture.srgb ? linear_from_srgb(bytes[c] / 255.0) : bytes[c] / 255.0;
-    }
+    for (uint32_t k = 0; k < across; ++k)
+      sum += linear_texel(texture, texel(i, columns, k, across, texture.width),
+                          texel(j, rows, l, down, texture.height));
   return sum / double(across * down);
 }
 

@@ -17,7 +17,7 @@
 
 namespace greatx::render {
 
-/// The radiance that the wall of a column emits below and above `glow_split_m`, cd/m^2.
+/// The radiance that the wall of a column emits below and above shared::surroundings_glow_split, cd/m^2.
 struct WallGlow {
   dvec3 low{0.0}, high{0.0};
   bool any() const { return low != dvec3(0.0) || high != dvec3(0.0); }
@@ -37,11 +37,12 @@ class WallGlows {
 
   /// Whether any material glows. If not, nothing need be added.
   bool any() const { return any_; }
-  /// Whether a triangle emits light that no lamp stands for. `first_index` is the first of its three indices.
+  /// Whether a triangle emits light that no lamp stands for.
   bool glows(const std::array<dvec3, 3>& corners, uint32_t material) const {
     return pictures_[material] && !glass_.is_glass(0, corners);
   }
-  /// Adds a strip of a triangle to a column that begins at height `bottom`.
+  /// Adds a strip of a triangle, whose indices begin at `first_index`, to a column that begins at height
+  /// `bottom`.
   void add(size_t cell, double bottom, const SteepStrip& strip, const dvec2& normal, uint32_t first_index,
            uint32_t material);
   /// Returns the radiance that a column from `bottom` to `top` emits to those who see its wall.

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/srgb.h"
 #include "renderer/surface/pane_color.h"
+#include "renderer/surface/texel.h"
 #include "scene/description/lamps.h"
 #include "shaders/shared/camera.h"
 #include "shaders/shared/pane.h"
@@ -17,26 +17,13 @@ namespace greatx::render {
 
 namespace {
 
-/// Linear values of the bytes of sRGB.
-const std::array<double, 256>& linear_of_byte() {
-  static const std::array<double, 256> table = [] {
-    std::array<double, 256> values{};
-    for (size_t i = 0; i < values.size(); ++i) values[i] = linear_from_srgb(double(i) / 255.0);
-    return values;
-  }();
-  return table;
-}
-
 dvec4 texel_of(const scene::Texture& texture, int64_t column, int64_t row) {
   const auto place = [](int64_t i, int64_t count, bool repeats) {
     return repeats ? ((i % count) + count) % count : std::clamp<int64_t>(i, 0, count - 1);
   };
   const auto x = static_cast<size_t>(place(column, texture.width, texture.repeat_u));
   const auto y = static_cast<size_t>(place(row, texture.height, texture.repeat_v));
-  const uint8_t* bytes = &texture.rgba[4 * (y * texture.width + x)];
-  dvec4 value(0.0, 0.0, 0.0, bytes[3] / 255.0);
-  for (int c = 0; c < 3; ++c) value[c] = texture.srgb ? linear_of_byte()[bytes[c]] : bytes[c] / 255.0;
-  return value;
+  return {linear_texel(texture, x, y), texture.rgba[4 * (y * texture.width + x) + 3] / 255.0};
 }
 
 /// Returns the texture at (u, v) with the weights of its four nearest texels, each in linear light.

@@ -24,11 +24,11 @@ bool is_lit_pane(const scene::Material& material) {
   return material.name.starts_with("lit_pane") && pane_color(material.pbr).has_value();
 }
 
-std::vector<bool> pane_materials(const scene::Scene& scene) {
+std::vector<bool> pane_materials(const scene::Scene& scene, bool wanted) {
   std::vector<bool> panes;
   panes.reserve(scene.materials.size());
   for (const scene::Material& material : scene.materials)
-    panes.push_back(pane_color(material.pbr).has_value());
+    panes.push_back(wanted && pane_color(material.pbr).has_value());
   return panes;
 }
 

@@ -25,7 +25,7 @@ vec3 solid_color(const scene::PbrMaterial& material);
 /// with the light of the room behind it where a camera does not look through it, and as far as it does not.
 bool is_lit_pane(const scene::Material& material);
 
-/// Returns, for each material of a scene, whether it is a pane to a camera.
-std::vector<bool> pane_materials(const scene::Scene& scene);
+/// Returns, for each material of a scene, whether it is a pane to a camera. Without `wanted`, none is.
+std::vector<bool> pane_materials(const scene::Scene& scene, bool wanted = true);
 
 }  // namespace greatx::render

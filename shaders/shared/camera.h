@@ -203,9 +203,8 @@ const uint camera_sees_lines = 4u;  ///< the view has words of thin lines
 
 /// Holds what a pixel sees of panes, in five words. The first is the triangle + 1 of the nearest pane before
 /// its centre (0: no pane; pane_beside: only before other samples); those of all pixels stand together. The
-/// others are its planar depth, then six halves.
-/// These hold the stored radiance that the panes add,
-/// and the share of the light behind that they let through.
+/// others are its planar depth, then six halves: the stored radiance that the panes add, and the share of the
+/// light behind that they let through.
 const uint pane_pixel_words = 5u;
 const uint pane_beside = 0x80000000u;
 

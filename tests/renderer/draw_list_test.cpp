@@ -119,12 +119,7 @@ TEST(DrawList, InsidesAreDrawnBehindPanesAlone) {
     TinyScene tiny;
     const uint32_t body = moves ? tiny.body("car") : 0, paint = tiny.material_as({}),
                    seat = tiny.material_as({}), pane = tiny.material_as(clear_glass());
-    tiny.object("car", body, paint)
-        .quad({-2, -1, 0}, {-2, 1, 0}, {2, 1, 0}, {2, -1, 0})
-        .quad({-2, -1, 0}, {2, -1, 0}, {2, -1, 1}, {-2, -1, 1})
-        .quad({-2, 1, 0}, {-2, 1, 1}, {2, 1, 1}, {2, 1, 0})
-        .quad({-2, -1, 0}, {-2, -1, 1}, {-2, 1, 1}, {-2, 1, 0})
-        .quad({2, -1, 0}, {2, 1, 0}, {2, 1, 1}, {2, -1, 1});
+    tiny.object("car", body, paint).open_box({-2, -1, 0}, {2, 1, 1});
     tiny.object("roof", body, pane).quad({-2, -1, 1}, {2, -1, 1}, {2, 1, 1}, {-2, 1, 1});
     tiny.object("seat", body, seat).quad({-1, -0.9, 0.5}, {1, -0.9, 0.5}, {1, 0.9, 0.5}, {-1, 0.9, 0.5});
     scene::Scene scene = tiny.build();

@@ -126,12 +126,7 @@ TEST(PaneShadows, TheSunShinesIntoBodies) {
   add_ground(tiny);
   const uint32_t car = tiny.body("car");
   const uint32_t paint = tiny.material_as(optical_material("paint", 0.5f));
-  tiny.object("car", car, paint)
-      .quad({-2, -1, 0.3}, {-2, 1, 0.3}, {2, 1, 0.3}, {2, -1, 0.3})
-      .quad({-2, -1, 0.3}, {2, -1, 0.3}, {2, -1, 1.5}, {-2, -1, 1.5})
-      .quad({-2, 1, 0.3}, {-2, 1, 1.5}, {2, 1, 1.5}, {2, 1, 0.3})
-      .quad({-2, -1, 0.3}, {-2, -1, 1.5}, {-2, 1, 1.5}, {-2, 1, 0.3})
-      .quad({2, -1, 0.3}, {2, 1, 0.3}, {2, 1, 1.5}, {2, -1, 1.5});
+  tiny.object("car", car, paint).open_box({-2, -1, 0.3}, {2, 1, 1.5});
   tiny.object("roof", car, tiny.material_as(shading_glass(vec3(0.8f))))
       .quad({-2, -1, 1.5}, {2, -1, 1.5}, {2, 1, 1.5}, {-2, 1, 1.5});
   const scene::Scene scene = tiny.build();

@@ -315,12 +315,7 @@ scene::Scene with_inside(bool inside) {
   TinyScene tiny;
   tiny.quad({-90, -90, 0}, {90, -90, 0}, {90, 90, 0}, {-90, 90, 0});
   const uint32_t car = tiny.body("car"), paint = tiny.material_as(optical_material("paint", 0.5f));
-  tiny.object("car", car, paint)
-      .quad({-2, -1, 0.3}, {-2, 1, 0.3}, {2, 1, 0.3}, {2, -1, 0.3})
-      .quad({-2, -1, 0.3}, {2, -1, 0.3}, {2, -1, 1.5}, {-2, -1, 1.5})
-      .quad({-2, 1, 0.3}, {-2, 1, 1.5}, {2, 1, 1.5}, {2, 1, 0.3})
-      .quad({-2, -1, 0.3}, {-2, -1, 1.5}, {-2, 1, 1.5}, {-2, 1, 0.3})
-      .quad({2, -1, 0.3}, {2, 1, 0.3}, {2, 1, 1.5}, {2, -1, 1.5});
+  tiny.object("car", car, paint).open_box({-2, -1, 0.3}, {2, 1, 1.5});
   tiny.object("roof", car, tiny.material_as(glass(vec3(0.8f))))
       .quad({-2, -1, 1.5}, {2, -1, 1.5}, {2, 1, 1.5}, {-2, 1, 1.5});
   if (inside)

@@ -14,11 +14,11 @@
 #include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
 
-#include "renderer/light/sky_view.h"
 #include "renderer/light/light_gathering.h"
 #include "renderer/light/surroundings_words.h"
 #include "renderer/reference/reference_picture.h"
 #include "tests/renderer/camera_rig.h"
+#include "tests/renderer/columns.h"
 
 namespace greatx::test {
 namespace {
@@ -44,25 +44,19 @@ render::SurroundingLight sun_on_east() {
 }
 
 TEST(Surroundings, ColumnsHaveTopsColoursWallsAndShadows) {
-  const scene::Scene scene = street(8.0, 0.6f, 0.3f);
-  const render::HeightField field = render::height_field(scene);
-  const render::Surroundings surroundings(scene, field, sun_on_east(), {});
-  const auto cell_at = [&](double x, double y) {
-    const dvec2 at = (dvec2(x, y) - field.corner) / field.cell_m;
-    return surroundings.cell(static_cast<uint32_t>(at.x), static_cast<uint32_t>(at.y));
-  };
-  EXPECT_NEAR(cell_at(0, 0).top, 0.0, 1e-4);
-  EXPECT_FALSE(cell_at(0, 0).stands());
-  EXPECT_NEAR(cell_at(0, 0).top_albedo.x, 0.3, 1e-6);
-  const render::SurroundingCell wall = cell_at(10.0, 0);
+  const Columns columns(street(8.0, 0.6f, 0.3f), sun_on_east());
+  EXPECT_NEAR(columns.at(0, 0).top, 0.0, 1e-4);
+  EXPECT_FALSE(columns.at(0, 0).stands());
+  EXPECT_NEAR(columns.at(0, 0).top_albedo.x, 0.3, 1e-6);
+  const render::SurroundingCell wall = columns.at(10.0, 0);
   EXPECT_TRUE(wall.stands());
   EXPECT_NEAR(wall.top, 8.0, 1e-4);
   EXPECT_NEAR(wall.bottom, 0.0, 1e-4);
   EXPECT_NEAR(wall.wall_normal.x, -1.0, 1e-6);
   EXPECT_NEAR(wall.wall_albedo.y, 0.6, 1e-6);
   // At 45 degrees the shadow of 8 m ends 8 m from the west wall, within a cell.
-  EXPECT_NEAR(cell_at(-5, 0).shadow, 3.0, 0.8);
-  EXPECT_LT(cell_at(5, 0).shadow, 0.0);
+  EXPECT_NEAR(columns.at(-5, 0).shadow, 3.0, 0.8);
+  EXPECT_LT(columns.at(5, 0).shadow, 0.0);
 }
 
 TEST(Surroundings, TheUndersideOfTheGroundIsNotTheGround) {
@@ -71,11 +65,9 @@ TEST(Surroundings, TheUndersideOfTheGroundIsNotTheGround) {
       .quad({-32, -32, -1}, {-32, 32, -1}, {32, 32, -1}, {32, -32, -1});
   tiny.object("road", 0, tiny.material_as(optical_material("road", 0.4f)))
       .quad({-32, -32, 0}, {32, -32, 0}, {32, 32, 0}, {-32, 32, 0});
-  const scene::Scene scene = tiny.build();
-  const render::HeightField field = render::height_field(scene);
-  const render::Surroundings surroundings(scene, field, {}, {});
-  const render::SurroundingCell& cell = surroundings.cell(field.width / 2, field.height / 2);
-  EXPECT_NEAR(cell.ground + field.floor, 0.0, 1e-4);
+  const Columns columns(tiny.build());
+  const render::SurroundingCell& cell = columns.at(0.0, 0.0);
+  EXPECT_NEAR(cell.ground + columns.field.floor, 0.0, 1e-4);
   EXPECT_NEAR(cell.ground_albedo.x, 0.4, 1e-6);
 }
 
@@ -84,11 +76,9 @@ TEST(Surroundings, GroundThatLooksDownAloneIsStillTheGround) {
   tiny.object("ground", 0, tiny.material_as(optical_material("ground", 0.4f)))
       .quad({-32, -32, 2}, {-32, 32, 2}, {32, 32, 2}, {32, -32, 2});
   tiny.object("pit", 0).quad({31, 31, 0}, {32, 31, 0}, {32, 32, 0}, {31, 32, 0});
-  const scene::Scene scene = tiny.build();
-  const render::HeightField field = render::height_field(scene);
-  const render::Surroundings surroundings(scene, field, {}, {});
-  const render::SurroundingCell& cell = surroundings.cell(field.width / 2, field.height / 2);
-  EXPECT_NEAR(cell.ground + field.floor, 2.0, 1e-4);
+  const Columns columns(tiny.build());
+  const render::SurroundingCell& cell = columns.at(0.0, 0.0);
+  EXPECT_NEAR(cell.ground + columns.field.floor, 2.0, 1e-4);
   EXPECT_NEAR(cell.ground_albedo.x, 0.4, 1e-6);
 }
 
@@ -96,24 +86,18 @@ TEST(Surroundings, AHouseWithoutAFloorStandsOnItsUnderside) {
   TinyScene tiny;
   tiny.quad({-32, -32, 0}, {0, -32, 0}, {0, 32, 0}, {-32, 32, 0});
   tiny.object("house").box({4, -8, 0}, {20, 8, 9});
-  const scene::Scene scene = tiny.build();
-  const render::HeightField field = render::height_field(scene);
-  const render::Surroundings surroundings(scene, field, {}, {});
-  const dvec2 at = (dvec2(12, 0) - field.corner) / field.cell_m;
-  const render::SurroundingCell& cell =
-      surroundings.cell(static_cast<uint32_t>(at.x), static_cast<uint32_t>(at.y));
+  const Columns columns(tiny.build());
+  const render::SurroundingCell& cell = columns.at(12.0, 0.0);
   EXPECT_TRUE(cell.stands());
-  EXPECT_NEAR(cell.ground + field.floor, 0.0, 1e-4);
+  EXPECT_NEAR(cell.ground + columns.field.floor, 0.0, 1e-4);
 }
 
 TEST(Surroundings, WhatHangsInTheAirLeavesTheGroundFree) {
   TinyScene tiny;
   tiny.quad({-32, -32, 0}, {32, -32, 0}, {32, 32, 0}, {-32, 32, 0});
   tiny.object("crown").box({-3, -3, 4}, {3, 3, 9});
-  const scene::Scene scene = tiny.build();
-  const render::HeightField field = render::height_field(scene);
-  const render::Surroundings surroundings(scene, field, {}, {});
-  const render::SurroundingCell& cell = surroundings.cell(field.width / 2, field.height / 2);
+  const Columns columns(tiny.build());
+  const render::SurroundingCell& cell = columns.at(0.0, 0.0);
   EXPECT_NEAR(cell.ground, 0.0, 1e-4);
   EXPECT_NEAR(cell.bottom, 4.0, 1e-4);
   EXPECT_NEAR(cell.top, 9.0, 1e-4);
@@ -121,13 +105,11 @@ TEST(Surroundings, WhatHangsInTheAirLeavesTheGroundFree) {
 
 TEST(Surroundings, BouncedLightOfALitWallIsThatOfItsFormFactor) {
   const double height = 12.0;
-  const scene::Scene scene = street(height, 0.5f, 0.0f);
-  const render::HeightField field = render::height_field(scene);
-  const render::Surroundings surroundings(scene, field, sun_on_east(), {});
+  const Columns columns(street(height, 0.5f, 0.0f), sun_on_east());
   // The wall's lit part sends albedo E cos(45) / pi. Its lower part lies in the shadow of the west wall,
   // which is 20 m away: nothing below -8 m, so all of it is lit.
   const double radiance = 0.5 * 100000.0 * std::cos(radians(45.0)) / pi;
-  const render::BouncedLight light = render::LightGathering(surroundings).at({0.0, 0.0}, 0.0);
+  const render::BouncedLight light = render::LightGathering(columns.surroundings).at({0.0, 0.0}, 0.0);
   // An infinite wall seen from level ground: (1 - cos a) / 2; from a facing wall: sin(a) / 2.
   const double angle = std::atan(height / 10.0);
   EXPECT_NEAR(light.over_pi({0, 0, 1}).x / radiance, 0.5 * (1.0 - std::cos(angle)), 0.05);
@@ -139,13 +121,11 @@ TEST(Surroundings, OpenGroundSendsItsLightDownwardsOnly) {
   TinyScene tiny;
   tiny.object("ground", 0, tiny.material_as(optical_material("ground", 0.4f)))
       .quad({-128, -128, 0}, {128, -128, 0}, {128, 128, 0}, {-128, 128, 0});
-  const scene::Scene scene = tiny.build();
-  const render::HeightField field = render::height_field(scene);
   render::SurroundingLight light;
   light.key_lux = dvec3(50000.0);
   light.beyond = dvec3(0.4 * 50000.0 / pi);
-  const render::Surroundings surroundings(scene, field, light, {});
-  const render::BouncedLight bounced = render::LightGathering(surroundings).at({0, 0}, 1.5);
+  const Columns columns(tiny.build(), light);
+  const render::BouncedLight bounced = render::LightGathering(columns.surroundings).at({0, 0}, 1.5);
   const double radiance = 0.4 * 50000.0 / pi;
   EXPECT_NEAR(bounced.over_pi({0, 0, -1}).x / radiance, 1.0, 0.02);
   EXPECT_NEAR(bounced.over_pi({1, 0, 0}).x / radiance, 0.5, 0.02);
@@ -162,12 +142,10 @@ TEST(Surroundings, LeapsPassNothingThatStands) {
     const dvec3 at(120.0 * uniform(random) - 60.0, 120.0 * uniform(random) - 60.0, 0.0);
     tiny.box(at, at + dvec3(1.0 + 5.0 * uniform(random), 1.0 + 5.0 * uniform(random), 8.0));
   }
-  const scene::Scene scene = tiny.build();
-  const render::HeightField field = render::height_field(scene);
-  const render::Surroundings surroundings(scene, field, {}, {});
+  const Columns columns(tiny.build());
   size_t free_cells = 0;
   for (uint32_t octant = 0; octant < 8; ++octant) {
-    const std::vector<uint16_t> free = surroundings.free_cells(octant);
+    const std::vector<uint16_t> free = columns.surroundings.free_cells(octant);
     for (int k = 0; k < 2000; ++k) {
       // A slope of the octant, from anywhere in a cell.
       const bool along_y = (octant & shared::surroundings_along_y) != 0;
@@ -175,13 +153,13 @@ TEST(Surroundings, LeapsPassNothingThatStands) {
       if (along_y) direction = {direction.y, direction.x};
       if (octant & shared::surroundings_negative_x) direction.x = -direction.x;
       if (octant & shared::surroundings_negative_y) direction.y = -direction.y;
-      const dvec2 from(uniform(random) * field.width, uniform(random) * field.height);
-      const size_t cell = size_t(from.y) * field.width + size_t(from.x);
+      const dvec2 from(uniform(random) * columns.field.width, uniform(random) * columns.field.height);
+      const size_t cell = size_t(from.y) * columns.field.width + size_t(from.x);
       if (free[cell] == 0) continue;
       for (double t = 0.0; t <= free[cell] - 1.0; t += 0.05) {
         const dvec2 at = from + direction * t;
-        if (at.x < 0.0 || at.y < 0.0 || at.x >= field.width || at.y >= field.height) break;
-        ASSERT_FALSE(surroundings.cell(uint32_t(at.x), uint32_t(at.y)).stands())
+        if (at.x < 0.0 || at.y < 0.0 || at.x >= columns.field.width || at.y >= columns.field.height) break;
+        ASSERT_FALSE(columns.surroundings.cell(uint32_t(at.x), uint32_t(at.y)).stands())
             << "octant " << octant << " from " << from.x << ", " << from.y << " after " << t;
         ++free_cells;
       }
@@ -192,25 +170,24 @@ TEST(Surroundings, LeapsPassNothingThatStands) {
 
 /// The bytes in which shaders read bounced light are within the steps that docs/global_light.md states.
 TEST(Surroundings, StoredBouncedLightIsThatGathered) {
-  const scene::Scene scene = street(12.0, 0.6f, 0.3f);
-  const render::HeightField field = render::height_field(scene);
   render::SurroundingLight light = sun_on_east();
   light.key_lux = {100000.0, 80000.0, 50000.0};
   light.beyond = {3000.0, 4000.0, 5000.0};
-  const render::Surroundings surroundings(scene, field, light, {});
-  const std::vector<uint32_t> words = render::surroundings_words(surroundings, true);
+  const Columns columns(street(12.0, 0.6f, 0.3f), light);
+  const std::vector<uint32_t> words = render::surroundings_words(columns.surroundings, true);
   shared::SurroundingsHeader header;
   std::memcpy(&header, words.data(), sizeof header);
   const uint32_t column = header.place_columns / 2, row = header.place_rows / 2;
   const uint32_t* place = &words[2 * (header.first_place + shared::surroundings_place_pairs *
                                                                (row * header.place_columns + column))];
   // Each value is the median over the place and its neighbours.
-  const render::LightGathering gathering(surroundings);
+  const render::LightGathering gathering(columns.surroundings);
   std::vector<render::BouncedLight> lows, highs;
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x) {
-      const dvec2 middle = field.corner + (dvec2(double(column) + x, double(row) + y) + 0.5) * field.cell_m *
-                                              double(shared::surroundings_place_cells);
+      const dvec2 middle = columns.field.corner + (dvec2(double(column) + x, double(row) + y) + 0.5) *
+                                                      columns.field.cell_m *
+                                                      double(shared::surroundings_place_cells);
       lows.push_back(gathering.at(middle, shared::surroundings_low));
       lows.back().facing[4] = gathering.on_ground(middle, 0.0);
       highs.push_back(gathering.at(middle, shared::surroundings_high));

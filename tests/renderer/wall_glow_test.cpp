@@ -11,12 +11,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "renderer/light/sky_view.h"
 #include "renderer/light/light_gathering.h"
 #include "renderer/light/surroundings_words.h"
 #include "renderer/reference/reference_picture.h"
 #include "shaders/shared/surroundings.h"
 #include "tests/renderer/camera_rig.h"
+#include "tests/renderer/columns.h"
 
 namespace greatx::test {
 namespace {
@@ -47,17 +47,15 @@ double of_ground(double distance) {
 }
 
 TEST(WallGlow, TheLightOfAColumnIsThatOfItsTriangles) {
-  const scene::Scene scene = shop_street().build();
-  const render::HeightField field = render::height_field(scene);
-  const render::Surroundings surroundings(scene, field, {}, {.glow = true});
+  const Columns columns(shop_street().build(), {}, {.glow = true});
   // Over the columns along the wall, radiance times height is that of the wall.
-  const auto column = static_cast<uint32_t>((10.0 - field.corner.x) / field.cell_m);
+  const auto column = static_cast<uint32_t>((10.0 - columns.field.corner.x) / columns.field.cell_m);
   double sum = 0.0;
   uint32_t count = 0;
-  for (uint32_t row = 0; row < field.height; ++row) {
-    const double y = field.corner.y + (row + 0.5) * field.cell_m;
+  for (uint32_t row = 0; row < columns.field.height; ++row) {
+    const double y = columns.field.corner.y + (row + 0.5) * columns.field.cell_m;
     if (std::abs(y) > 50.0) continue;
-    const render::SurroundingCell& cell = surroundings.cell(column, row);
+    const render::SurroundingCell& cell = columns.surroundings.cell(column, row);
     EXPECT_EQ(cell.glow.high, dvec3(0.0));
     sum += cell.glow.low.x * double(shared::surroundings_glow_split);
     ++count;
@@ -66,17 +64,15 @@ TEST(WallGlow, TheLightOfAColumnIsThatOfItsTriangles) {
 }
 
 TEST(WallGlow, GroundBeforeShopsHasTheIlluminanceOfTheirFormFactor) {
-  const scene::Scene scene = shop_street().build();
-  const render::HeightField field = render::height_field(scene);
-  const render::Surroundings surroundings(scene, field, {}, {.glow = true});
-  const render::LightGathering gathering(surroundings);
+  const Columns columns(shop_street().build(), {}, {.glow = true});
+  const render::LightGathering gathering(columns.surroundings);
   for (const double distance : {1.5, 2.5, 4.0, 8.0, 16.0}) {
     // The mean over places along the wall, since places lie anywhere in their cells.
     double mean = 0.0;
     for (int k = 0; k < 20; ++k) mean += gathering.on_ground({10.0 - distance, 0.37 * k}, 0.0).x / 20.0;
     EXPECT_NEAR(mean / of_ground(distance), 1.0, 0.16) << distance;  // docs/global_light.md
   }
-  const render::Surroundings dark(scene, field, {}, {.glow = false});
+  const render::Surroundings dark(columns.scene, columns.field, {}, {.glow = false});
   EXPECT_EQ(render::LightGathering(dark).on_ground({8.0, 0.0}, 0.0), dvec3(0.0));
 }
 
@@ -86,13 +82,11 @@ TEST(WallGlow, OfASignThatGlowsOnBothSidesOneIsSeen) {
   tiny.object("sign", 0, tiny.material_as(shop_material("sign", shop_cd_m2)))
       .quad({0.1, 2, 0}, {0.1, -2, 0}, {0.1, -2, 4}, {0.1, 2, 4})
       .quad({0.2, -2, 0}, {0.2, 2, 0}, {0.2, 2, 4}, {0.2, -2, 4});
-  const scene::Scene scene = tiny.build();
-  const render::HeightField field = render::height_field(scene);
-  const render::Surroundings surroundings(scene, field, {}, {.glow = true});
+  const Columns columns(tiny.build(), {}, {.glow = true});
   double flux = 0.0;
-  for (const render::SurroundingCell& cell : surroundings.cells())
+  for (const render::SurroundingCell& cell : columns.surroundings.cells())
     flux += cell.glow.low.x * std::min(double(cell.top), double(shared::surroundings_glow_split));
-  EXPECT_NEAR(flux * field.cell_m, shop_cd_m2 * 4.0 * 4.0, 0.02 * shop_cd_m2 * 16.0);
+  EXPECT_NEAR(flux * columns.field.cell_m, shop_cd_m2 * 4.0 * 4.0, 0.02 * shop_cd_m2 * 16.0);
 }
 
 TEST(WallGlow, APictureOnAWallGlowsWhereItIsBright) {
@@ -109,15 +103,9 @@ TEST(WallGlow, APictureOnAWallGlowsWhereItIsBright) {
   tiny.quad({-32, -32, 0}, {32, -32, 0}, {32, 32, 0}, {-32, 32, 0});
   tiny.object("shop", 0, tiny.material_as(material))
       .quad({0.1, 16, 0}, {0.1, -16, 0}, {0.1, -16, 4}, {0.1, 16, 4});
-  const scene::Scene scene = tiny.build();
-  const render::HeightField field = render::height_field(scene);
-  const render::Surroundings surroundings(scene, field, {}, {.glow = true});
-  const auto glow_at = [&](double y) {
-    const dvec2 at = (dvec2(0.1, y) - field.corner) / field.cell_m;
-    return surroundings.cell(static_cast<uint32_t>(at.x), static_cast<uint32_t>(at.y)).glow.low.x;
-  };
-  EXPECT_EQ(glow_at(8.0), 0.0);
-  EXPECT_NEAR(glow_at(-8.0), shop_cd_m2, 0.02 * shop_cd_m2);
+  const Columns columns(tiny.build(), {}, {.glow = true});
+  EXPECT_EQ(columns.at(0.1, 8.0).glow.low.x, 0.0);
+  EXPECT_NEAR(columns.at(0.1, -8.0).glow.low.x, shop_cd_m2, 0.02 * shop_cd_m2);
 }
 
 TEST(WallGlow, MirrorImagesKnowItWithinAFifteenthOfItsLargestChannel) {
@@ -128,15 +116,13 @@ TEST(WallGlow, MirrorImagesKnowItWithinAFifteenthOfItsLargestChannel) {
     tiny.quad({-32, -32, 0}, {32, -32, 0}, {32, 32, 0}, {-32, 32, 0});
     tiny.object("shop", 0, tiny.material_as(material))
         .quad({0.1, 16, 0}, {0.1, -16, 0}, {0.1, -16, 8}, {0.1, 16, 8});
-    const scene::Scene scene = tiny.build();
-    const render::HeightField field = render::height_field(scene);
-    const render::Surroundings surroundings(scene, field, {}, {.glow = true});
-    const std::vector<uint32_t> words = render::surroundings_words(surroundings, false);
+    const Columns columns(tiny.build(), {}, {.glow = true});
+    const std::vector<uint32_t> words = render::surroundings_words(columns.surroundings, false);
     shared::SurroundingsHeader header;
     std::memcpy(&header, words.data(), sizeof header);
     size_t glowing = 0;
-    for (size_t i = 0; i < surroundings.cells().size(); ++i) {
-      const render::WallGlow& glow = surroundings.cells()[i].glow;
+    for (size_t i = 0; i < columns.surroundings.cells().size(); ++i) {
+      const render::WallGlow& glow = columns.surroundings.cells()[i].glow;
       const uint32_t both = words[2 * (header.first_color + shared::surroundings_color_pairs * i) + 3];
       for (const auto& [radiance, word] :
            {std::pair(glow.low, both & 0xffffu), std::pair(glow.high, both >> 16)}) {

@@ -69,11 +69,13 @@ TEST(Turntable, RoughSpheresHaveTheirClosedForms) {
   EXPECT_NEAR(mean(14.0), decibels(pi * 0.25), 1.0);
 }
 
-/// Returns the mean square, per axis and by area, of the angle between the normals by which the triangles of
-/// some materials are shaded and those of their planes. Over a triangle the shaded normal is taken as linear.
-double normals_turn(const std::vector<std::pair<const char*, const char*>>& bodies,
-                    const std::vector<std::string>& prefixes, double& exponent) {
-  double area = 0.0, sum = 0.0;
+using BodyNames = std::vector<std::pair<const char*, const char*>>;
+using Corners = std::array<dvec3, 3>;
+
+/// Calls visit(material, corners, normals) for the triangles of bodies whose materials have names that begin
+/// with one of some prefixes.
+template <typename Visit>
+void over_triangles(const BodyNames& bodies, const std::vector<std::string>& prefixes, const Visit& visit) {
   for (const auto& [kind, variant] : bodies) {
     const scene::Scene scene = generated_body(kind, variant);
     for (const scene::Primitive& primitive : scene.primitives) {
@@ -81,30 +83,42 @@ double normals_turn(const std::vector<std::pair<const char*, const char*>>& bodi
       if (std::none_of(prefixes.begin(), prefixes.end(),
                        [&](const std::string& prefix) { return material.name.starts_with(prefix); }))
         continue;
-      exponent = material.radio->pattern_exponent;
       for (uint32_t i = primitive.first_index; i < primitive.first_index + primitive.index_count; i += 3) {
-        const auto corner = [&](uint32_t k) { return dvec3(scene.positions[scene.indices[i + k]]); };
-        const dvec3 cross = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
-        const dvec3 plane = glm::normalize(cross);
-        dvec3 all(0.0);
-        double squares = 0.0;
+        Corners corner, normal;
         for (uint32_t k = 0; k < 3; ++k) {
-          const dvec3 normal(scene.normals[scene.indices[i + k]]),
-              off = normal - glm::dot(normal, plane) * plane;
-          all += off, squares += glm::dot(off, off);
+          corner[k] = dvec3(scene.positions[scene.indices[i + k]]);
+          normal[k] = dvec3(scene.normals[scene.indices[i + k]]);
         }
-        const double size = 0.5 * glm::length(cross);
-        area += size, sum += size * (squares + glm::dot(all, all)) / 12.0;
+        visit(material, corner, normal);
       }
     }
   }
+}
+
+/// Returns the mean square, per axis and by area, of the angle between the normals by which the triangles of
+/// some materials are shaded and those of their planes. Over a triangle the shaded normal is taken as linear.
+double normals_turn(const BodyNames& bodies, const std::vector<std::string>& prefixes, double& exponent) {
+  double area = 0.0, sum = 0.0;
+  over_triangles(bodies, prefixes,
+                 [&](const scene::Material& material, const Corners& corner, const Corners& normals) {
+                   exponent = material.radio->pattern_exponent;
+                   const dvec3 cross = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+                   const dvec3 plane = glm::normalize(cross);
+                   dvec3 all(0.0);
+                   double squares = 0.0;
+                   for (const dvec3& normal : normals) {
+                     const dvec3 off = normal - glm::dot(normal, plane) * plane;
+                     all += off, squares += glm::dot(off, off);
+                   }
+                   const double size = 0.5 * glm::length(cross);
+                   area += size, sum += size * (squares + glm::dot(all, all)) / 12.0;
+                 });
   return 0.5 * sum / area;
 }
 
 /// scene/generator/mesh/materials.cpp says why.
 TEST(BodyMaterials, LobesAreAsWideAsTheNormalsTurn) {
-  const auto expect = [](const std::vector<std::pair<const char*, const char*>>& bodies,
-                         const std::vector<std::string>& prefixes) {
+  const auto expect = [](const BodyNames& bodies, const std::vector<std::string>& prefixes) {
     double exponent = 0.0;
     const double square = normals_turn(bodies, prefixes, exponent);
     EXPECT_NEAR(exponent * 2.0 * square, 1.0, 0.3) << prefixes[0] << ": " << degrees(std::sqrt(square));
@@ -119,23 +133,12 @@ TEST(BodyMaterials, LobesAreAsWideAsTheNormalsTurn) {
 /// triangle with the barycentric coordinates b, so that it passes through the corners, and c_ij = (n_j - n_i)
 /// . e/2 gives it the slopes of both normals along the side e from i to j. The mean of (b_i b_j)^2 is 1/90,
 /// that of b_i b_j b_i b_k 1/180, and that of b_i b_j 1/12 (Dirichlet's integral).
-double square_deviation(const std::vector<std::pair<const char*, const char*>>& bodies,
-                        const std::vector<std::string>& prefixes, double& deviation_m) {
+double square_deviation(const BodyNames& bodies, const std::vector<std::string>& prefixes,
+                        double& deviation_m) {
   double area = 0.0, sum = 0.0;
-  for (const auto& [kind, variant] : bodies) {
-    const scene::Scene scene = generated_body(kind, variant);
-    for (const scene::Primitive& primitive : scene.primitives) {
-      const scene::Material& material = scene.materials[primitive.material];
-      if (std::none_of(prefixes.begin(), prefixes.end(),
-                       [&](const std::string& prefix) { return material.name.starts_with(prefix); }))
-        continue;
-      deviation_m = material.radio->deviation_m;
-      for (uint32_t i = primitive.first_index; i < primitive.first_index + primitive.index_count; i += 3) {
-        std::array<dvec3, 3> corner, normal;
-        for (uint32_t k = 0; k < 3; ++k) {
-          corner[k] = dvec3(scene.positions[scene.indices[i + k]]);
-          normal[k] = dvec3(scene.normals[scene.indices[i + k]]);
-        }
+  over_triangles(
+      bodies, prefixes, [&](const scene::Material& material, const Corners& corner, const Corners& normal) {
+        deviation_m = material.radio->deviation_m;
         double squares = 0.0, all = 0.0;
         for (uint32_t k = 0; k < 3; ++k) {
           const uint32_t next = (k + 1) % 3;
@@ -145,16 +148,13 @@ double square_deviation(const std::vector<std::pair<const char*, const char*>>& 
         const double size = 0.5 * glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
         area += size;
         sum += size * (squares / 90.0 + (all * all - squares) / 180.0 - all * all / 144.0);
-      }
-    }
-  }
+      });
   return sum / area;
 }
 
 /// The deviations below which waves see flat facets are those of the meshes, within 30 %.
 TEST(BodyMaterials, DeviationsAreThoseOfTheMeshes) {
-  const auto expect = [](const std::vector<std::pair<const char*, const char*>>& bodies,
-                         const std::vector<std::string>& prefixes) {
+  const auto expect = [](const BodyNames& bodies, const std::vector<std::string>& prefixes) {
     double deviation_m = 0.0;
     const double rms = std::sqrt(square_deviation(bodies, prefixes, deviation_m));
     EXPECT_NEAR(deviation_m / rms, 1.0, 0.3) << prefixes[0] << ": " << rms;

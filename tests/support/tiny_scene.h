@@ -67,6 +67,14 @@ class TinyScene {
   TinyScene& quad(const dvec3& a, const dvec3& b, const dvec3& c, const dvec3& d) {
     return face({{a, b, c}, {a, c, d}});
   }
+  /// Adds the faces of a box but for its top, with normals that point outwards.
+  TinyScene& open_box(const dvec3& a, const dvec3& b) {
+    return quad({a.x, a.y, a.z}, {a.x, b.y, a.z}, {b.x, b.y, a.z}, {b.x, a.y, a.z})
+        .quad({a.x, a.y, a.z}, {b.x, a.y, a.z}, {b.x, a.y, b.z}, {a.x, a.y, b.z})
+        .quad({a.x, b.y, a.z}, {a.x, b.y, b.z}, {b.x, b.y, b.z}, {b.x, b.y, a.z})
+        .quad({a.x, a.y, a.z}, {a.x, a.y, b.z}, {a.x, b.y, b.z}, {a.x, b.y, a.z})
+        .quad({b.x, a.y, a.z}, {b.x, b.y, a.z}, {b.x, b.y, b.z}, {b.x, a.y, b.z});
+  }
   /// Adds a closed box of six quads with normals that point outwards.
   TinyScene& box(const dvec3& low, const dvec3& high) {
     const auto p = [&](int x, int y, int z) {
